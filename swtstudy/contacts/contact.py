@@ -287,7 +287,7 @@ class PhysicalContact(InUnits):
         sequence: tuple[Block, ...] = ()
         with report:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
-        if blocks and constants is None:
+        if blocks and constants is None and not self.grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         report.refuse()
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))

@@ -18,7 +18,7 @@ from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
 from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
-from swtstudy.units.blocks import REPETITIONS, sequence_words
+from swtstudy.units.blocks import sequence_words
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contact
 from swtstudy.units.variables import KINDS
@@ -162,9 +162,9 @@ def _range(dataset: xr.Dataset) -> str:
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:
     """The lives to a crack, by each criterion that has a life."""
-    blocks = read_contact(dataset.attrs[CONTACT]).blocks if REPETITIONS in dataset else ()
-    if blocks:
-        yield f"The sequence of blocks: {escape(sequence_words(dataset, blocks))}."
+    blocks = read_contact(dataset.attrs[CONTACT]).blocks if has_units(dataset) else ()
+    if sequence := sequence_words(dataset, blocks):
+        yield f"The sequence of blocks: {escape(sequence)}."
         return
     names = {kind.life: kind.name for kind in KINDS.values() if kind.life in dataset}
     for name, criterion in names.items():
