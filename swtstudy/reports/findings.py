@@ -21,6 +21,7 @@ from swtstudy.results.evaluate import extrema
 from swtstudy.units.blocks import sequence_words
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contact
+from swtstudy.units.results import measures
 from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
@@ -66,9 +67,7 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 
     Of several criteria each has its own unit.
     """
-    criteria = np.atleast_1d(dataset[CRITERION]) if CRITERION in dataset.coords else [SWT]
-    names = [KINDS[str(each)].name for each in criteria]
-    own = [dataset[name] for name in names if name in dataset]
+    own = [dataset[name] for name in measures(dataset)]
     if len(own) < 2:
         return own[0] if own else dataset.s
     values = own[0]
