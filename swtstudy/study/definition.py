@@ -173,6 +173,7 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         if DISTANCE in {*fixed, *axes}:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
+        places[DISTANCE] = "material"
     if contacts is not None:
         contacts = replace(contacts, blocks=blocks)
     rows = rows_of(contacts)
@@ -194,7 +195,9 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     else:
         from swtstudy.units.reading import read_contacts
 
-        grid, found = read_contacts(fixed, axes, contacts, report.key, source, samples, known)
+        grid, found = read_contacts(
+            fixed, axes, contacts, report.key, source, samples, known, asked.distances
+        )
     report += found
     figure = _figure_from(raw)
     if figure is not None:
