@@ -73,7 +73,13 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
     values = own[0]
     for other in own[1:]:
         values = values.fillna(other)
-    return values.drop_attrs().assign_attrs(symbol=r"\text{value}", units="").rename("value")
+    return values.drop_attrs(deep=False).assign_attrs(symbol=r"\text{value}", units="").rename("value")
+
+
+def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
+    """What the criterion of a place measures."""
+    own = {CRITERION: place[CRITERION].item()} if CRITERION in dataset.dims else {}
+    return measured(dataset.sel(own))
 
 
 def levers(dataset: xr.Dataset) -> list[Lever]:
@@ -97,8 +103,11 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
 
 def sentences(dataset: xr.Dataset) -> list[str]:
     """List the findings as HTML; the most important sentence first."""
-    swt = symbol_of(measured(dataset)) if has_units(dataset) else "<i>s</i>"
-    said = [_sentence(lever, swt) for lever in levers(dataset) if lever.ratio > _MOVES]
+    said = [
+        _sentence(lever, _symbol(measured_at(dataset, lever.there), dataset))
+        for lever in levers(dataset)
+        if lever.ratio > _MOVES
+    ]
     if SAMPLE in dataset.s.dims or not said:
         if CRITERION in dataset.dims:
             parts = [dataset.isel({CRITERION: k}) for k in range(dataset.sizes[CRITERION])]
@@ -106,6 +115,10 @@ def sentences(dataset: xr.Dataset) -> list[str]:
         else:
             said.append(_range(dataset))
     return [*said, *_lives(dataset)]
+
+
+def _symbol(values: xr.DataArray, dataset: xr.Dataset) -> str:
+    return symbol_of(values) if has_units(dataset) else "<i>s</i>"
 
 
 def _sentence(lever: Lever, swt: str) -> str:
@@ -146,7 +159,7 @@ def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
 def _range(dataset: xr.Dataset) -> str:
     """From where to where the values of one criterion go."""
     values = measured(dataset)
-    swt = symbol_of(values) if has_units(dataset) else "<i>s</i>"
+    swt = _symbol(values, dataset)
     known = values.values[np.isfinite(values.values)]
     if not known.size:
         return f"No point has a finite {swt}."
