@@ -12,7 +12,7 @@ import xarray as xr
 from made_up import PANELS, made_up
 
 import swtstudy
-from swtstudy import Study, run
+from swtstudy import Study, StudyError, run
 from swtstudy.accessor import SwtAccessor
 from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
@@ -232,3 +232,12 @@ def test_many_values_are_told_by_their_ends():
             "0.5, which is not in these results",
             allowed,
         )
+
+
+def test_a_part_of_results_says_what_it_lacks(dataset):
+    with pytest.raises(StudyError, match="results: found none of regime; allowed: results that still have"):
+        dataset[["s"]].swt.validity()
+    with pytest.raises(StudyError, match="results: found none of s; allowed: results that still have them"):
+        dataset[["regime"]].swt.contact()
+    assert repr(dataset[["s"]].swt) == "<no results of swtstudy, or a part of them>"
+    assert isinstance(dataset[["s", "regime"]].swt.validity(), tuple)
