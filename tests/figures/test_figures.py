@@ -102,7 +102,7 @@ def test_the_reference_of_a_normalised_quantity(panels):
         ("wavelength", 4.47213595, "4.472"),
         ("phase", -np.pi / 4, "-π/4"),
         ("phase", 1.234, "1.234"),
-        ("profile", "wavy_paraboloid", "wavy paraboloid"),
+        ("profile", "wavy_paraboloid", "wavy_paraboloid"),
     ],
 )
 def test_values_in_words(name, value, words):
