@@ -309,16 +309,22 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     StudyError
         A ValueError with every mistake in every file; also if two files would have the same archive.
     """
+    report = Report()
+    studies = sound_studies(paths, report)
+    report.refuse()
+    return studies
+
+
+def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
+    """The studies that are sound; every mistake is reported. See `read_studies`."""
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
-    report = Report()
     for path in dict.fromkeys(_files(paths, report)):
         with report:
             studies[path] = Study.from_toml(path)
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
-    report.refuse()
     return studies
 
 
