@@ -221,6 +221,19 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
             'columns = { normal = "Fn" }',
             r"loads.rig.file: found no column 'Fn', which is to be normal \(.*line 1\); allowed: .*normal",
         ),
+        (
+            'separator = ";"',
+            r"loads.rig.file: found cells parted by ',', while separator is ';' \(.*line 1\); allowed: separ",
+        ),
+        (
+            'columns = { normal = "tangential" }',
+            r"loads.rig.file: found the column 'tangential' as normal and tangential \(.*; allowed: a column",
+        ),
+        (
+            'columns = { normal = "Fn", tangential = "Ft" }\nseparator = "|"',
+            r"loads.rig.file: found cells parted by ',', while separator is '\|' \(.*line 1\); allowed: ",
+        ),
+        ('time = "normal"', "loads.rig.file: found the column 'normal' as time and normal"),
         ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
         ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*time, sample 3\); allowed: times that asc"),
         (
@@ -236,6 +249,11 @@ def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, wo
     text = RIG + given * ("absolute" not in table) + f'[loads.rig]\nfile = "rig.csv"\n{table}\n'
     (line,) = mistakes_of(text, tmp_path)
     assert re.match(f"s: {words}", line), line
+
+
+def test_a_folder_is_no_signal() -> None:
+    with pytest.raises(StudyError, match=r"^\.: found Is a directory; allowed: a CSV file in UTF-8"):
+        read_signal(".")
 
 
 def test_a_measured_load_without_units_is_refused_unless_it_is_scaled() -> None:

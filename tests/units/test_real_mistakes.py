@@ -113,7 +113,7 @@ MISTAKES = [
     (
         'y = ["SWT", "cycles"',
         'y = ["SWTs", "cycles"',
-        "figure.y: found 'SWTs' (not a quantity); allowed: did you",
+        "figure.y: found 'SWTs' (not a quantity); allowed: did you mean SWT?",
     ),
     (
         "[150, 200]",
