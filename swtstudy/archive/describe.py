@@ -76,7 +76,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         if name == SAMPLE:
             yield "sample", _sample_words(dataset[SAMPLE])
         else:
-            names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ")
+            names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ").replace("_", " ")
             words = names or _axis_words(name, dataset[name].values)
             yield "axis", f"{name}: {words}{_unit(dataset[name])}"
     for name in (*PARAMETERS, *CONTACT_AXES):

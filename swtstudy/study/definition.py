@@ -143,7 +143,22 @@ class Study:
             raw = parse_toml(text)
         except ValueError as error:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
-        return study_from(raw, text, source, Path(folder))
+        study = study_from(raw, text, source, Path(folder))
+        _unused(raw, study.grid, source).refuse()
+        return study
+
+
+def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
+    """Loops and profiles that a sound study defines, and that nothing in it is."""
+    report = Report(source)
+    for parameter in ("load", "profile"):
+        used = {*map(str, grid.values(parameter))}
+        for name, table in raw.get(f"{parameter}s", {}).items():
+            kept = table.get("keep_cycles") is True and any(each.startswith(f"{name} ") for each in used)
+            if name not in used and not kept:
+                words = f"a {parameter} that is not used"
+                report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
+    return report
 
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:

@@ -188,12 +188,12 @@ def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any
     Examples
     --------
     >>> coordinate_words("body", 2, {"flag_values": [1, 2], "flag_meanings": "pad test_piece"})
-    'test_piece'
+    'test piece'
     """
     if "flag_meanings" not in attributes or isinstance(value, str):
         return value_words(name, value)
     flags = [int(flag) for flag in attributes["flag_values"]]
-    return str(attributes["flag_meanings"]).split()[flags.index(int(value))]
+    return str(attributes["flag_meanings"]).split()[flags.index(int(value))].replace("_", " ")
 
 
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
