@@ -150,7 +150,8 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
         more = more_like_it(len(wrong))
         for mistake in error.mistakes:
             there = _words(grid, {name: value for name, value in own.items() if name != mistake.key})
-            report.of(mistake.key, f"{mistake.found} at {there}{more}", mistake.allowed)
+            unit = unit_words(grid.row(mistake.key).units)
+            report.of(mistake.key, f"{mistake.found}{unit} at {there}{more}", mistake.allowed)
         return
     if all([_in_range(grid, column, report) for column in grid.numbers]):
         check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, report)

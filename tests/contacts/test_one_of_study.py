@@ -134,3 +134,21 @@ def test_sizes_of_a_contact_need_a_study_with_units() -> None:
     done = CliRunner().invoke(main, ["show", "--normal-force", "200"])
     assert done.exit_code == 2
     assert "normal_force: found a parameter of real contacts; allowed: this in a study with" in done.stderr
+
+
+def test_without_equilibrium_the_forces_are_said_in_the_units_of_the_study(tmp_path: Path) -> None:
+    rig = file_of(tmp_path, f"{CONTACT}normal_force = 200\n[axes]\ntangential_force_amplitude = [60, 120]\n")
+    words = (
+        "tangential_force_amplitude: found no equilibrium: tangential_force_amplitude 120 N exceeds μ F_N "
+    )
+    words += "= 100 N; allowed: forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant"
+    done = CliRunner().invoke(main, ["show", rig, "--tangential-force-amplitude", "120"])
+    assert (done.exit_code, done.stderr) == (2, f"Error: {words}\n")
+    contact = PhysicalContact(one_of_study(rig, {"tangential_force_amplitude": 120}))
+    for inspect in (
+        contact.inspect_point,
+        lambda: contact.stress_field(0, 0, 0),
+        lambda: contact.swt_field(0, 0, 0),
+    ):
+        with pytest.raises(StudyError, match="tangential_force_amplitude 120 N exceeds"):
+            inspect()

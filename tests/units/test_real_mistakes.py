@@ -97,12 +97,12 @@ MISTAKES = [
     (
         "friction = 0.5",
         'friction = 0.5\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 1e-3\nwavelength = 0.05',
-        "fixed.wavelength: found 0.05 at waviness_amplitude 0.001 at radius = 50 mm, normal_force = 150 N",
+        "fixed.wavelength: found 0.05 mm at radius = 50 mm, normal_force = 150 N, waviness_amplitude = ",
     ),
     (
         "friction = 0.5",
         'friction = 0.5\nprofile = "rounded_punch"\nflat_radius = 60',
-        "fixed.flat_radius: found 60.0 at normal_force 150.0 at radius = 50 mm, normal_force = 150 N",
+        "fixed.flat_radius: found 60 mm at radius = 50 mm, normal_force = 150 N; 1 more like it; allowed: ",
     ),
     (
         "critical_distance = 0.05",
