@@ -7,7 +7,7 @@ import pytest
 import stand_in
 from made_up import PANELS
 
-from swtstudy import Study, run
+from swtstudy import Study, StudyError, run
 from swtstudy.figures.draw import draw
 from swtstudy.figures.style import STYLE, save_figure
 from swtstudy.figures.surfaces import _colours
@@ -190,8 +190,8 @@ def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
         lines = draw(one_panel).axes[0].lines
     assert [line.get_color() for line in lines] == ["r", "g", "r"]
     assert {line.get_linestyle() for line in lines} == {"-"}
-    with pytest.raises(OSError, match="no_such_style"):
-        draw(one_panel, style="no_such_style")
+    with pytest.raises(StudyError, match="style: found 'gray_scale'; allowed: did you mean grayscale"):
+        draw(one_panel, style="gray_scale")
     for name in ("one", "two"):
         save_figure(draw(one_panel), tmp_path / f"{name}.svg")
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
