@@ -1,3 +1,4 @@
+import itertools
 import sys
 from pathlib import Path
 
@@ -240,3 +241,27 @@ regimes = true
     )
     assert [text.get_text() for text in figure.legends[0].get_texts()][-1] == "gross slip begins"
     assert len(figure.legends[0].get_texts()) == 4  # and where partial slip begins
+
+
+SENSITIVITY = """
+title = "A long label below each of three panels"
+[fixed]
+criterion = "findley"
+[axes]
+normal_sensitivity = [0.1, 0.2, 0.3]
+phase = [0, 1, 2]
+[figure]
+x = "normal_sensitivity"
+panels = "phase"
+"""
+
+
+def test_long_labels_of_neighbours_do_not_touch_on_a_screen(tmp_path):
+    results = run(Study.from_text(SENSITIVITY), tmp_path / "k.nc", solver=stand_in.smooth)
+    figure = results.swt.figure()
+    figure.draw_without_rendering()
+    boxes = [axes.xaxis.label.get_window_extent() for axes in figure.axes]
+    assert len(boxes) == 3
+    for one, other in itertools.pairwise(boxes):
+        assert one.x1 + 10.0 < other.x0
+    assert boxes[-1].x1 < figure.bbox.x1
