@@ -77,7 +77,7 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 
 
 def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
-    """What the criterion of a place measures."""
+    """The quantity that the criterion of a place measures."""
     own = {CRITERION: place[CRITERION].item()} if CRITERION in dataset.dims else {}
     return measured(dataset.sel(own))
 
