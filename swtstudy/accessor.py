@@ -40,7 +40,9 @@ class SwtAccessor:
         """Describe the results, as ``swtstudy info`` describes an archive."""
         from swtstudy.archive.describe import describe
 
-        return "\n".join(describe(self._dataset)) if "s" in self._dataset else "<no results of swtstudy>"
+        needed = {"s", "s_error", "regime", *(("run",) if "runs" in self._dataset.attrs else ())}
+        whole = needed <= {*self._dataset.data_vars}
+        return "\n".join(describe(self._dataset)) if whole else "<no results of swtstudy, or a part of them>"
 
     def words(self, name: str = "regime") -> xr.DataArray:
         """Flags as words: of every point what a number in ``regime`` or ``status`` stands for.
@@ -88,6 +90,11 @@ class SwtAccessor:
         -------
         tuple of str
             One line for each limit: how many of how many points are outside of it, and the worst one.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if the results have been left without s or regime.
         """
         from swtstudy.points.validity import validity_lines
 

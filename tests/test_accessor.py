@@ -12,7 +12,7 @@ import xarray as xr
 from made_up import PANELS, made_up
 
 import swtstudy
-from swtstudy import Study, run
+from swtstudy import Study, StudyError, run
 from swtstudy.accessor import SwtAccessor
 from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
@@ -41,6 +41,15 @@ def test_slices_are_written_as_in_a_study(dataset):
     assert dataset.swt.slice(phase=3.1, tolerance=0.1).phase.item() == np.pi
 
 
+def test_a_name_is_offered_as_it_is_typed_and_taken_as_a_figure_has_it(dataset):
+    assert dataset.swt.slice(profile="rounded punch").profile.item() == "rounded_punch"
+    assert "fixed          profile: rounded_punch" in repr(dataset.swt)
+    with pytest.raises(
+        StudyError, match=r"profile: found 'rounded punsh' .no such profile.; allowed: one of"
+    ):
+        dataset.swt.slice(profile="rounded punsh")
+
+
 def test_values_are_told_apart_at_any_scale(dataset):
     tiny = dataset.assign_coords(phase=[5.62e-7, 1e-15])
     with pytest.raises(ValueError, match="found 5e-07, which is not in these results"):
@@ -60,7 +69,7 @@ def test_values_are_told_apart_at_any_scale(dataset):
         ({"phase": "2*"}, "ends too early"),
         ({"fase": 0}, "did you mean phase"),
         ({"waviness_amplitude": 0}, "not a parameter of these results"),
-        ({"profile": "paraboloid"}, "allowed: rounded punch"),
+        ({"profile": "paraboloid"}, "allowed: rounded_punch"),
         ({"profile": "cone"}, "no such profile"),
         ({"s": 0}, "not a parameter"),
         ({"flat_radius": [0, 3]}, "found 3"),
@@ -232,3 +241,12 @@ def test_many_values_are_told_by_their_ends():
             "0.5, which is not in these results",
             allowed,
         )
+
+
+def test_a_part_of_results_says_what_it_lacks(dataset):
+    with pytest.raises(StudyError, match="results: found none of regime; allowed: results that still have"):
+        dataset[["s"]].swt.validity()
+    with pytest.raises(StudyError, match="results: found none of s; allowed: results that still have them"):
+        dataset[["regime"]].swt.contact()
+    assert repr(dataset[["s"]].swt) == "<no results of swtstudy, or a part of them>"
+    assert isinstance(dataset[["s", "regime"]].swt.validity(), tuple)

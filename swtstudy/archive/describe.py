@@ -14,7 +14,7 @@ from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.validity import validity_lines
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.blocks import REPETITIONS, sequence_words
+from swtstudy.units.blocks import sequence_words
 from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
@@ -150,8 +150,8 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "Findley limit", _stresses(given.findley_limits, given.units)
         if given.materials or given.shear_materials:
             yield "lives", _counted_words(dataset)
-        if given.blocks and REPETITIONS in dataset:
-            yield "sequence", sequence_words(dataset, given.blocks)
+        if sequence := sequence_words(dataset, given.blocks):
+            yield "sequence", sequence
 
 
 def _constants(material: FatigueConstants | ShearConstants) -> str:

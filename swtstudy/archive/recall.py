@@ -15,7 +15,7 @@ from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import arrays_of
 from swtstudy.points.reading import given_twice
 from swtstudy.points.records import FAILED, Records, made_by
-from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of
+from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of, require
 from swtstudy.points.shapes import shapes_needed
 from swtstudy.points.unique import columns_back, unique_points
 from swtstudy.points.values import Value, read_value
@@ -37,8 +37,9 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     Raises
     ------
     StudyError
-        With every coordinate that no study can have.
+        With every coordinate that no study can have; or if the results have been left without s.
     """
+    require(dataset, "s")
     values: dict[str, tuple[Value, ...]] = {}
     report = Report()
     axes: list[str] = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from swtstudy.cli.terminal import line_length, of_markdown, wrapped
 @click.command(epilog=examples("swtstudy sensitivity sensitivity"))
 @click.argument("study", shell_complete=study_completion)
 @click.option(
-    "--y", multiple=True, default=("s",), show_default=True, help="A data variable; repeat for more."
+    "--y", multiple=True, help="A data variable; repeat for more.  [default: s, or such as SWT with units]"
 )
 @click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the bootstrap.")
@@ -30,7 +31,7 @@ def sensitivity(
 
     The sample of STUDY has the design "saltelli". Points that are not computed yet are computed as
     by swtstudy run. Writes a table, a bar chart, and the indices as netCDF, beside the archive:
-    NAME_indices.
+    NAME_indices, or NAME_indices_Y.
     """
     from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
@@ -47,7 +48,8 @@ def sensitivity(
             f'{source}: sample.design: found {found}; allowed: "saltelli": Sobol indices need its points'
         )
     target = archive_paths(defined, results)[source]
-    targets = {end: target.with_name(f"{target.stem}_indices{end}") for end in (".nc", ".md", ".png")}
+    stem = "_".join((target.stem, "indices", *(re.sub(r"\W+", "_", each) for each in y)))
+    targets = {end: target.with_name(f"{stem}{end}") for end in (".nc", ".md", ".png")}
     for path in (target, *targets.values()):
         check_writable(path)
 

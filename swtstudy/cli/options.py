@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from operator import itemgetter
 from pathlib import Path
 
 import click
@@ -10,7 +11,7 @@ from click import Context, Parameter
 from click.shell_completion import CompletionItem
 
 from swtstudy.vocabulary.mistakes import Report, meant
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import AXES
 
 #: Placeholder of an option that takes several values, separated by commas.
 SEVERAL = "VALUES"
@@ -23,6 +24,7 @@ _PARTS = {
     "body": "The bodies",
     "bulk": "Bulk stress",
     "criterion": "The criterion",
+    "contact": "A contact in units",
 }
 
 
@@ -32,12 +34,12 @@ class InSections(click.Command):
     def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         sections: dict[str, list[tuple[str, str]]] = {title: [] for title in (*_PARTS.values(), "Options")}
         for each in self.get_params(context):
-            row = PARAMETERS.get(str(each.name))
-            title = _PARTS[row.part] if row else "Options"
+            row = AXES.get(str(each.name))
+            title = _PARTS.get(row.part, "Options") if row else "Options"
             record = each.get_help_record(context)
             if record:
                 sections[title].append(record)
-        for title, records in sections.items():
+        for title, records in filter(itemgetter(1), sections.items()):
             with formatter.section(title):
                 formatter.write_dl(records)
 

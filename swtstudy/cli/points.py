@@ -11,8 +11,11 @@ import click
 
 from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
 from swtstudy.cli.terminal import fitted, line_length, wrapped
+from swtstudy.units.labels import Units
+from swtstudy.units.rows import rows
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import raised
 
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _DISTANCE = QUANTITY_AXES[DISTANCE]
+#: What a contact of a study with units has besides.
+_SIZES = [row for name, row in rows(Units()).items() if name in CONTACT_AXES and name != "body"]
 
 
 #: Why there is no s in a regime.
@@ -35,11 +40,13 @@ def _short(value: object) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def with_parameters(
+    metavar: str, parameters: Iterable[Parameter]
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Decorate a command with one option for each parameter."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
-        for parameter in reversed(PARAMETERS.values()):
+        for parameter in reversed([*parameters]):
             default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
             words = "; ".join(
                 filter(None, (parameter.described, parameter.note, parameter.allowed + default))
@@ -59,7 +66,7 @@ def with_parameters(metavar: str) -> Callable[[Callable[..., Any]], Callable[...
         "swtstudy solve --profile rounded_punch --flat-radius 0.5,1",
     ),
 )
-@with_parameters(SEVERAL)
+@with_parameters(SEVERAL, PARAMETERS.values())
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 @click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
 @click.option(
@@ -141,8 +148,8 @@ def _values(text: str) -> str | list[str]:
     ),
 )
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
-@with_parameters("VALUE")
-@click.option("--body", metavar="BODY", help="Of that study: 1 or 2, or its name.  [default: 1]")
+@with_parameters("VALUE", (*PARAMETERS.values(), *_SIZES))
+@click.option("--body", metavar="BODY", help="1 or 2, or its name.  [default: 1]")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
 @click.option(
@@ -230,8 +237,8 @@ def _of_study(
 
 
 def _of_shape(values: dict[str, object]) -> bool:
-    """Return whether a profile and its shape alone are given."""
-    return "profile" in values and all(PARAMETERS[name].part == "shape" for name in values)
+    """Return whether a profile, its shape and sizes of the contact at rest alone are given."""
+    return "profile" in values and all(AXES[name].part in ("shape", "contact") for name in values)
 
 
 def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure, str]:

@@ -10,7 +10,7 @@ import click
 
 from swtstudy.cli.options import examples, with_studies, with_workers
 from swtstudy.cli.terminal import cut, line_length, wrapped
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 if TYPE_CHECKING:
     from swtstudy.points.records import Records
@@ -56,16 +56,19 @@ def new(name: str, units: bool) -> None:
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything."""
     from swtstudy.archive.paths import archive_paths
-    from swtstudy.study.definition import read_studies
+    from swtstudy.study.definition import sound_studies
 
-    defined = read_studies(studies)
-    archive_paths(defined, "")
+    report = Report()
+    defined = sound_studies(studies, report)
     for source, study in defined.items():
         sizes = " × ".join(
             f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
         )
         words = f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else "")
-        click.echo(wrapped(words, line_length(), 2))
+        with report:
+            archive_paths([source], "")
+            click.echo(wrapped(words, line_length(), 2))
+    report.refuse()
 
 
 @click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))

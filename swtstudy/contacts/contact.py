@@ -18,6 +18,7 @@ from swtstudy.solving import solve_grid, spanned
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block, checked_blocks
 from swtstudy.units.bodies import bodies_of, constants_of_both, cycles_from, stresses_of_both, swt_from
+from swtstudy.units.contacts_at_rest import check_distances
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.loads import mean_of_bulk
 from swtstudy.units.reading import completed
@@ -287,8 +288,9 @@ class PhysicalContact(InUnits):
         sequence: tuple[Block, ...] = ()
         with report:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
-        if blocks and constants is None:
+        if blocks and constants is None and not self.grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
+        check_distances(self.grid, distances[0], report)
         report.refuse()
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
         grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -307,12 +308,24 @@ class InUnits:
         validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
         return headline(self.grid, body, at_rest), validity
 
+    @contextmanager
+    def _in_equilibrium(self, body: int | str) -> Iterator[None]:
+        """Say in the units of the contact that it has no equilibrium, if that is why a cycle is refused."""
+        try:
+            yield
+        except StudyError as error:
+            lost = [line for line in self._headlines(body)[1] if line.startswith("no equilibrium")]
+            if not lost:
+                raise
+            raise StudyError(replace(mistake, found=lost[0]) for mistake in error.mistakes) from None
+
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
 
         own = self._measured(body)
-        field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
+        with self._in_equilibrium(body):
+            field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
         return own.with_units(field)
 
     def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
@@ -323,14 +336,16 @@ class InUnits:
         from swtstudy.fields.stress import swt_field
 
         own = self._measured(body)
-        field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
+        with self._in_equilibrium(body):
+            field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
         return own.with_units(field, {"s_local": KINDS[own.criterion].name})
 
     def inspect_point(self, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
 
-        return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+        with self._in_equilibrium(body):
+            return self._measured(body).with_units(inspect_point(**self.parameters(body)))
 
     def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
@@ -338,7 +353,8 @@ class InUnits:
         from swtstudy.figures.inspection import draw_inspection
 
         labels, headlines = self._measured(body).labels(), self._headlines(body)
-        return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+        with self._in_equilibrium(body):
+            return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
 
     def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""

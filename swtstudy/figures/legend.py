@@ -17,8 +17,9 @@ from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from swtstudy.figures.load import closed_course
 from swtstudy.figures.style import stroke
-from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.load.load import Loop
 
 if TYPE_CHECKING:
     from swtstudy.figures.sheet import Figure
@@ -32,7 +33,7 @@ _SAMPLE = 0.52
 class LoopHandler(HandlerLine2D):
     """A line's sample, and beside it the loop that the line is about: tangential across, normal upwards."""
 
-    def __init__(self, loops: Mapping[str, LoadPath]) -> None:
+    def __init__(self, loops: Mapping[str, Loop]) -> None:
         super().__init__()
         self._loops = loops
 
@@ -54,7 +55,7 @@ class LoopHandler(HandlerLine2D):
         loop = self._loops.get(str(orig_handle.get_label()))
         if loop is None or not isinstance(orig_handle, Line2D):
             return [*artists]
-        normal, tangential = np.array([*loop.vertices, loop.vertices[0]])[:, :2].T
+        normal, tangential = closed_course(loop).T
         side = 0.85 * height
         left, bottom = width - side - xdescent, -ydescent + 0.5 * (height - side)
         x, y = left + side * _unit(tangential), bottom + side * _unit(normal)
@@ -68,12 +69,12 @@ def _unit(values: np.ndarray) -> np.ndarray:
     return (values - values.min()) / spread if spread else np.full(len(values), 0.5)
 
 
-def loops_of(dataset: xr.Dataset) -> dict[str, LoadPath]:
-    """The loops of straight lines among the loads of results, by the words of their lines."""
+def loops_of(dataset: xr.Dataset) -> dict[str, Loop]:
+    """The loops among the loads of results, by the words of their lines."""
     from swtstudy.archive.attributes import defined_in
 
     loads = defined_in(dataset.attrs).get("load", {})
-    return {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, LoadPath)}
+    return {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, Loop)}
 
 
 _NO_LOOPS: Mapping[str, Any] = MappingProxyType({})
@@ -81,7 +82,7 @@ _NO_LOOPS: Mapping[str, Any] = MappingProxyType({})
 _POINTS = 72.0
 
 
-def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, LoadPath] = _NO_LOOPS) -> None:
+def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] = _NO_LOOPS) -> None:
     """Add one legend for all panels, lines before markers; no entry is cut off.
 
     Parameters

@@ -110,21 +110,24 @@ def _loads(study: Study, loop: Loop) -> FloatArray:
     normal, tangential = (
         _first(study, control.given_for(f"{each}_amplitude"), 1.0) for each in ("normal", "tangential")
     )
-    load = loop.loads(np.ones(1), np.full(1, tangential))
-    vertices = getattr(loop, "vertices", None)
-    count = _INSTANTS if vertices is None else len(vertices)
-    instant = np.linspace(0.0, PERIOD, count + 1)
-    if vertices is not None:
-        closed = np.concatenate([vertices, vertices[:1]])
-        columns = [closed[:, 0], tangential * closed[:, 1]]
-    else:
-        columns = [load.normal(instant[None])[0] - 1.0, load.tangential(instant[None])[0]]
-    mean = _mean(study, loop)
-    columns[0] = mean + normal * columns[0]
+    course = closed_course(loop)
+    columns = [_mean(study, loop) + normal * course[:, 0], tangential * course[:, 1]]
     if loop.bulk is not None:
         amplitude = _first(study, "bulk_stress_amplitude", 1.0)
-        columns.append(_first(study, "bulk_stress_mean", 0.0) + amplitude * loop.bulk.value(instant))
+        columns.append(
+            _first(study, "bulk_stress_mean", 0.0)
+            + amplitude * loop.bulk.value(np.linspace(0.0, PERIOD, len(course)))
+        )
     return np.stack(columns, axis=1)
+
+
+def closed_course(loop: Loop) -> FloatArray:
+    """Both loads of a loop by itself, the first instant again at the end, shape (k, 2)."""
+    vertices = getattr(loop, "vertices", None)
+    if vertices is not None:
+        return np.asarray(np.concatenate([vertices, vertices[:1]])[:, :2])
+    instant, load = np.linspace(0.0, PERIOD, _INSTANTS + 1), loop.loads(np.ones(1), np.ones(1))
+    return np.stack([load.normal(instant[None])[0] - 1.0, load.tangential(instant[None])[0]], axis=1)
 
 
 def _mean(study: Study, loop: Loop) -> float:

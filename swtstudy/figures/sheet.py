@@ -187,12 +187,14 @@ _LONG = 30
 
 
 def wrap_texts(figure: Figure) -> None:
-    """Break titles and labels of axes that are longer than their panels; on a screen upright labels alone."""
+    """Break titles and labels of axes that are longer than their panels; on a screen labels alone."""
     if figure.width is None:
-        tall = [axes for axes in figure.axes if letters(axes.get_ylabel()) > _LONG]
-        if tall:
+        labels = {axes: (axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes}
+        long = [axes for axes, both in labels.items() if max(map(letters, both)) > _LONG]
+        if long:
             figure.draw_without_rendering()
-        for axes in tall:
+        for axes in long:
+            _wrap(axes.xaxis.label, axes.bbox.width, False)
             _wrap(axes.yaxis.label, axes.bbox.height, True)
         return
     figure.draw_without_rendering()

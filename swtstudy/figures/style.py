@@ -21,7 +21,7 @@ from matplotlib import rcParamsDefault
 from matplotlib.figure import Figure
 
 from swtstudy.vocabulary.files import read_text, replacing
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
 
 #: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
@@ -109,10 +109,8 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
 
     Raises
     ------
-    OSError
-        If there is no such style.
-    ValueError
-        If a file is none.
+    StudyError
+        A ValueError, if there is no such style, or a file is none.
     """
     for each in style if isinstance(style, list) else [style]:
         if isinstance(each, str | Path) and each not in matplotlib.style.library and Path(each).exists():
@@ -123,7 +121,11 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
     with ExitStack() as stack:
         stack.enter_context(matplotlib.rc_context(own))
         if style is not None:
-            stack.enter_context(matplotlib.style.context(style))
+            try:
+                stack.enter_context(matplotlib.style.context(style))
+            except OSError:
+                allowed = f"{nearest(str(style), matplotlib.style.available, {})}; or a .mplstyle file"
+                raise StudyError([Mistake("style", literal(style), allowed)]) from None
         yield
 
 

@@ -302,6 +302,10 @@ def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
     mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
     axes.grid(False)
     for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
-        tick_cells(axis, [as_text(value_words(name, value)) for value in surface[name].values.tolist()], most)
+        tick_cells(
+            axis,
+            [as_text(value_words(name, value).replace("_", " ")) for value in surface[name].values.tolist()],
+            most,
+        )
     axes.tick_params(axis="y", labelsize="small" if len(rows) <= _MANY_ROWS else "x-small")
     return mesh

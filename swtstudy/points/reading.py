@@ -36,7 +36,7 @@ from swtstudy.points.values import (
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: An angle beyond so many rad is probably meant in degrees.
@@ -132,7 +132,11 @@ def read_values(
     good_fixed: dict[str, Value] = {}
     good_axes: dict[str, tuple[Value, ...]] = {}
     for name in (*fixed, *axes):
-        if name not in rows and name not in others:
+        if name in CONTACT_AXES and name not in rows and name not in others:
+            report.of(
+                name, "a parameter of real contacts", "this in a study with [units], or swtstudy.physical"
+            )
+        elif name not in rows and name not in others:
             report.of(name, f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
     for one, other, words in (
         (fixed, axes, "both a fixed value and an axis"),

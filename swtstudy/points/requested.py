@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import DIRECTIONS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import (
@@ -32,6 +33,14 @@ CONTACT = "contact"
 def has_units(dataset: xr.Dataset) -> bool:
     """Return whether results are those of real contacts."""
     return CONTACT in dataset.attrs
+
+
+def require(dataset: xr.Dataset, *names: str) -> None:
+    """Raise a StudyError if results have been left without some of their data variables."""
+    if lacking := [name for name in names if name not in dataset]:
+        raise StudyError(
+            [Mistake("results", f"none of {', '.join(lacking)}", "results that still have them")]
+        )
 
 
 def variables(asked: Request, columns: Mapping[str, NDArray]) -> dict[str, tuple[tuple[str, ...], NDArray]]:

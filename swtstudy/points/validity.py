@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.positions import INNERMOST
 from swtstudy.mechanics.points import REGIMES
-from swtstudy.points.requested import has_units
+from swtstudy.points.requested import has_units, require
 from swtstudy.points.values import index_at
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
@@ -84,7 +84,13 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
         Results, or a part of them.
     inside
         Whether to say, too, how far all points are from the limits that they are inside of.
+
+    Raises
+    ------
+    StudyError
+        A ValueError, if the results have been left without s or regime.
     """
+    require(dataset, "s", "regime")
     lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
     within: list[str] = []
     for limit in LIMITS:

@@ -18,9 +18,10 @@ from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
 from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
-from swtstudy.units.blocks import REPETITIONS, sequence_words
+from swtstudy.units.blocks import sequence_words
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contact
+from swtstudy.units.results import measures
 from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
@@ -66,15 +67,19 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 
     Of several criteria each has its own unit.
     """
-    criteria = np.atleast_1d(dataset[CRITERION]) if CRITERION in dataset.coords else [SWT]
-    names = [KINDS[str(each)].name for each in criteria]
-    own = [dataset[name] for name in names if name in dataset]
+    own = [dataset[name] for name in measures(dataset)]
     if len(own) < 2:
         return own[0] if own else dataset.s
     values = own[0]
     for other in own[1:]:
         values = values.fillna(other)
-    return values.drop_attrs().assign_attrs(symbol=r"\text{value}", units="").rename("value")
+    return values.drop_attrs(deep=False).assign_attrs(symbol=r"\text{value}", units="").rename("value")
+
+
+def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
+    """The quantity that the criterion of a place measures."""
+    own = {CRITERION: place[CRITERION].item()} if CRITERION in dataset.dims else {}
+    return measured(dataset.sel(own))
 
 
 def levers(dataset: xr.Dataset) -> list[Lever]:
@@ -98,8 +103,11 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
 
 def sentences(dataset: xr.Dataset) -> list[str]:
     """List the findings as HTML; the most important sentence first."""
-    swt = symbol_of(measured(dataset)) if has_units(dataset) else "<i>s</i>"
-    said = [_sentence(lever, swt) for lever in levers(dataset) if lever.ratio > _MOVES]
+    said = [
+        _sentence(lever, _symbol(measured_at(dataset, lever.there), dataset))
+        for lever in levers(dataset)
+        if lever.ratio > _MOVES
+    ]
     if SAMPLE in dataset.s.dims or not said:
         if CRITERION in dataset.dims:
             parts = [dataset.isel({CRITERION: k}) for k in range(dataset.sizes[CRITERION])]
@@ -107,6 +115,10 @@ def sentences(dataset: xr.Dataset) -> list[str]:
         else:
             said.append(_range(dataset))
     return [*said, *_lives(dataset)]
+
+
+def _symbol(values: xr.DataArray, dataset: xr.Dataset) -> str:
+    return symbol_of(values) if has_units(dataset) else "<i>s</i>"
 
 
 def _sentence(lever: Lever, swt: str) -> str:
@@ -147,7 +159,7 @@ def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
 def _range(dataset: xr.Dataset) -> str:
     """From where to where the values of one criterion go."""
     values = measured(dataset)
-    swt = symbol_of(values) if has_units(dataset) else "<i>s</i>"
+    swt = _symbol(values, dataset)
     known = values.values[np.isfinite(values.values)]
     if not known.size:
         return f"No point has a finite {swt}."
@@ -162,9 +174,9 @@ def _range(dataset: xr.Dataset) -> str:
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:
     """The lives to a crack, by each criterion that has a life."""
-    blocks = read_contact(dataset.attrs[CONTACT]).blocks if REPETITIONS in dataset else ()
-    if blocks:
-        yield f"The sequence of blocks: {escape(sequence_words(dataset, blocks))}."
+    blocks = read_contact(dataset.attrs[CONTACT]).blocks if has_units(dataset) else ()
+    if sequence := sequence_words(dataset, blocks):
+        yield f"The sequence of blocks: {escape(sequence)}."
         return
     names = {kind.life: kind.name for kind in KINDS.values() if kind.life in dataset}
     for name, criterion in names.items():

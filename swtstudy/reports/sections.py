@@ -15,7 +15,7 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
 from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
-from swtstudy.reports.findings import along, extreme_points, levers, measured, parameters_of
+from swtstudy.reports.findings import along, extreme_points, levers, measured, measured_at, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
 from swtstudy.reports.values import (
     place_html,
@@ -90,7 +90,10 @@ def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
             one = lever.table.isel(index_at(ratio, int(flat)))
             cells = [along(name, one[name]) for name in others]
             for end in ("minimum", "maximum"):
-                cells += [number_words(float(one[end])), along(lever.name, one[f"at_{end}"])]
+                value = (
+                    f"{number_words(float(one[end]))} {escape(unit_of(measured_at(dataset, one)))}".rstrip()
+                )
+                cells += [value, along(lever.name, one[f"at_{end}"])]
             rows.append([*cells, number_words(float(one.ratio), 3)])
         own = symbol_of(dataset[lever.name])
         head = [symbol_of(dataset[name]) for name in others]
@@ -239,8 +242,8 @@ def sensitivity_section(dataset: xr.Dataset) -> Section:
             cells.append(f"{float(one[name]):.2f} ({low:.2f} to {high:.2f})")
         rows.append(cells)
     head = [symbol_of(dataset[name]) for name in axes] + ["", "parameter", "alone", "with others"]
-    words = (
-        "Sobol indices: the share of the variance of <i>s</i> that each sampled parameter is responsible for."
-    )
+    y = str(indices["quantity"].values[0])
+    symbol = "<i>s</i>" if y == "s" else symbol_of(dataset[y])
+    words = f"Sobol indices: the share of the variance of {symbol} that each parameter is responsible for."
     picture = figure(embedded(draw_sensitivity(indices)), "Bars of the Sobol indices in the table")
     return section("matters", "What matters", f"<p>{words}</p>", picture, table(head, rows))

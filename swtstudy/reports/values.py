@@ -129,7 +129,7 @@ def value_text(name: str, value: Any, attributes: Mapping[Any, Any] = _NONE) -> 
         return "–"
     if name not in AXES or isinstance(value, bool):
         return number_words(value).replace("-", "−") if isinstance(value, float) else str(value)
-    words = coordinate_words(name, value, attributes)
+    words = coordinate_words(name, value, attributes).replace("_", " ")
     if AXES[name].units == "rad" and "π" not in words and value:
         words = f"{value / math.pi:.3g}π"
     return words.replace("-", "−") if _is_number(value, attributes) else words

@@ -65,7 +65,7 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name = str(there.name)
     value: Value
-    raw = _flag(there.attrs, raw)
+    raw = _named(there, raw)
     try:
         # A name is known by its place in the results, whatever it stood for.
         named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
@@ -82,11 +82,14 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
     return index
 
 
-def _flag(attributes: Mapping[Any, Any], raw: object) -> object:
-    """The number of what has a name, such as a body; anything else as it is."""
-    meanings = str(attributes.get("flag_meanings", "")).split()
+def _named(there: xr.DataArray, raw: object) -> object:
+    """The number of what has a name, such as a body; a name with blanks, as in figures, as it is typed."""
+    meanings = str(there.attrs.get("flag_meanings", "")).split()
     word = "_".join(raw.split()) if isinstance(raw, str) else ""
-    return int(attributes["flag_values"][meanings.index(word)]) if word in meanings else raw
+    if word in meanings:
+        return int(there.attrs["flag_values"][meanings.index(word)])
+    names = np.atleast_1d(there.values).tolist()
+    return word if word in names and raw not in names else raw
 
 
 def _listed(there: xr.DataArray) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.design import saltelli
+from swtstudy.units.results import measures
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
@@ -28,7 +29,7 @@ _ENDS = {"": "", "_low": ", lower end", "_high": ", upper end"}
 
 
 def sensitivity(
-    dataset: xr.Dataset, y: str | Sequence[str] = "s", confidence: float = 0.95, seed: int = 0
+    dataset: xr.Dataset, y: str | Sequence[str] = (), confidence: float = 0.95, seed: int = 0
 ) -> xr.Dataset:
     """Sobol indices of quantities over the parameters of a sample.
 
@@ -37,7 +38,8 @@ def sensitivity(
     dataset
         Results of a study with a sample of the design "saltelli".
     y
-        Quantities: names of data variables, or "s/s(name=value)".
+        Quantities: names of data variables, or "s/s(name=value)". By default s; of results with units
+        what the criterion measures, such as SWT.
     confidence
         Level of the confidence intervals, between 0 and 1.
     seed
@@ -63,7 +65,8 @@ def sensitivity(
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
     names, size = _design(dataset)
-    quantities = [y] if isinstance(y, str) else list(y)
+    own = measures(dataset)
+    quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])
     values = [quantity(dataset, each) for each in quantities]
     report = Report()
     for name, each in zip(quantities, values, strict=True):

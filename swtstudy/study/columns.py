@@ -8,7 +8,7 @@ import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -110,10 +110,11 @@ def read_columns(
         ) from None
     try:
         line, header = _header(text, form)
+        if wrong := _wrong_header(header, names, optional, form):
+            wrong = _wrong_separator(text, names, optional, form) or wrong
+            raise StudyError([Mistake(f"line {line}", *wrong, source)])
     except csv.Error as error:
         raise StudyError([Mistake("", str(error), "a CSV file that can be read", source)]) from None
-    if wrong := _wrong_header(header, names, optional, form):
-        raise StudyError([Mistake(f"line {line}", *wrong, source)])
     names = [*names, *(name for name in optional if form.header(name) in header)]
     table = _cells(text, line, len(header), form, source)
     columns = [_numbers(table[header.index(form.header(name))], form, name, source) for name in names]
@@ -177,6 +178,20 @@ def _too_long(found: int, width: int, line: int, source: str) -> Mistake:
     return Mistake(f"line {line}", f"{found} cells under {width} columns", allowed, source)
 
 
+def _wrong_separator(
+    text: str, names: Sequence[str], optional: Sequence[str], form: Form
+) -> tuple[str, str] | None:
+    """Return what was found and what is allowed, if a header has its columns only with another separator."""
+    for separator in SEPARATORS:
+        other = replace(form, separator=separator)
+        header, own = (_header(text, each)[1] for each in (other, form))
+        enough = separator != " " and len(header) >= len(names) > len(own)
+        if enough or not _wrong_header(header, names, optional, other):
+            found = f"cells parted by {separator!r}, while separator is {form.separator!r}"
+            return found, f"separator = {separator!r}"
+    return None
+
+
 def _wrong_header(
     header: list[str], names: Sequence[str], optional: Sequence[str], form: Form
 ) -> tuple[str, str] | None:
@@ -187,6 +202,10 @@ def _wrong_header(
     allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
     if not {*map(form.header, names)} <= {*header}:
         return f"the columns {', '.join(header) or 'of an empty file'}", allowed
+    for other in map(form.header, names):
+        alike = [name for name in names if form.header(name) == other]
+        if len(alike) > 1:
+            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
     lower = [name.lower() for name in header]
     for name in map(form.header, (*names, *optional)):
         if lower.count(name.lower()) > 1:

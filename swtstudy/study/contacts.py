@@ -40,7 +40,7 @@ def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Definition], report:
     for number, table in enumerate(tables):
         if not isinstance(table, dict) or not isinstance(table.get("load"), str):
             continue  # reported with the structure
-        wrong = wrong_rounds(table.get("rounds"), f"blocks.{number}.rounds")
+        wrong = wrong_rounds(table.get("rounds"), f"blocks[{number}].rounds")
         for mistake in wrong:
             report(mistake.key, mistake.found, mistake.allowed)
         rounds = 1.0 if wrong else float(table["rounds"])

@@ -143,7 +143,22 @@ class Study:
             raw = parse_toml(text)
         except ValueError as error:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
-        return study_from(raw, text, source, Path(folder))
+        study = study_from(raw, text, source, Path(folder))
+        _unused(raw, study.grid, source).refuse()
+        return study
+
+
+def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
+    """Loops and profiles that a sound study defines, and that nothing in it is."""
+    report = Report(source)
+    for parameter in ("load", "profile"):
+        used = {*map(str, grid.values(parameter))}
+        for name, table in raw.get(f"{parameter}s", {}).items():
+            kept = table.get("keep_cycles") is True and any(each.startswith(f"{name} ") for each in used)
+            if name not in used and not kept:
+                words = f"a {parameter} that is not used"
+                report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
+    return report
 
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
@@ -173,6 +188,7 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         if DISTANCE in {*fixed, *axes}:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
+        places[DISTANCE] = "material"
     if contacts is not None:
         contacts = replace(contacts, blocks=blocks)
     rows = rows_of(contacts)
@@ -194,7 +210,9 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     else:
         from swtstudy.units.reading import read_contacts
 
-        grid, found = read_contacts(fixed, axes, contacts, report.key, source, samples, known)
+        grid, found = read_contacts(
+            fixed, axes, contacts, report.key, source, samples, known, asked.distances
+        )
     report += found
     figure = _figure_from(raw)
     if figure is not None:
@@ -306,16 +324,22 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     StudyError
         A ValueError with every mistake in every file; also if two files would have the same archive.
     """
+    report = Report()
+    studies = sound_studies(paths, report)
+    report.refuse()
+    return studies
+
+
+def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
+    """The studies that are sound; every mistake is reported. See `read_studies`."""
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
-    report = Report()
     for path in dict.fromkeys(_files(paths, report)):
         with report:
             studies[path] = Study.from_toml(path)
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
-    report.refuse()
     return studies
 
 

@@ -314,7 +314,7 @@ def read_signal(
     given: dict[str, object] = {"columns": columns, "absolute": absolute, "separator": separator}
     given |= {"decimal": decimal, "time": time, "period": period}
     given |= {"recorded_cycles": recorded_cycles, "harmonics": harmonics}
-    own = Path(path).stem if name is None else name
+    own = Path(path).stem or str(path) if name is None else name
     return signal_from(Path(path), checked_name(own), given)
 
 

@@ -292,7 +292,7 @@ def _mistake(detail: Any, source: str) -> Mistake:
         del path[2]  # pydantic's tag, not a key
     if path[:2] == ["figure", "y"]:
         path = path[:2]  # both members of the union report it: one mistake is enough
-    key = ".".join(map(str, path))
+    key = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
     if detail["type"] == "extra_forbidden":
         return Mistake(key, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), _known(path)), source)
     allowed = _allowed(path) or detail["msg"]

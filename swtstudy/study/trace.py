@@ -22,6 +22,8 @@ MIDDLES, ROUNDS = 101, 4
 AS_GOOD = 1.05
 #: Share of the points, at least so many, of whose parabola the lowest point is the zero of heights.
 INNERMOST, LEAST = 0.1, 5
+#: Share of its largest rise that a trace has at both of its ends.
+LEAST_RISE = 0.02
 
 
 def read_trace(
@@ -69,8 +71,20 @@ def read_trace(
         found = f"heights that fall by {-mean.min():.3g} from the middle to the sides"
         allowed = "heights that grow away from the other body: with the other sign"
         raise StudyError([Mistake("", found, allowed, str(own))])
+    if _one_sided(position, height):
+        found = "one side only: heights are lowest at an end of the trace"
+        allowed = "both sides, with the lowest point between them; of one side a table of radius and height"
+        raise StudyError([Mistake("", found, allowed, str(own))])
     smoothing = noise if smoothing is None else smoothing
     return TabulatedProfile(own.stem if name is None else name, radius, mean, smoothing, geometry)
+
+
+def _one_sided(position: FloatArray, height: FloatArray) -> bool:
+    """Return whether a trace hardly rises towards one of its ends: nothing there is to be folded."""
+    order = np.argsort(position)
+    outer = max(1, len(order) // 100)
+    ends = [height[order[:outer]].mean(), height[order[-outer:]].mean()]
+    return bool(min(ends) - height.min() < LEAST_RISE * np.ptp(height))
 
 
 def folded(position: FloatArray, height: FloatArray, level: bool) -> tuple[FloatArray, FloatArray, float]:

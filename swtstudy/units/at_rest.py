@@ -234,7 +234,7 @@ def depth_at(contact: Contact, force: float) -> float:
     if least > 0.0 and excess(math.log(least)) > 0.0:
         row = PARAMETERS[name]
         allowed = f"a length of at most {row.upper:g} {row.scale} at this force"
-        raise StudyError([Mistake(name, f"{contact.shape[name]!r} at normal_force {force!r}", allowed)])
+        raise StudyError([Mistake(name, f"{contact.shape[name]:g}", allowed)])
     # Hertz's depth, and from there outwards.
     hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
     low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
@@ -258,7 +258,6 @@ def _refuse_at_any_depth(contact: Contact) -> None:
     if limit is None:
         return
     name, number = limit
-    others = ", ".join(f"{other} {value!r}" for other, value in contact.shape.items() if other != name)
-    found = f"{contact.shape[name]!r}{' at ' * bool(others)}{others}"
     least = f"at least {length_of(name, number, contact):.4g}"
-    raise StudyError([Mistake(name, found, f"{least}: with less no contact is compact, at whatever depth")])
+    allowed = f"{least}: with less no contact is compact, at whatever depth"
+    raise StudyError([Mistake(name, f"{contact.shape[name]:g}", allowed)])

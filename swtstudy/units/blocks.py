@@ -17,8 +17,10 @@ if TYPE_CHECKING:
 
     from swtstudy.points.values import Value
 
-#: Beginnings of the names of what is made of each life: their ends are those of the life.
+#: In names of what is made of a life, in the place of that.
 REPETITIONS, SHARE, LIFE = "repetitions", "damage_share", "cycles"
+#: What is before these in names, and whose criterion that is in words.
+CRITERIA = {"": "", "FS_": " by Fatemi and Socie"}
 #: What is allowed as a number of rounds.
 ROUNDS = "a positive number of rounds"
 
@@ -68,9 +70,9 @@ def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
 def lives_in(names: Sequence[str]) -> Iterator[tuple[str, str, str]]:
     """The lives among data variables, and the names of what blocks make of each."""
     for name in names:
-        if name == LIFE or name.startswith(f"{LIFE}_"):
-            end = name.removeprefix(LIFE)
-            yield name, f"{REPETITIONS}{end}", f"{SHARE}{end}"
+        start, life, end = name.partition(LIFE)
+        if life and start in CRITERIA and end[:1] in ("", "_"):
+            yield name, f"{start}{REPETITIONS}{end}", f"{start}{SHARE}{end}"
 
 
 def miner(
@@ -109,7 +111,8 @@ def miner(
             times, of_each = (1.0 / whole).squeeze(axis), damage / whole
         dims = tuple(dim for dim in life.dims if dim != "load")
         where = life.attrs["long_name"].removeprefix("rounds to a crack")
-        words = _words(f"repetitions to a crack{where}", r"N_\mathrm{seq}", REPEATED)
+        below = ", ".join(filter(None, ("seq", *(part.strip("_") for part in name.split(LIFE)))))
+        words = _words(f"repetitions to a crack{where}", rf"N_\mathrm{{{below}}}", REPEATED)
         found[repetitions] = dims, times, words
         words = _words(f"share of the damage{where}", "D_k/D", SHARED)
         found[share] = life.dims, of_each if along else of_each.squeeze(axis), words
@@ -119,16 +122,26 @@ def miner(
 def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     """Say how often a sequence is repeated to a crack, and which load does most of the damage.
 
-    Without means over a critical distance, at the worst place.
+    By each criterion that has lives, without means over a critical distance, at the worst place; empty if
+    there are none.
     """
     rounds = ", ".join(f"{number_words(each.rounds)} of {each.load}" for each in blocks)
-    times = dataset[REPETITIONS]
+    known = {start: by for start, by in CRITERIA.items() if f"{start}{REPETITIONS}" in dataset}
+    words = "; ".join(
+        _to_a_crack(dataset[f"{start}{REPETITIONS}"], dataset[f"{start}{SHARE}"], by)
+        for start, by in known.items()
+    )
+    return f"{rounds}{words}" if words and rounds else ""
+
+
+def _to_a_crack(times: xr.DataArray, shares: xr.DataArray, by: str) -> str:
+    """One life in `sequence_words`."""
     known = times.values[np.isfinite(times.values)]
     if not known.size:
-        return f"{rounds}: no crack"
+        return f": no crack{by}"
     ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
-    words = f"{rounds}, repeated {' to '.join(ends)} times to a crack"
-    share = dataset[SHARE].isel(index_at(times, int(np.nanargmin(times.values))))
+    words = f", repeated {' to '.join(ends)} times to a crack{by}"
+    share = shares.isel(index_at(times, int(np.nanargmin(times.values))))
     if not share.ndim:
         return words
     most = share[int(share.values.argmax())]

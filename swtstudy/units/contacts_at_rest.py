@@ -6,7 +6,7 @@ That is said in the user's own quantities and units.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +23,7 @@ from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, more_like_it
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
@@ -149,12 +150,25 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
         more = more_like_it(len(wrong))
         for mistake in error.mistakes:
             there = _words(grid, {name: value for name, value in own.items() if name != mistake.key})
-            report.of(mistake.key, f"{mistake.found} at {there}{more}", mistake.allowed)
+            unit = unit_words(grid.row(mistake.key).units)
+            report.of(mistake.key, f"{mistake.found}{unit} at {there}{more}", mistake.allowed)
         return
     if all([_in_range(grid, column, report) for column in grid.numbers]):
         check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, report)
         for profile in dict.fromkeys(grid.values("profile")):
             _check_shapes(grid, profile, report)
+
+
+def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Report) -> None:
+    """A critical distance beyond its range in the smallest contact."""
+    row, length = grid.row(DISTANCE), grid.at_rest.scale("a_H")
+    largest, smallest, upper = max(distances, default=0.0), float(length.min()), AXES[DISTANCE].upper
+    if largest <= upper * smallest:
+        return
+    here = _at(grid, index_at(length, int(length.values.argmin())))
+    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
+    found = f"{largest:g}{unit_words(row.units)} at {words}, {largest / smallest:.4g} a_H"
+    report.of(DISTANCE, found, f"at most {upper * smallest:.4g}{unit_words(row.units)}, {upper:g} a_H")
 
 
 def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:

@@ -17,7 +17,7 @@ from swtstudy.points.values import Value, amplitudes_of, as_number, read_value, 
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS, labels_or
-from swtstudy.units.contacts_at_rest import check_contacts
+from swtstudy.units.contacts_at_rest import check_contacts, check_distances
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
@@ -39,8 +39,12 @@ def read_contacts(
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
+    distances: Sequence[float] = (),
 ) -> tuple[PhysicalGrid | None, Report]:
-    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`.
+
+    Critical distances are held against their range, too.
+    """
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     profiles = _profiles(everything, known)
@@ -70,6 +74,8 @@ def read_contacts(
     check_loops(grid, report)
     if not report:
         check_contacts(grid, report)
+    if not report:
+        check_distances(grid, distances, report)
     return (None if report else grid), report
 
 

@@ -12,7 +12,8 @@ import xarray as xr
 from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.units.blocks import miner
 from swtstudy.units.bodies import LABELS
-from swtstudy.units.variables import LIVES, NORMALISED, variables
+from swtstudy.units.variables import KINDS, LIVES, NORMALISED, variables
+from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
@@ -26,6 +27,13 @@ _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
 def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
     """Return whether a data variable is a life for which no strain cycles have been counted."""
     return has_units(dataset) and name in LIVES and "counted" not in dataset
+
+
+def measures(dataset: xr.Dataset) -> list[str]:
+    """The values of the criteria of results with units, in their order; none without units."""
+    criteria = np.atleast_1d(dataset["criterion"]) if "criterion" in dataset.coords else [SWT]
+    names = dict.fromkeys(KINDS[str(each)].name for each in criteria)
+    return [name for name in names if name in dataset]
 
 
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:

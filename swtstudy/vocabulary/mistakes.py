@@ -186,13 +186,23 @@ def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, st
 
 
 def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
-    """The known name whose symbol or misspelling an unknown name is, if there is one."""
-    known = list(known)
+    """The known name whose symbol or misspelling an unknown name is, if there is one.
+
+    Examples
+    --------
+    >>> meant("SWTT", ["status", "SWT"]), meant("Start_Up", ["start-up", "running"])
+    ('SWT', 'start-up')
+    """
+    alike = {_plain_letters(each): each for each in known}
     named, _ = symbols.get(spelled(name), ("", ""))
-    if named in known:
+    if named in alike.values():
         return named
-    close = difflib.get_close_matches(name.lower().replace("-", "_"), known, n=1, cutoff=0.5)
-    return close[0] if close else None
+    close = difflib.get_close_matches(_plain_letters(name), alike, n=1, cutoff=0.5)
+    return alike[close[0]] if close else None
+
+
+def _plain_letters(name: str) -> str:
+    return name.lower().replace("-", "_")
 
 
 DEFAULT_RTOL = 1e-4

@@ -67,14 +67,14 @@ def as_text(words: str) -> str:
 
 
 def value_words(name: str, value: float | str) -> str:
-    """A value as people write it: 0.25, 8/9, √20, π/2.
+    """A value as people write it: 0.25, 8/9, √20, π/2; a name as it is typed.
 
     Examples
     --------
     >>> value_words("normal_amplitude", 8 / 9), value_words("phase", 3.141592653589793)
     ('8/9', 'π')
     >>> value_words("wavelength", 20**0.5), value_words("profile", "rounded_punch")
-    ('√20', 'rounded punch')
+    ('√20', 'rounded_punch')
     >>> value_words("young_modulus", 73.1e3), value_words("friction", 5e-7)
     ('73100', '5·10⁻⁷')
     >>> value_words("normal_force", 143.75), value_words("phase", 1.23456789)
@@ -83,7 +83,7 @@ def value_words(name: str, value: float | str) -> str:
     '3'
     """
     if isinstance(value, str):
-        return value.replace("_", " ")
+        return value
     row = AXES.get(name)  # none of the points of a sample, nor of what xarray may have joined along
     if row is not None and row.kind == "ratio":
         return str(_fraction(value, 64) or f"{value:.4g}")
@@ -199,6 +199,8 @@ def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any
 def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
     """A value of a parameter, or of its coordinate, with symbol and unit; the name alone for a profile.
 
+    A name is as in prose, without underscores.
+
     Examples
     --------
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
@@ -207,7 +209,7 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     alone = AXES[name].kind == "name" or "flag_meanings" in attributes
     symbol = "" if alone else f"{parameter_words(name, attributes)} = "
     units = unit_words(attributes.get("units", "1"))
-    return symbol + as_text(coordinate_words(name, value, attributes) + units)
+    return symbol + as_text(coordinate_words(name, value, attributes).replace("_", " ") + units)
 
 
 def unit_words(unit: str) -> str:

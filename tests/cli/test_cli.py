@@ -544,6 +544,17 @@ def test_all_studies_in_one_go(suite):
     assert (suite / "results" / "two.svg").is_file()
 
 
+def test_of_several_studies_validate_says_each(suite):
+    (suite / "studies" / "bad.toml").write_text('title = "t"\n[fixed]\nfriction = -1\n')
+    result = call("validate", "studies", "absent.toml")
+    assert result.exit_code == 2
+    assert [line.split(",")[0] for line in result.stdout.splitlines()] == [
+        "studies/one.toml: valid",
+        "studies/two.toml: valid",
+    ]
+    assert [line.split(": ")[1] for line in result.stderr.splitlines()] == ["studies/bad.toml", "absent.toml"]
+
+
 def test_a_folder_stands_for_its_studies(suite):
     result = call("validate", "studies")
     assert result.exit_code == 0, result.output

@@ -13,6 +13,8 @@ from swtstudy import StudyError, inspect_point
 from swtstudy.cli import main
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.contacts.of_results import one_of_study
+from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.quantities import DISTANCE
 
 FORCES = {"normal_force_amplitude": "0.2", "tangential_force_amplitude": "0.3"}
 BLOCKS = """
@@ -103,3 +105,50 @@ def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(
         assert done.exit_code == 0, done.stderr
         assert len([axes for axes in drawn[-1].axes if axes.get_title("left")]) >= panels
     assert len(drawn[0].axes) < len(drawn[1].axes)
+
+
+def test_each_axis_of_a_study_has_an_option(tmp_path: Path) -> None:
+    """Those of contacts with units, too: the one that the message advises."""
+    names = {*AXES} - {DISTANCE, "direction"}
+    assert names <= {str(option.name) for option in main.commands["show"].params}
+    sizes = {"young_modulus": "73.1e3", "radius": 50, "normal_force": 200, "bulk_stress_ratio": -1}
+    axes = "".join(f"{name} = [{value}, {float(value) * 0.9}]\n" for name, value in sizes.items())
+    text = CONTACT.replace("young_modulus = 73.1e3\n", "").replace("radius = 50\n", "")
+    rig = file_of(
+        tmp_path, f"{text}tangential_force_amplitude = 40\nbulk_stress_amplitude = 9\n[axes]\n{axes}"
+    )
+    with pytest.raises(StudyError, match=r"several values of young_modulus.*such as --young-modulus VALUE"):
+        one_of_study(rig, {})
+    options = [word for name, value in sizes.items() for word in (f"--{name.replace('_', '-')}", str(value))]
+    done = CliRunner().invoke(main, ["show", rig, *options, "-o", str(tmp_path / "a.png")])
+    assert done.exit_code == 0, done.stderr
+    # Of two one takes the place of the other.
+    others = {"young_modulus": "73.1e3", "radius": 50, "depth": 1e-3, "bulk_stress_mean": 2}
+    found = one_of_study(rig, {**others, "tangential_force_amplitude": 1})
+    assert found.fixed["depth"] == 1e-3
+    assert "normal_force" not in found.fixed
+    assert "bulk_stress_ratio" not in found.fixed
+
+
+def test_sizes_of_a_contact_need_a_study_with_units() -> None:
+    done = CliRunner().invoke(main, ["show", "--normal-force", "200"])
+    assert done.exit_code == 2
+    assert "normal_force: found a parameter of real contacts; allowed: this in a study with" in done.stderr
+
+
+def test_without_equilibrium_the_forces_are_said_in_the_units_of_the_study(tmp_path: Path) -> None:
+    rig = file_of(tmp_path, f"{CONTACT}normal_force = 200\n[axes]\ntangential_force_amplitude = [60, 120]\n")
+    words = (
+        "tangential_force_amplitude: found no equilibrium: tangential_force_amplitude 120 N exceeds μ F_N "
+    )
+    words += "= 100 N; allowed: forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant"
+    done = CliRunner().invoke(main, ["show", rig, "--tangential-force-amplitude", "120"])
+    assert (done.exit_code, done.stderr) == (2, f"Error: {words}\n")
+    contact = PhysicalContact(one_of_study(rig, {"tangential_force_amplitude": 120}))
+    for inspect in (
+        contact.inspect_point,
+        lambda: contact.stress_field(0, 0, 0),
+        lambda: contact.swt_field(0, 0, 0),
+    ):
+        with pytest.raises(StudyError, match="tangential_force_amplitude 120 N exceeds"):
+            inspect()

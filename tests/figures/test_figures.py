@@ -1,3 +1,4 @@
+import itertools
 import sys
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import pytest
 import stand_in
 from made_up import PANELS
 
-from swtstudy import Study, run
+from swtstudy import Study, StudyError, run
 from swtstudy.figures.draw import draw
 from swtstudy.figures.style import STYLE, save_figure
 from swtstudy.figures.surfaces import _colours
@@ -102,7 +103,7 @@ def test_the_reference_of_a_normalised_quantity(panels):
         ("wavelength", 4.47213595, "4.472"),
         ("phase", -np.pi / 4, "-π/4"),
         ("phase", 1.234, "1.234"),
-        ("profile", "wavy_paraboloid", "wavy paraboloid"),
+        ("profile", "wavy_paraboloid", "wavy_paraboloid"),
     ],
 )
 def test_values_in_words(name, value, words):
@@ -190,8 +191,8 @@ def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
         lines = draw(one_panel).axes[0].lines
     assert [line.get_color() for line in lines] == ["r", "g", "r"]
     assert {line.get_linestyle() for line in lines} == {"-"}
-    with pytest.raises(OSError, match="no_such_style"):
-        draw(one_panel, style="no_such_style")
+    with pytest.raises(StudyError, match="style: found 'gray_scale'; allowed: did you mean grayscale"):
+        draw(one_panel, style="gray_scale")
     for name in ("one", "two"):
         save_figure(draw(one_panel), tmp_path / f"{name}.svg")
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
@@ -240,3 +241,27 @@ regimes = true
     )
     assert [text.get_text() for text in figure.legends[0].get_texts()][-1] == "gross slip begins"
     assert len(figure.legends[0].get_texts()) == 4  # and where partial slip begins
+
+
+SENSITIVITY = """
+title = "A long label below each of three panels"
+[fixed]
+criterion = "findley"
+[axes]
+normal_sensitivity = [0.1, 0.2, 0.3]
+phase = [0, 1, 2]
+[figure]
+x = "normal_sensitivity"
+panels = "phase"
+"""
+
+
+def test_long_labels_of_neighbours_do_not_touch_on_a_screen(tmp_path):
+    results = run(Study.from_text(SENSITIVITY), tmp_path / "k.nc", solver=stand_in.smooth)
+    figure = results.swt.figure()
+    figure.draw_without_rendering()
+    boxes = [axes.xaxis.label.get_window_extent() for axes in figure.axes]
+    assert len(boxes) == 3
+    for one, other in itertools.pairwise(boxes):
+        assert one.x1 + 10.0 < other.x0
+    assert boxes[-1].x1 < figure.bbox.x1

@@ -1,7 +1,10 @@
 """A legend of loops draws each beside its name."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
+import stand_in
 from folders import RESULTS
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
@@ -33,6 +36,33 @@ def test_each_loop_is_drawn_beside_its_name_in_its_colour() -> None:
         assert (y[:-1] - y.min()) / np.ptp(y) == pytest.approx((normal + 1.0) / 2.0)
         assert np.ptp(x) == pytest.approx(np.ptp(y))
         assert (x[0], y[0]) == (x[-1], y[-1])
+
+
+ROUND = """
+title = "Round and square"
+rtol = 1e-2
+[loads.round]
+normal = [[1, 0.2, 0.0]]
+tangential = [[1, 1.0, 1.5707963267948966]]
+[loads.square]
+vertices = [[0.2, 1], [0.2, -1], [-0.2, -1], [-0.2, 1]]
+[fixed]
+normal_amplitude = 1
+tangential_amplitude = 0.5
+[axes]
+friction = [0.3, 0.6]
+load = ["round", "square"]
+"""
+
+
+def test_a_loop_of_harmonics_is_drawn_as_one_of_straight_lines(tmp_path: Path) -> None:
+    """A circle, which fills the square."""
+    results = swtstudy.run(swtstudy.Study.from_text(ROUND), tmp_path / "round.nc", solver=stand_in.smooth)
+    (legend,) = results.swt.panels("friction", hue="load").legends
+    drawn, _ = small_lines(legend)
+    x, y = (np.asarray(each) for each in (drawn.get_xdata(), drawn.get_ydata()))
+    radius = np.hypot(x - 0.5 * (x.max() + x.min()), y - 0.5 * (y.max() + y.min()))
+    assert radius == pytest.approx(0.5 * np.ptp(x), rel=1e-3)
 
 
 def test_other_legends_are_as_they_were() -> None:

@@ -29,7 +29,7 @@ from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
 from swtstudy.reports.page import _caption, page
 from swtstudy.reports.parts import derived, embedded, section
-from swtstudy.reports.sections import settings_section, sureness_section, tiles
+from swtstudy.reports.sections import extrema_section, settings_section, sureness_section, tiles
 from swtstudy.reports.site import entry, write_reports
 from swtstudy.reports.values import about, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
@@ -228,6 +228,20 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     assert "normal_sensitivity" not in parameters_of(worst)
     again = swtstudy.solve(rtol=1e-3, **parameters_of(worst))
     assert float(again.s) == pytest.approx(float(worst.s), rel=1e-6)
+
+
+def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(tmp_path: Path) -> None:
+    text = CRITERIA.replace("tangential_force_amplitude = 60\n", "")
+    text += "tangential_force_amplitude = [40, 60]\n"
+    both = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
+    said = re.sub("<[^>]*>", "", sentences(both)[0])
+    assert " QA moves SWT by " in said
+    assert said.endswith(" times for criterion swt: best at 40 N, worst at 60 N.")
+    rows = re.findall(r"<tr>(.*?)</tr>", extrema_section(both).body)[1:]
+    cells = {each[0]: each for each in (re.sub("<[^>]*>", "|", row).strip("|").split("||") for row in rows)}
+    for criterion, name, unit in (("findley", "findley_stress", " MPa"), ("fatemi socie", "FS", "")):
+        least = both[name].sel(criterion=criterion.replace(" ", "_")).min().item()
+        assert cells[criterion][1:3] == [f"{number_words(least)}{unit}", "40 N"]
 
 
 def test_the_table_of_a_page_is_that_of_the_results(small: xr.Dataset, small_page: str) -> None:

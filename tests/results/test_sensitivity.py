@@ -189,8 +189,12 @@ def test_the_command_computes_and_writes(tmp_path):
     assert result.exit_code == 0, result.output
     assert "| μ friction |" in result.output
     assert "the paper says" not in result.output  # of a study that is not its
-    for name in ("mine.nc", "mine_indices.nc", "mine_indices.md", "mine_indices.png"):
+    for name in ("mine.nc", *(f"mine_indices_s_s_surface{end}" for end in (".nc", ".md", ".png"))):
         assert (tmp_path / name).stat().st_size > 0
+    # Another quantity does not take the place of these.
+    result = CliRunner().invoke(main, command)
+    assert "## s, " in result.output
+    assert (tmp_path / "mine_indices.md").exists()
     (tmp_path / "mine.toml").write_text(text.replace("saltelli", "sobol"))
     result = CliRunner().invoke(main, command)
     assert result.exit_code == 2
@@ -218,7 +222,7 @@ def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
     (tmp_path / "mine.toml").write_text(RIG)
     monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, path: drawn.append(figure))
     command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
-    result = CliRunner().invoke(main, [*command, "--y", "SWT"])
+    result = CliRunner().invoke(main, command)
     assert result.exit_code == 0, result.output
     assert "## SWT, normal_force_amplitude = 20 N, body = 2\n" in result.output
     assert "| F0 normal_force |" in result.output

@@ -105,15 +105,17 @@ def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_
 
 
 def test_each_load_of_an_axis_has_its_own_mean(tmp_path: Path) -> None:
-    text = RIG.replace('load = "rig"\n', "") + '[axes]\nload = ["low", "high"]\n'
-    for name, factor in (("low", 1.0), ("high", 1.5)):
-        text += f"[loads.{name}]\nabsolute = true\nvertices = {(factor * CYCLE).tolist()}\n"
-    both = run(Study.from_text(text), tmp_path / "both.nc")
+    text = RIG.replace('load = "rig"\n', "") + "[axes]\n"
+    tables = {
+        name: f"[loads.{name}]\nabsolute = true\nvertices = {(factor * CYCLE).tolist()}\n"
+        for name, factor in (("low", 1.0), ("high", 1.5))
+    }
+    study = Study.from_text(f'{text}load = ["low", "high"]\n{"".join(tables.values())}')
+    both = run(study, tmp_path / "both.nc")
     assert both.normal_force.dims == ("load",)
     np.testing.assert_allclose(both.normal_force, [200.0, 300.0], rtol=1e-12)
-    for name in ("low", "high"):
-        one = text.replace('load = ["low", "high"]', f'load = ["{name}"]')
-        alone = run(Study.from_text(one), tmp_path / f"{name}.nc")
+    for name, table in tables.items():
+        alone = run(Study.from_text(f'{text}load = ["{name}"]\n{table}'), tmp_path / f"{name}.nc")
         np.testing.assert_allclose(both.SWT.sel(load=name), alone.SWT.sel(load=name), rtol=1e-9)
     assert (both.peak_pressure[1] / both.peak_pressure[0]).item() == pytest.approx(1.5 ** (1 / 3), rel=1e-6)
 
@@ -221,6 +223,19 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
             'columns = { normal = "Fn" }',
             r"loads.rig.file: found no column 'Fn', which is to be normal \(.*line 1\); allowed: .*normal",
         ),
+        (
+            'separator = ";"',
+            r"loads.rig.file: found cells parted by ',', while separator is ';' \(.*line 1\); allowed: separ",
+        ),
+        (
+            'columns = { normal = "tangential" }',
+            r"loads.rig.file: found the column 'tangential' as normal and tangential \(.*; allowed: a column",
+        ),
+        (
+            'columns = { normal = "Fn", tangential = "Ft" }\nseparator = "|"',
+            r"loads.rig.file: found cells parted by ',', while separator is '\|' \(.*line 1\); allowed: ",
+        ),
+        ('time = "normal"', "loads.rig.file: found the column 'normal' as time and normal"),
         ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
         ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*time, sample 3\); allowed: times that asc"),
         (
@@ -236,6 +251,11 @@ def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, wo
     text = RIG + given * ("absolute" not in table) + f'[loads.rig]\nfile = "rig.csv"\n{table}\n'
     (line,) = mistakes_of(text, tmp_path)
     assert re.match(f"s: {words}", line), line
+
+
+def test_a_folder_is_no_signal() -> None:
+    with pytest.raises(StudyError, match=r"^\.: found Is a directory; allowed: a CSV file in UTF-8"):
+        read_signal(".")
 
 
 def test_a_measured_load_without_units_is_refused_unless_it_is_scaled() -> None:

@@ -195,3 +195,16 @@ def test_what_would_take_minutes_to_read_is_refused_at_once(tmp_path: Path) -> N
     (tmp_path / "points.csv").write_text(",".join(f"a{n}" for n in range(50_000)) + "\n1\n")
     (line,) = mistakes_of(POINTS, tmp_path)
     assert "more than 1000 columns in line 1" in line
+
+
+def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
+    """Most likely its key was forgotten; cycles that are kept one by one are those of their record."""
+    loop = "[loads.mine]\nvertices = [[0, 1], [0, -1]]\n"
+    radii, heights = ([step**power for step in range(9)] for power in (1, 2))
+    worn = f"[profiles.worn]\nradius = {radii}\nheight = {heights}\n"
+    assert mistakes_of(f'title = "t"\n{loop}{worn}', tmp_path) == [
+        "s: loads.mine: found a load that is not used; allowed: load = 'mine' in the study, or none",
+        "s: profiles.worn: found a profile that is not used; allowed: profile = 'worn' in the study, or none",
+    ]
+    used = f'title = "t"\n[axes]\nprofile = ["paraboloid", "worn"]\n[fixed]\nload = "mine"\n{loop}{worn}'
+    assert Study.from_text(used).grid.size == 2

@@ -81,6 +81,20 @@ def test_a_trace_upside_down_is_named(tmp_path: Path) -> None:
         read_trace(tmp_path / "cap.csv")
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_trace_of_one_side_is_told(tmp_path: Path, side: float) -> None:
+    """With a flat face, too, of which both sides of some middle are alike."""
+    radius = np.linspace(0.0, 1.0, 200)
+    for height in (0.01 * radius**2, np.maximum(radius - 0.3, 0.0) ** 2):
+        rows = "\n".join(f"{side * a!r},{b!r}" for a, b in zip(radius.tolist(), height.tolist(), strict=True))
+        (tmp_path / "half.csv").write_text(f"position,height\n{rows}\n")
+        for level in (True, False):
+            with pytest.raises(
+                StudyError, match=r"half.csv: found one side only: heights are lowest at an end"
+            ):
+                read_trace(tmp_path / "half.csv", level=level)
+
+
 def test_a_study_reads_a_trace_beside_tables_in_a_form_of_their_own(tmp_path: Path) -> None:
     x, z = trace("sphere", 2e-5, 0.004)
     rows = "\n".join(f"{a!r};{b!r}".replace(".", ",") for a, b in zip(x.tolist(), z.tolist(), strict=True))

@@ -130,11 +130,14 @@ def test_recorded_cycles_are_blocks_one_by_one_if_they_are_kept(tmp_path: Path) 
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        (RUNNING + block("running", 0), "blocks.0.rounds: found 0; allowed: a positive number of rounds"),
-        (RUNNING + block("running", '"many"'), "blocks.0.rounds: found 'many'; allowed: a positive number"),
+        (RUNNING + block("running", 0), r"blocks\[0\].rounds: found 0; allowed: a positive number of rounds"),
+        (
+            RUNNING + block("running", '"many"'),
+            r"blocks\[0\].rounds: found 'many'; allowed: a positive number",
+        ),
         (RUNNING + block("runing", 1), r"blocks.load: found 'runing' .*; allowed: did you mean running"),
-        (RUNNING + '[[blocks]]\nload = "running"\n', "blocks.0.rounds: found nothing; allowed: "),
-        (RUNNING + block("running", 1) + "times = 2\n", "blocks.0.times: found unknown key 'times'"),
+        (RUNNING + '[[blocks]]\nload = "running"\n', r"blocks\[0\].rounds: found nothing; allowed: "),
+        (RUNNING + block("running", 1) + "times = 2\n", r"blocks\[0\].times: found unknown key 'times'"),
         (
             "[axes]\nload = ['running']\n" + RUNNING + block("running", 1),
             r"axes.load: found \['running'\]; allowed: nothing: the loads are those of \[\[blocks\]\]",
@@ -163,3 +166,27 @@ def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
     lines = {line.get_label(): line.get_ydata() for line in axes.get_lines()}
     np.testing.assert_allclose(lines["running"], results.damage_share.sel(load="running"))
     assert Study.from_text(text.replace('hue = "load"\n', "").replace("damage_share", "repetitions")).figure
+
+
+def test_lives_of_shear_are_summed_as_those_of_tension(tmp_path: Path) -> None:
+    """By hand; of one criterion alone, and beside the other one."""
+    text = RIG.replace("[fixed]", "yield_strength = 350\n[fixed]\nnormal_sensitivity = 0.3")
+    text += 'criterion = "fatemi_socie"\n' + START + RUNNING + block("start-up", 10) + block("running", 1e3)
+    alone = run(Study.from_text(text), tmp_path / "alone.nc")
+    damage = np.array([10, 1e3]) / alone.FS_cycles
+    np.testing.assert_allclose(alone.FS_repetitions, 1.0 / damage.sum("load"), rtol=1e-12)
+    np.testing.assert_allclose(alone.FS_damage_share, damage / damage.sum("load"), rtol=1e-12)
+    assert alone.FS_repetitions.long_name.startswith("repetitions to a crack by shear constants")
+    assert alone.FS_repetitions.symbol == r"N_\mathrm{seq, FS}"
+    times = number_words(alone.FS_repetitions.item(), 2)
+    assert f"repeated {times} times to a crack by Fatemi and Socie; running does" in "\n".join(
+        describe(alone)
+    )
+    assert not any("A crack starts" in sentence for sentence in sentences(alone))
+    both = text.replace('criterion = "fatemi_socie"\n', '[axes]\ncriterion = ["swt", "fatemi_socie"]\n')
+    found = run(Study.from_text(both), tmp_path / "both.nc")
+    np.testing.assert_allclose(found.FS_repetitions.sel(criterion="fatemi_socie"), alone.FS_repetitions)
+    times = number_words(found.repetitions.sel(criterion="swt").item(), 2)
+    (line,) = [each for each in sentences(found) if "sequence of blocks" in each]
+    assert f"repeated {times} times to a crack; running does" in line
+    assert " times to a crack by Fatemi and Socie; running does" in line

@@ -3,6 +3,7 @@
 import pytest
 from real import STUDY, UNITS
 
+import swtstudy
 from swtstudy import Study, StudyError
 
 #: A line of the study, what stands there instead, and what is said of it.
@@ -96,17 +97,23 @@ MISTAKES = [
     (
         "friction = 0.5",
         'friction = 0.5\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 1e-3\nwavelength = 0.05',
-        "fixed.wavelength: found 0.05 at waviness_amplitude 0.001 at radius = 50 mm, normal_force = 150 N",
+        "fixed.wavelength: found 0.05 mm at radius = 50 mm, normal_force = 150 N, waviness_amplitude = ",
     ),
     (
         "friction = 0.5",
         'friction = 0.5\nprofile = "rounded_punch"\nflat_radius = 60',
-        "fixed.flat_radius: found 60.0 at normal_force 150.0 at radius = 50 mm, normal_force = 150 N",
+        "fixed.flat_radius: found 60 mm at radius = 50 mm, normal_force = 150 N; 1 more like it; allowed: ",
+    ),
+    (
+        "critical_distance = 0.05",
+        "critical_distance = 60",
+        "fixed.critical_distance: found 60 mm at radius = 50 mm, normal_force = 150 N, 116.3 a_H; allowed: "
+        "at most 5.157 mm, 10 a_H",
     ),
     (
         'y = ["SWT", "cycles"',
         'y = ["SWTs", "cycles"',
-        "figure.y: found 'SWTs' (not a quantity); allowed: did you",
+        "figure.y: found 'SWTs' (not a quantity); allowed: did you mean SWT?",
     ),
     (
         "[150, 200]",
@@ -175,3 +182,15 @@ normal_force = 200
 def test_what_is_no_unit_of_stress_is_none(label: str) -> None:
     with pytest.raises(StudyError, match=f"units.stress: found '{label}'; allowed: the name of a unit"):
         Study.from_text(STUDY.replace('stress = "MPa"', f'stress = "{label}"'))
+
+
+@pytest.mark.filterwarnings("ignore:critical_distance = 7.958e")
+def test_a_critical_distance_far_beyond_the_contact_is_refused_wherever_it_comes_from():
+    thresholds = "threshold_stress_intensity_range = 5e5\nfatigue_limit_range = 100\n[fixed]"
+    text = STUDY.replace("critical_distance = 0.05\n", "").replace("[fixed]", thresholds)
+    with pytest.raises(StudyError, match=r"material.critical_distance: found 7.95775e\+06 mm at radius"):
+        Study.from_text(text.replace(', "SWT_volume"', ""))
+    own = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50, "friction": 0.5}
+    contact = swtstudy.physical(**own, normal_force=200, tangential_amplitude=1e-3)
+    with pytest.raises(StudyError, match=r"^critical_distance: found 60 at radius = 50, .* a_H; allowed: at"):
+        contact.solve(critical_distance=[0.05, 60])
