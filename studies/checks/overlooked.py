@@ -16,6 +16,8 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from fractions import Fraction
+from itertools import chain, groupby
+from operator import itemgetter
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +31,7 @@ from nonlocal_means import worn
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import check_shape
 from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.mechanics.points import Solution
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.paper.audit.point import dense_look
 from swtstudy.vocabulary.parameters import Control
@@ -43,8 +46,8 @@ RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")
 PLANE = {"rounded_flat": {"flat_half_width": (0.05, 2.0)}, "power_law_cylinder": {"exponent": (1.2, 6.0)}}
 #: The dense look: steps of each piece, but fewer where the cycle has more than so many intervals, and planes.
 STEPS, INTERVALS, PLANES = 64, 32, 32
-#: Points that are drawn, and solved, together.
-CHUNK = 50
+#: Points that are drawn together, and chunks that are solved so.
+CHUNK, TOGETHER = 50, 20
 RTOLS = 1e-4, 1e-6
 #: Bulk stress over the contact's own by which the search takes its other way: it moves s by as much.
 NEXT_TO_NONE = 1e-12
@@ -163,16 +166,44 @@ def drawn(name: str, seed: int, chunk: int) -> Points:
     return SCENES[name][0](np.random.default_rng([seed, list(SCENES).index(name), chunk]))
 
 
-def shortfall(task: tuple[Chunk, Dense | None]) -> tuple[Chunk, Dense, Array, list[str]]:
+#: A chunk, and what is known of it.
+Task = tuple[Chunk, Dense | None]
+
+
+def shortfall(tasks: list[Task]) -> list[tuple[Chunk, Dense, Array, list[str]]]:
     """By how much s is below the dense look, relative, and s_error, at each tolerance, shape (k, 2, rtols).
 
     Before that what the dense look finds, and after it the points at which that is more than s_error.
     """
-    (name, seed, chunk), known = task
-    points = drawn(name, seed, chunk)
-    solved = [solve_points(points, rtol) for rtol in RTOLS]
-    found = known if known is not None else _dense(points, np.isfinite(solved[0].s) & (solved[0].s > 0.0))
-    dense, x = found
+    found = []
+    several = [drawn(*chunk) for chunk, _ in tasks]
+    solutions = [_solved(several, rtol) for rtol in RTOLS]
+    for (chunk, known), points, *solved in zip(tasks, several, *solutions, strict=True):
+        some = np.isfinite(solved[0].s) & (solved[0].s > 0.0)
+        look = known if known is not None else _dense(points, some)
+        found.append((chunk, look, *_compared(chunk[0], points, solved, look)))
+    return found
+
+
+def _solved(several: list[Points], rtol: float) -> list[Solution]:
+    """The solutions of chunks, of which those that are alike are solved together: that is faster."""
+    # A table, and a loop, is each of a chunk of its own.
+    kinds = [
+        (name if isinstance(name := points.profile, str) else id(name), points.control, id(points.path))
+        for points in several
+    ]
+    parts = []
+    for _, group in groupby(zip(kinds, several, strict=True), key=itemgetter(0)):
+        own = [points for _, points in group]
+        joined, begin = solve_points(Points.joined(own), rtol), 0
+        for points in own:
+            parts.append(joined.take(slice(begin, begin + len(points))))
+            begin += len(points)
+    return parts
+
+
+def _compared(name: str, points: Points, solved: list[Solution], look: Dense) -> tuple[Array, list[str]]:
+    dense, x = look
     some = np.isfinite(dense)
     low, error = (
         np.array([values[some] for values in of_each])
@@ -183,7 +214,7 @@ def shortfall(task: tuple[Chunk, Dense | None]) -> tuple[Chunk, Dense, Array, li
         f"{points.take(np.array([k]))}"
         for k in np.flatnonzero(some)[(low > error + DENSE).any(axis=0)]
     ]
-    return task[0], found, np.stack([low, error]).transpose(2, 0, 1), words
+    return np.stack([low, error]).transpose(2, 0, 1), words
 
 
 def _dense(points: Points, some: NDArray[np.bool_]) -> Dense:
@@ -261,10 +292,14 @@ def main() -> None:
         for seed in given.seeds
         for chunk in range(max(SCENES[name][1] * given.points // (10_000 * CHUNK * len(given.seeds)), 1))
     ]
+    # Dense looks are kept one by one.
+    together = TOGETHER if given.known else 1
     tasks = [(chunk, known.get(chunk)) for chunk in ([*known] if given.known else chunks)]
+    lists = [tasks[begin : begin + together] for begin in range(0, len(tasks), together)]
     found: dict[str, list[Array]] = {}
     with ProcessPoolExecutor(given.processes) as pool:
-        for chunk, look, rows, words in map(shortfall, tasks) if given.quick else pool.map(shortfall, tasks):
+        done = map(shortfall, lists) if given.quick else pool.map(shortfall, lists)
+        for chunk, look, rows, words in chain.from_iterable(done):
             if chunk not in known:
                 keep(file, chunk, look)
             found.setdefault(chunk[0], []).append(rows)
