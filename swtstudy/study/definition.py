@@ -149,13 +149,18 @@ class Study:
 
 
 def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
-    """Loops and profiles that a sound study defines, and that nothing in it is."""
+    """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
     report = Report(source)
     for parameter in ("load", "profile"):
         used = {*map(str, grid.values(parameter))}
-        for name, table in raw.get(f"{parameter}s", {}).items():
-            kept = table.get("keep_cycles") is True and any(each.startswith(f"{name} ") for each in used)
-            if name not in used and not kept:
+        tables = raw.get(f"{parameter}s", {})
+        # Cycles that are kept one by one are loads of their own.
+        if used.isdisjoint(tables) and not any(
+            table.get("keep_cycles") is True and each.startswith(f"{name} ")
+            for name, table in tables.items()
+            for each in used
+        ):
+            for name in tables:
                 words = f"a {parameter} that is not used"
                 report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report

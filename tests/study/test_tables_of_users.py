@@ -208,3 +208,5 @@ def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
     ]
     used = f'title = "t"\n[axes]\nprofile = ["paraboloid", "worn"]\n[fixed]\nload = "mine"\n{loop}{worn}'
     assert Study.from_text(used).grid.size == 2
+    # One of several may wait for another run.
+    assert Study.from_text(used + "[loads.later]\nvertices = [[0, 1], [0, -2]]\n").grid.size == 2
