@@ -11,8 +11,8 @@ from scenes import points
 from soundness import regime_names, sound
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.line.climb import refine
 from swtstudy.mechanics.line.look import Look, Resolution
+from swtstudy.mechanics.line.refine import refine
 from swtstudy.mechanics.line.singular_edge import _swt
 from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.stress.scene import Scene, scene_of

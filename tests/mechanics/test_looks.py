@@ -11,10 +11,10 @@ from scenes import random_points
 
 from swtstudy.mechanics.events.stretches import _places, meet
 from swtstudy.mechanics.line import first_look
-from swtstudy.mechanics.line.climb import of_extremes
 from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
 from swtstudy.mechanics.line.look import Look, _falling, reach
 from swtstudy.mechanics.line.positions import Pieces
+from swtstudy.mechanics.line.refine import of_extremes
 from swtstudy.mechanics.stress.scene import scene_of
 
 

@@ -14,9 +14,9 @@ from scenes import points
 import swtstudy
 from swtstudy.archive.netcdf import save
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.line.climb import refine
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.maximum import candidates
+from swtstudy.mechanics.line.refine import refine
 from swtstudy.mechanics.planes.through_y import coarse_swt
 from swtstudy.mechanics.quantities import worst_means
 from swtstudy.mechanics.solver import scenes, solve_points

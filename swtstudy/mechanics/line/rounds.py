@@ -13,10 +13,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, SAME_PLANE, SHRINKING, Climb, refine, refine_beside
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
 from swtstudy.mechanics.line.first_look import SHARE
 from swtstudy.mechanics.line.look import SETTLED, Accuracy
 from swtstudy.mechanics.line.positions import Positions
+from swtstudy.mechanics.line.refine import SAME_PLANE, refine, refine_beside
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.roots import polynomial_maximum, powers_from_values, vertex_near
 from swtstudy.mechanics.planes.through_y import apart

@@ -176,7 +176,7 @@ def _swt(
 ) -> tuple[FloatArray, FloatArray]:
     """swt and 2θ at L = ``distance``, shape (n, X), on the best plane near 2θ = ``start``.
 
-    Unlike `swtstudy.mechanics.line.climb.refine` this knows that the stress may jump at an event: an extreme
+    Unlike `swtstudy.mechanics.line.refine.refine` this knows that the stress may jump at an event: an extreme
     is interpolated only where its neighbours belong to the same smooth stretch.
     """
     profile = scene.profile

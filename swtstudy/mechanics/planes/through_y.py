@@ -110,7 +110,7 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
 
 
 def on_planes(history: PlaneHistory, count: int) -> FloatArray:
-    """swt at n × X positions on each of ``count`` planes, shape (count, n, X)."""
+    """swt of histories, (…), on each of ``count`` evenly spaced planes, an even number, shape (count, …)."""
     # Extremes over the first axis are the fastest.
     stress, swing = (np.ascontiguousarray(np.moveaxis(v, -1, 1)) for v in (history.stress, history.swing))
     table = np.empty((count, *stress.shape[2:]))
