@@ -138,7 +138,7 @@ def climb_to_tops(
 
 @dataclass(frozen=True)
 class Tops(Rows):
-    """What a closer look finds where m climbs have ended.
+    """The closer look where m climbs have ended.
 
     Attributes
     ----------
