@@ -4,9 +4,9 @@
 those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_surface is searched for, or a
 bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
 over 0.01–0.2 a_H, held against the same with many more places and instants, and where these differ, against
-the plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps what is found of each
-kind, so that ``--kinds mean`` looks at the means alone. ``--points`` draws fewer of each scene, ``--quick``
-next to none.
+the plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
+what is found of each kind, so that ``--kinds mean`` looks at the means alone. ``--points`` draws fewer of each
+scene, ``--quick`` next to none.
 """
 
 from __future__ import annotations
@@ -63,8 +63,7 @@ KINDS = {
 }
 #: Largest distance of the means, and least over that.
 DISTANCES = 0.2, 0.05
-#: Binary logarithm of the number of places of a plain mean, whose error is then some 1e-4, and how many of
-#: them are looked at together.
+#: Binary logarithm of the number of places of a plain mean, and how many of them are looked at together.
 PLACES, TOGETHER = 13, 2048
 #: On a circle: angles, planes and instants of the first look, in rad how far the first closer one goes,
 #: how often, and how it narrows.
