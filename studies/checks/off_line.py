@@ -5,8 +5,8 @@ those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_
 bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
 over 0.01–0.2 a_H, held against the same with many more places and instants, and where these differ, against
 the plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
-what is found of each kind, so that ``--kinds mean`` looks at the means alone. ``--points`` draws fewer of each
-scene, ``--quick`` next to none.
+what is found of each kind, so that ``--kinds mean`` looks at the means alone. ``--points`` draws fewer of
+each scene, ``--quick`` next to none.
 """
 
 from __future__ import annotations
