@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scenes import random_points
+from scenes import points, random_points
 
-from swtstudy.mechanics.events.stretches import _places, meet
+from swtstudy.mechanics.events.stretches import _places, meet, split_at_layers, stretches
 from swtstudy.mechanics.line import first_look
 from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
 from swtstudy.mechanics.line.look import Look, _falling, reach
@@ -178,3 +179,41 @@ def test_a_curve_falls_at_once_from_a_corner_but_not_from_a_smooth_maximum():
     for offset in (0.0, 100.0, -100.0):
         sides = _falling(curves + offset, np.array([4, 4, 4]))
         assert sides.tolist() == [[True, True], [False, False], [True, False]]
+
+
+def test_thin_layers_of_the_cycle_end_at_cuts() -> None:
+    """One after the other, round the closed cycle: each as long as the short stretch beside it."""
+    # The first stretch is much shorter than the last one, much longer, and neither.
+    some = points(
+        friction=0.3,
+        phase=[0.722, 3.895, 0.7364701381659569],
+        normal_amplitude=[0.662, 0.896, 0.19],
+        tangential_amplitude=[0.931, 0.951, 0.122],
+        q=2,
+    )
+    scene = scene_of(some).split_at_breakpoints()
+    thin = 0.2
+    at = scene.coordinate.of(np.array([[1.274], [0.868], [0.9345]]))[:, 0]
+    cut = split_at_layers(scene.cycle, at, thin)
+    parts = stretches(scene.cycle, at[:, None])
+    count = 0
+    for row in range(len(at)):
+        ends = [
+            (low, high)
+            for low, high in zip(parts.low[row, 0], parts.high[row, 0], strict=True)
+            if high - low > 1e-12
+        ]
+        own = scene.cycle.begin[row][scene.cycle.end[row] > scene.cycle.begin[row]]
+        expected = {*own.tolist()}
+        for number, (low, high) in enumerate(ends):
+            before, after = ends[number - 1], ends[(number + 1) % len(ends)]
+            # Of α in cos α the time goes like the square.
+            longest = (high - low) * (0.5 * math.pi * thin) ** 2
+            if before[1] - before[0] < longest:
+                expected.add(low + (before[1] - before[0]))
+            if after[1] - after[0] < longest:
+                expected.add(high - (after[1] - after[0]))
+        count += len(expected) - own.size
+        begins = cut.begin[row][cut.end[row] > cut.begin[row]]
+        assert np.unique(begins.round(9)).tolist() == np.unique(np.array([*expected]).round(9)).tolist()
+    assert count >= 4
