@@ -33,6 +33,8 @@ def main() -> None:
     given = arguments.parse_args()
     for folder in given.folders:
         package = folder / "swtstudy"
+        if not package.is_dir():
+            arguments.error(f"found no swtstudy in {folder}")
         print(f"{folder.name}:\n")
         report({module_of(path, package): path for path in sorted(package.rglob("*.py"))}, given.quick)
 
