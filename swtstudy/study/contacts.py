@@ -48,6 +48,14 @@ def read_blocks(raw: Mapping[str, Any], loads: Mapping[str, Definition], report:
     return tuple(blocks)
 
 
+def told_of_lives(raw: Mapping[str, Any], report: Report) -> None:
+    """Report that blocks are of no use to a [material] that is sound, and has no lives."""
+    if "material" in raw and not any(mistake.key.startswith("material") for mistake in report):
+        report(
+            "blocks", "blocks with a [material] without lives", "constants of lives: Miner's sum needs them"
+        )
+
+
 def _cycles(name: str, raw: Mapping[str, Any], loads: Mapping[str, Definition]) -> list[str]:
     """The names of the cycles of a load that keeps them, or its own."""
     table = raw.get("loads", {}).get(name) if isinstance(raw.get("loads"), dict) else None

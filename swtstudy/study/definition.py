@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
-from swtstudy.study.contacts import every_name, read_blocks, read_given, rows_of
+from swtstudy.study.contacts import every_name, read_blocks, read_given, rows_of, told_of_lives
 from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
@@ -206,6 +206,8 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     if contacts is not None and contacts.yield_strengths:
         names = tuple(dict.fromkeys((*names, YIELD)))
     counts = contacts is not None and bool(contacts.materials or contacts.shear_materials)
+    if blocks and contacts is not None and not counts:
+        told_of_lives(raw, report)
     asked = Request(names, *distances, counts=counts)
     grid: Grid | None
     if contacts is None:

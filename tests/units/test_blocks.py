@@ -155,6 +155,13 @@ def test_blocks_need_lives() -> None:
     text = re.sub(r"\[material\][^\[]*", "", RIG) + RUNNING + block("running", 1)
     with pytest.raises(StudyError, match=r"blocks: found blocks without \[units\] and \[material\]"):
         Study.from_text(text)
+    strength = re.sub(r"\[material\][^\[]*", "[material]\nyield_strength = 350\n", RIG)
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(strength + RUNNING + block("running", 1), "s")
+    assert [*map(str, caught.value.mistakes)] == [
+        "s: blocks: found blocks with a [material] without lives; "
+        "allowed: constants of lives: Miner's sum needs them"
+    ]
 
 
 def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
