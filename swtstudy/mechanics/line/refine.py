@@ -21,6 +21,7 @@ from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.stress.line import OUTSIDE
 from swtstudy.mechanics.stress.scene import Scene
 
 #: How often the plane is improved and the extremes over the cycle are looked up anew, where swt does not rise
@@ -152,7 +153,7 @@ def refine_beside(
     Layers of the cycle have instants of their own (without: 1.4e-4 at a point of
     tests/mechanics/test_overlooked.py), and planes beside are tried (without: 9e-5 at another).
     """
-    at = scene.coordinate.of(r[:, None])[:, 0]
+    at = scene.coordinate.of(np.minimum(r, OUTSIDE * scene.largest_radius)[:, None])[:, 0]
     scene = replace(scene, cycle=split_at_layers(scene.cycle, at, THIN))
     look = Look.at(scene, r[:, None], resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
