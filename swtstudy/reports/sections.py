@@ -22,7 +22,6 @@ from swtstudy.reports.values import (
     share,
     symbol_html,
     symbol_of,
-    unit_of,
     value_text,
     with_unit,
 )
@@ -47,7 +46,7 @@ def tiles(dataset: xr.Dataset) -> str:
     for end, one in _ends(dataset):
         swt = measured(one)
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
-        value = f"{number_words(float(swt))} {escape(unit_of(swt))}".strip()
+        value = with_unit(number_words(float(swt)), swt)
         found.append((f"{end} {symbol_of(swt)}".strip(), value, where))
     if relative.size:
         largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
@@ -90,9 +89,7 @@ def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
             one = lever.table.isel(index_at(ratio, int(flat)))
             cells = [along(name, one[name]) for name in others]
             for end in ("minimum", "maximum"):
-                value = (
-                    f"{number_words(float(one[end]))} {escape(unit_of(measured_at(dataset, one)))}".rstrip()
-                )
+                value = with_unit(number_words(float(one[end])), measured_at(dataset, one))
                 cells += [value, along(lever.name, one[f"at_{end}"])]
             rows.append([*cells, number_words(float(one.ratio), 3)])
         own = symbol_of(dataset[lever.name])

@@ -166,7 +166,7 @@ def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Repo
     if largest <= upper * smallest:
         return
     here = _at(grid, index_at(length, int(length.values.argmin())))
-    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
+    words = _at_rest_words(grid, here)
     found = f"{largest:g}{unit_words(row.units)} at {words}, {largest / smallest:.4g} a_H"
     report.of(DISTANCE, found, f"at most {upper * smallest:.4g}{unit_words(row.units)}, {upper:g} a_H")
 
@@ -187,7 +187,7 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     first, here = tuple(at.values()), _at(grid, at)
     own, unit = as_number(here[source]), grid.row(source).units
     number = float(values.values[first])
-    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here and name != source})
+    words = _at_rest_words(grid, here, source)
     more = more_like_it(int(wrong.sum()))
     scale = AXES[source].scale or row.scale
     found = f"{own:g} {unit}".strip()
@@ -215,6 +215,11 @@ def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
             dim = grid.dimension(name)
             found[name] = values[int(at.get(dim, 0))] if dim else values[0]
     return found
+
+
+def _at_rest_words(grid: PhysicalGrid, here: Mapping[str, Value], but: str = "") -> str:
+    """The values that a contact at rest depends on, but for one, in words."""
+    return _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here and name != but})
 
 
 def _words(grid: PhysicalGrid, values: Mapping[str, Value]) -> str:
@@ -245,7 +250,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     first = int(np.flatnonzero(wrong)[0])
     here = _at(grid, {dim: index[first] for dim, index in places.items()})
     amplitude = grid.control.given_for("normal_amplitude")
-    words = _words(grid, {name: here[name] for name in AT_REST_NAMES if name in here})
+    words = _at_rest_words(grid, here)
     words += f", {amplitude} = {as_number(here[amplitude]):g} {grid.row(amplitude).units}".rstrip()
     more = more_like_it(int(wrong.sum()))
     why = check_shape(numbers["pure"][first], {n: float(v[first]) for n, v in shape.items()}, depth[first])

@@ -23,6 +23,7 @@ from swtstudy.mechanics.numerics.arrays import (
     count_below,
     filled_rows,
     gather,
+    layer_share,
     packed,
 )
 from swtstudy.mechanics.points import FloatArray, Rows
@@ -161,7 +162,7 @@ def split_at_layers(cycle: Cycle, at: FloatArray, thin: float) -> Cycle:
     at
         Shape (n,): G of the springs.
     thin
-        Largest layer that counts, as a share of the angle of a stretch, whose square goes like the time.
+        Share of the angle of a stretch up to which a layer counts.
     """
     parts = stretches(cycle, at[:, None])
     row, number = np.nonzero(parts.real[:, 0])
@@ -172,8 +173,7 @@ def split_at_layers(cycle: Cycle, at: FloatArray, thin: float) -> Cycle:
     before, after = np.roll(length, 1), np.roll(length, -1)
     # The cycle is closed.
     before[first], after[last] = length[last], length[first]
-    thickest = (0.5 * np.pi * thin) ** 2 * length
-    begins, ends = before < thickest, after < thickest
+    begins, ends = (layer_share(near, length) < thin for near in (before, after))
     owner = np.append(row[begins], row[ends])
     if not owner.size:
         return cycle

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.positions import Positions
-from swtstudy.mechanics.line.refine import BESIDE, summits
+from swtstudy.mechanics.line.refine import beside, summits
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
 from swtstudy.mechanics.planes.through_y import PlaneHistory, on_planes
 from swtstudy.mechanics.points import FloatArray, Rows
@@ -76,7 +76,8 @@ class Climb(Rows):
         own, x_sign = scene.take(positions.point[place]), np.where(side == 0, 1.0, -1.0)
         look = Look.at(own, positions.r[place][:, None], resolution.nodes, resolution.digits)
         planes = own.planes(look.history, x_sign[:, None, None]).take(np.arange(place.size), 0 * place)
-        row, angle, swt = _high_planes(planes, look.inside[:, 0], seen.double_angle[place, side])
+        starts = _starts(planes, seen.double_angle[place, side])
+        row, angle, swt = summits(planes, look.inside[:, 0], *starts)
         point = positions.point[place[row]]
         if least is None:
             least = largest_of_rows(point, swt)
@@ -122,31 +123,27 @@ class Climb(Rows):
         )
 
 
-def _high_planes(
-    planes: PlaneHistory, inside: NDArray[np.bool_], double_angle: FloatArray
-) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
-    """Planes on which swt has its local maxima at m places, as far as they may be the largest.
+def _starts(planes: PlaneHistory, double_angle: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    """Planes from which to climb to the `summits` of m places that may be the largest.
 
     Parameters
     ----------
     planes
         At m places and T instants.
-    inside
-        Shape (m, T), see `Look.inside`.
     double_angle
         Shape (m,): 2θ of the best planes of the first look, rad.
 
     Returns
     -------
-    row, double_angle, swt
-        Shape (k,): numbers of the places, ascending, 2θ of the planes in rad and swt there.
+    row, double_angle
+        Shape (s,): numbers of the places, and 2θ of the planes in rad.
     """
-    angles = 2.0 * np.pi / PLANES * np.arange(PLANES)
-    table = on_planes(planes, PLANES)
+    angles, table = np.linspace(0.0, 2.0 * np.pi, PLANES, endpoint=False), on_planes(planes, PLANES)
+    own = np.arange(len(double_angle))
     peak = (table >= np.roll(table, 1, axis=0)) & (table > np.roll(table, -1, axis=0))
     peak &= table >= (1.0 - 2.0 * SHARE) * table.max(axis=0)
     # A place without tension keeps one.
-    peak[table.argmax(axis=0), np.arange(len(inside))] = True
+    peak[table.argmax(axis=0), own] = True
     row, plane = np.nonzero(peak.T)
-    starts = np.append(angles[plane] + BESIDE[:, None], double_angle)
-    return summits(planes, inside, np.append(np.tile(row, len(BESIDE)), np.arange(len(inside))), starts)
+    around, start = beside(row, angles[plane])
+    return np.append(around, own), np.append(start, double_angle)

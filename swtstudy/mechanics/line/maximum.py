@@ -18,6 +18,7 @@ from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounding import of_rounding
 from swtstudy.mechanics.line.rounds import CHANGE_SHARE, tops
+from swtstudy.mechanics.numerics.arrays import highest_of_rows
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -87,17 +88,16 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
     """The maxima of the points to which climbs belong, in their order."""
     found = tops(split, positions, climb, accuracy, SHARES)
-    climb, value = found.climb, found.value
-    order = np.lexsort((-value, climb.point))
-    best = order[np.unique(climb.point[order], return_index=True)[1]]
+    best = found.take(highest_of_rows(found.climb.point, found.value))
     # A climb that is not over may change by all that its last round has changed, once more.
+    climb = best.climb
     remaining = np.where(
         climb.settled, climb.remaining, np.minimum(climb.remaining / CHANGE_SHARE, climb.top)
     )
-    error = np.abs(value[best] - climb.top[best]) + remaining[best]
+    error = np.abs(best.value - climb.top) + remaining
     # Nothing finer than this was looked at.
-    error = np.maximum(error, accuracy.tolerance * value[best])
-    return Maximum(value[best], error, found.position[best], found.angle[best])
+    error = np.maximum(error, accuracy.tolerance * best.value)
+    return Maximum(best.value, error, best.position, best.angle)
 
 
 #: Relative accuracy of swt there.

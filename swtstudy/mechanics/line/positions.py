@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
-from swtstudy.mechanics.numerics.arrays import SAME, between, packed, place_in_row
+from swtstudy.mechanics.numerics.arrays import SAME, between, layer_share, packed, place_in_row
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.line import COORDINATE
 from swtstudy.mechanics.stress.scene import Scene
@@ -139,8 +139,7 @@ class Pieces:
         length = self.high - self.low
         before = np.append(np.inf, np.where(np.diff(self.point) == 0, length[:-1], np.inf))
         after = np.append(np.where(np.diff(self.point) == 0, length[1:], np.inf), np.inf)
-        # α² is what grows like the distance from an end.
-        share = 2.0 / np.pi * np.sqrt(np.stack([before, after], axis=1) / length[:, None])
+        share = layer_share(np.stack([before, after], axis=1), length[:, None])
         piece, side = np.nonzero(share < thin)
         return piece, np.where(side == 0, share[piece, side], 1.0 - share[piece, side])
 

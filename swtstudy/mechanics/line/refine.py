@@ -16,7 +16,7 @@ from swtstudy.mechanics.events.stretches import split_at_layers
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import CLOSE_SHARE, THIN
 from swtstudy.mechanics.line.look import Extremes, Look, Resolution, lifted
-from swtstudy.mechanics.numerics.arrays import largest_of_rows
+from swtstudy.mechanics.numerics.arrays import highest_of_rows, largest_of_rows
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
@@ -158,13 +158,12 @@ def refine_beside(
     look = Look.at(scene, r[:, None], resolution.nodes, resolution.digits)
     planes = scene.planes(look.history, side[:, None, None])
     own = np.arange(len(r))
-    starts = (double_angle + BESIDE[:, None]).ravel()
-    row, angle, swt = summits(planes.take(own, 0 * own), look.inside[:, 0], np.tile(own, len(BESIDE)), starts)
+    row, angle, swt = summits(planes.take(own, 0 * own), look.inside[:, 0], *beside(own, double_angle))
     high = swt >= (1.0 - CLOSE_SHARE) * largest_of_rows(row, swt)[row]
     row, start = row[high], angle[high, None]
-    found = _refined(scene.take(row), look.take(row), planes.take(row), side[row], start, resolution)
-    best = np.lexsort((-found[0][:, 0], row))[np.unique(row, return_index=True)[1]]
-    return found[0][best, 0], found[1][best, 0]
+    swt, angle = _refined(scene.take(row), look.take(row), planes.take(row), side[row], start, resolution)
+    best = highest_of_rows(row, swt[:, 0])
+    return swt[best, 0], angle[best, 0]
 
 
 def _refined(
@@ -237,6 +236,11 @@ class _Zoom:
             samples = self._within(samples.narrowed(angle))
             swt, angle = samples.best_plane(angle, gain)
         return swt, angle
+
+
+def beside(row: NDArray[np.intp], double_angle: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+    """Planes at 2θ of places number ``row``, both (m,), and those beside them, with their places, (5 m,)."""
+    return np.tile(row, len(BESIDE)), (double_angle + BESIDE[:, None]).ravel()
 
 
 def summits(

@@ -154,6 +154,12 @@ def largest_of_rows(row: NDArray[np.intp], values: FloatArray) -> FloatArray:
     return largest
 
 
+def highest_of_rows(row: NDArray[np.intp], values: FloatArray) -> NDArray[np.intp]:
+    """Indices of the largest of the values, (m,), of each row that has any; of equal ones the first."""
+    order = np.lexsort((-values, row))
+    return order[np.unique(row[order], return_index=True)[1]]
+
+
 def as_rows(row: NDArray[np.intp], rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
     """Where the entries of some rows are among those of all, which are listed row by row.
 
@@ -204,6 +210,11 @@ def distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
 def between(low: FloatArray, high: FloatArray, angle: FloatArray) -> FloatArray:
     """Places between ``low`` (α = 0) and ``high`` (α = π) at the angle α."""
     return low + (high - low) * (0.5 - 0.5 * np.cos(angle))
+
+
+def layer_share(thickness: FloatArray, length: FloatArray) -> FloatArray:
+    """Share of the angle α of `between` that a thin layer at an end takes: α² grows like the distance."""
+    return np.asarray(2.0 / np.pi * np.sqrt(thickness / length))
 
 
 def polynomial_in(coefficients: FloatArray, piece: NDArray[np.intp], t: FloatArray) -> FloatArray:
