@@ -71,10 +71,13 @@ class Cycle(Rows):
 
     def first_half(self) -> Cycle:
         """The intervals that begin in the first half of the common period, and empty ones."""
-        keep = self.begin < 0.5 * PERIOD
-        (interval,) = packed(keep, np.broadcast_to(np.arange(keep.shape[1]), keep.shape))
-        chosen = self.take_intervals(np.arange(len(keep)), interval)
-        empty = np.arange(interval.shape[1]) >= keep.sum(axis=1, keepdims=True)
+        return self.only(self.begin < 0.5 * PERIOD)
+
+    def only(self, kept: NDArray[np.bool_]) -> Cycle:
+        """The intervals that are ``kept``, (n, i), and empty ones."""
+        (interval,) = packed(kept, np.broadcast_to(np.arange(kept.shape[1]), kept.shape))
+        chosen = self.take_intervals(np.arange(len(kept)), interval)
+        empty = np.arange(interval.shape[1]) >= kept.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
 
     def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:

@@ -12,6 +12,7 @@ from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.refine import beside, summits
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
+from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.through_y import PlaneHistory, on_planes
 from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
@@ -32,6 +33,8 @@ class Climb(Rows):
     ----------
     point, side, place
         Number of the point, sign of x, and number of the position around which is searched.
+    intervals
+        Shape (m, i): in which intervals of the cycle swt is looked at.
     angle
         2θ of the best plane so far, rad.
     centre, width
@@ -50,6 +53,7 @@ class Climb(Rows):
     point: NDArray[np.intp]
     side: FloatArray
     place: NDArray[np.intp]
+    intervals: NDArray[np.bool_]
     angle: FloatArray
     centre: FloatArray
     width: FloatArray
@@ -83,9 +87,12 @@ class Climb(Rows):
             least = largest_of_rows(point, swt)
         # Positions that were predicted by half of them leave less than half of the share.
         high = swt >= (1.0 - 0.5 * SHARE) * least[point]
-        row, angle, zero = row[high], angle[high], np.zeros(np.count_nonzero(high))
+        row, angle, point, zero = row[high], angle[high], point[high], np.zeros(np.count_nonzero(high))
+        interval, count = look.placed.interval[row, 0], scene.cycle.begin.shape[1]
+        intervals = _high_intervals(planes.take(row), angle, interval, count)
         heights = zero, zero + FIRST_WIDTH, zero, zero, zero
-        return cls(point[high], x_sign[row], place[row], angle, *heights, zero.astype(np.intp), zero > 0.0)
+        rounds, settled = zero.astype(np.intp), zero > 0.0
+        return cls(point, x_sign[row], place[row], intervals, angle, *heights, rounds, settled)
 
     def leading(self, height: FloatArray, share: float) -> Climb:
         """Keep the climbs whose height, shape (m,), is at least a share of the largest one at their point."""
@@ -121,6 +128,31 @@ class Climb(Rows):
             rounds=twins.rounds + 1,
             settled=np.zeros(len(twins.point), dtype=bool),
         )
+
+
+def _high_intervals(
+    planes: PlaneHistory, double_angle: FloatArray, interval: NDArray[np.intp], count: int
+) -> NDArray[np.bool_]:
+    """Which of ``count`` intervals of the cycle may make swt near places, shape (m, count).
+
+    Parameters
+    ----------
+    planes
+        At m places and T instants.
+    double_angle
+        Shape (m,): 2θ of a plane each, rad.
+    interval
+        Shape (m, T): in which the instants are.
+    """
+    curves = planes.criterion.curves(*planes.on_plane(double_angle))
+    # What positions, instants and planes may leave unseen.
+    high = np.logical_or.reduce([near_maximum(curve, 3.0 * SHARE) for curve in curves])
+    # An extreme is between its neighbours, which may be in other intervals.
+    high |= np.roll(high, 1, axis=-1) | np.roll(high, -1, axis=-1)
+    result = np.zeros((len(interval), count), dtype=bool)
+    place, instant = np.nonzero(high)
+    result[place, interval[place, instant]] = True
+    return result
 
 
 def _starts(planes: PlaneHistory, double_angle: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:

@@ -120,12 +120,12 @@ def climb_to_tops(
         Local maxima below these shares of the largest of their point are not followed further, after each
         round; the last one is that of all further rounds. Without them all are.
     """
-    largest_part = max(PART_SIZE // scene.cycle.begin.shape[1] ** 2, 1)
     for turn in range(LARGEST_ROUND_COUNT):
         going = np.flatnonzero(~climb.settled)
         if not going.size:
             break
-        parts = np.array_split(going, -(-going.size // largest_part))
+        intervals = int(climb.intervals[going].sum(axis=1).max())
+        parts = np.array_split(going, -(-going.size // max(PART_SIZE // intervals**2, 1)))
         rounds = [_climb_round(scene, positions, climb.take(part), accuracy) for part in parts]
         moved = Climb.joined([climb.take(climb.settled), *(same for same, _ in rounds)])
         before = np.concatenate([climb.place[climb.settled], climb.place[going]])
@@ -167,6 +167,7 @@ def tops(
         return found
     some = found.take(higher)
     again = found.climb.twins(np.flatnonzero(higher), some.climb.centre, some.value, some.angle)
+    again = replace(again, intervals=np.ones_like(again.intervals))
     more = _looked_at_once_more(scene, positions, again, accuracy, shares)
     return Tops.joined([found.take(~higher), more])
 
@@ -207,6 +208,7 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     c = np.where(corner & (centre < 0.0), np.minimum(c, 0.0), c)
     start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
     chosen = scene.take(climb.point)
+    chosen = replace(chosen, cycle=chosen.cycle.only(climb.intervals))
     values, angles = refine(chosen, brackets.around(c), climb.side, start, accuracy.search)
     # Equal values, as beyond the last position, count for the centre.
     away = np.abs(OFFSETS) / OFFSETS[-1]
