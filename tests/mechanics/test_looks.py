@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from scenes import points, random_points
 
+from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.events.stretches import _places, meet, split_at_layers, stretches
-from swtstudy.mechanics.line import first_look
+from swtstudy.mechanics.line import climb, first_look
 from swtstudy.mechanics.line.first_look import Seen, _predicted, high_positions, resolved
 from swtstudy.mechanics.line.look import Look, _falling, reach
 from swtstudy.mechanics.line.positions import Pieces
@@ -217,3 +218,40 @@ def test_thin_layers_of_the_cycle_end_at_cuts() -> None:
         begins = cut.begin[row][cut.end[row] > cut.begin[row]]
         assert np.unique(begins.round(9)).tolist() == np.unique(np.array([*expected]).round(9)).tolist()
     assert count >= 4
+
+
+@pytest.mark.parametrize(
+    "point",
+    [
+        # The largest of a curve is between two instants, of which one is in the next interval.
+        points(phase=np.radians(85.0)),
+        # Another interval is high where the climb ends.
+        points(normal_amplitude=0.25, phase=np.radians(357.5), p=1, q=4),
+    ],
+)
+def test_what_climbs_leave_out_of_the_cycle_does_not_matter(point, monkeypatch) -> None:
+    some, kept = climb._high_intervals, []
+
+    def all_intervals(*arguments):
+        kept.append(some(*arguments))
+        return np.ones_like(kept[-1])
+
+    found = solve_points(point).s
+    monkeypatch.setattr(climb, "_high_intervals", all_intervals)
+    np.testing.assert_allclose(found, solve_points(point).s, rtol=1e-8)
+    assert np.mean(kept[0]) < 0.8
+
+
+def test_some_intervals_of_a_cycle_are_those_of_the_whole_one() -> None:
+    scene = scene_of(points(phase=[0.3, 2.0], p=3, q=2))
+    cycle = scene.cycle
+    kept = np.zeros(cycle.begin.shape, dtype=bool)
+    kept[0, [1, 4, 5]] = kept[1, [0, 3]] = True
+    less = cycle.only(kept)
+    assert less.begin.shape == (2, 3)
+    for row in range(2):
+        some, real = np.flatnonzero(kept[row]), kept[row].sum()
+        for name in ("begin", "end", "forward", "backward"):
+            np.testing.assert_array_equal(getattr(less, name)[row, :real], getattr(cycle, name)[row, some])
+        np.testing.assert_array_equal(less.memory.start[row, :real], cycle.memory.start[row, some])
+    assert less.begin[1, 2] == less.end[1, 2]
