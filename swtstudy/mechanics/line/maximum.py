@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.climb import Climb
-from swtstudy.mechanics.line.first_look import joined_pieces, resolved
+from swtstudy.mechanics.line.first_look import CLOSER, PLANES, first_look, joined_pieces, resolved
 from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounding import of_rounding
@@ -104,6 +104,10 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
 CANDIDATE_TOLERANCE = 1e-4
 #: Maxima of a point nearer to one another than this share of the contact radius are one.
 SAME_MAXIMUM = 1e-5
+#: Distance, over the contact radius, at which swt is lower beside a maximum, and what a look is off there.
+#: All that climbs end at: values about flanks, 5 % above those about maxima
+#: (tests/mechanics/test_worst_means.py).
+NEIGHBOUR, LOOK_ERROR = 0.01, 1e-3
 
 
 class Candidates(NamedTuple):
@@ -132,8 +136,21 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     positions, seen = resolved(scene, Pieces.of(split), least)
     climb = Climb.start(split, positions, seen, accuracy.search, least)
     top = tops(split, positions, climb, accuracy)
+    top = top.take(_are_maxima(scene.take(top.climb.point), top.position))
     found = Candidates(top.climb.point, top.position, top.angle, top.value)
     return _apart(found, SAME_MAXIMUM * scene.largest_radius)
+
+
+def _are_maxima(scene: Scene, x: FloatArray) -> NDArray[np.bool_]:
+    """At which of m places, one of each scene, swt is as high as beside them.
+
+    Climbs may end where that of one plane is highest, on a flank of another one's.
+    """
+    r = np.abs(x)[:, None] + NEIGHBOUR * scene.largest_radius[:, None] * np.array([-1.0, 0.0, 1.0])
+    seen = first_look(scene, np.abs(r), CLOSER, PLANES).swt
+    side = np.where(x < 0.0, seen.shape[2] - 1, 0)
+    before, here, after = seen[np.arange(len(x)), :, side].T
+    return np.asarray(np.maximum(before, after) <= (1.0 + LOOK_ERROR) * here)
 
 
 def _apart(found: Candidates, distance: FloatArray) -> Candidates:

@@ -45,9 +45,9 @@ SUDDEN = 4.0
 #: s_error is all of s at a point of tests/mechanics/test_s_error.py. 1: a second maximum is not followed, and
 #: s is 1.3e-4 low at a point of tests/mechanics/test_overlooked.py.
 TIE = 1e-3
-#: Rounds at most: what is still on its way then counts where it is, and a mean may be largest about it
-#: (tests/mechanics/test_worst_means.py).
-LARGEST_ROUND_COUNT = 16
+#: Rounds at most: from position to position climbs may go far. A quarter: values over a critical distance are
+#: about places on flanks (tests/mechanics/test_worst_means.py).
+LARGEST_ROUND_COUNT = 64
 #: Local maxima times squared intervals of the cycle that a round does at a time: memory is bounded.
 PART_SIZE = 100_000
 
