@@ -16,7 +16,16 @@ from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.points.records import COMPUTED, MISSING, Records, join, look_up, made_by, matching
+from swtstudy.points.records import (
+    COMPUTED,
+    MISSING,
+    Records,
+    completed,
+    join,
+    look_up,
+    made_by,
+    matching,
+)
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.unique import unique_points, wanted
 from swtstudy.points.values import Value, as_number
@@ -82,7 +91,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
                 "--sparse (sparse=True in Python) leaves them missing"
             )
         made += f", {gaps} in none of them"
-    merged = matching(points.table, records, records.status != MISSING)
+    merged = completed(matching(points.table, records, records.status != MISSING), records)
     axis = any(DISTANCE in dataset.dims for dataset in datasets)
     asked = _asked(datasets, made_by(records.runs), axis)
     if not sparse:
@@ -191,7 +200,11 @@ def _union(grids: list[Grid]) -> Grid:
 def _distinct(values: list[Value]) -> tuple[Value, ...]:
     """Distinct values, numbers in increasing order."""
     if any(isinstance(value, str | Definition) for value in values):
-        return tuple(dict.fromkeys(values))
+        distinct = tuple(dict.fromkeys(values))
+        names = [str(value) for value in distinct]
+        if several := sorted({name for name in names if names.count(name) > 1}):
+            raise ConflictError(f"{', '.join(several)}: of this name each archive defines another one")
+        return distinct
     keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
     return tuple(sorted(keyed.values(), key=as_number))
 

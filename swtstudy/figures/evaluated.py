@@ -121,7 +121,7 @@ def fit_lines(fitted: xr.Dataset, math: bool = False) -> list[str]:
     lines = []
     level = f"{100 * fitted.attrs['confidence']:g} %"
     for name in ("critical_distance", "friction"):
-        if name not in fitted:
+        if f"{name}_low" not in fitted:
             continue
         value, low, high = (float(fitted[f"{name}{end}"]) for end in ("", "_low", "_high"))
         unit = str(fitted[name].attrs["units"])

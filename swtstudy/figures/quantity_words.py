@@ -72,7 +72,8 @@ def title_words(values: xr.DataArray, y: str) -> str:
     """The quantity in the title of a panel: its symbol."""
     if y.strip() == "s":
         return "$s$"
-    return quantity_words(values.assign_attrs(units="1"), y).rpartition(", ")[2]
+    words, found, symbol = quantity_words(values.assign_attrs(units="1"), y).partition("$")
+    return f"${symbol}" if found else words.rpartition(", ")[2]
 
 
 def part_words(part: xr.Dataset, name: str) -> str:

@@ -242,3 +242,30 @@ def matching(table: Table, records: Records, candidates: NDArray[np.bool_]) -> R
     """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
     found = look_up(table, records, candidates)
     return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))
+
+
+def completed(chosen: Records, others: Records) -> Records:
+    """The chosen records with those quantities, too, that others of the same points have.
+
+    One row may stand for contacts of several sizes, each of which has critical distances of its own.
+    """
+    items = made_by(others.runs)
+    more, known = np.zeros((len(chosen), len(items)), bool), dict(chosen.quantities)
+    for number, item in enumerate(items):
+        lacks = np.flatnonzero(chosen.lacking([item])[:, 0])
+        has = (others.status == COMPUTED) & ~others.lacking([item])[:, 0]
+        found = look_up(chosen.table[lacks], others, has)
+        rows, found = lacks[found >= 0], found[found >= 0]
+        more[rows, number] = True
+        for column in columns_of([item]) if rows.size else ():
+            values = chosen.quantity(column) if column not in known else known[column].copy()
+            values[rows] = others.quantity(column)[found]
+            known[column] = values
+    runs, run = list(chosen.runs), chosen.run.copy()
+    changed = np.flatnonzero(more.any(axis=1))
+    kinds, kind = np.unique(np.column_stack([run[changed], more[changed]]), axis=0, return_inverse=True)
+    for number, (own, *added) in enumerate(kinds):
+        names = {*runs[own].quantities, *(item for item, has in zip(items, added, strict=True) if has)}
+        runs.append(replace(runs[own], quantities=tuple(sorted(names)), seconds=0.0))
+        run[changed[kind.ravel() == number]] = len(runs) - 1
+    return replace(chosen, runs=tuple(runs), run=run, quantities=known)

@@ -91,6 +91,8 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
         A ValueError, if the results have been left without s or regime.
     """
     require(dataset, "s", "regime")
+    if not dataset.s.size:
+        return ()
     lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
     within: list[str] = []
     for limit in LIMITS:
@@ -183,10 +185,11 @@ def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
         return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
     index = np.unravel_index(int(ratio.argmax()), ratio.shape)
     force = float(_over_points(dataset, dataset[name])[index])
-    unit = dataset[name].attrs.get("units", "1")
-    if unit in ("1", ""):
+    if not has_units(dataset):
         return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
-    return f": {name} {force:.4g} {unit} exceeds μ F_N = {force / worst:.4g} {unit}{place}"
+    # Of a contact without names of units the numbers have none.
+    unit = unit_words(dataset[name].attrs.get("units", ""))
+    return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
 
 
 def _above_line(dataset: xr.Dataset) -> xr.DataArray:
@@ -219,22 +222,19 @@ def _beside_tip(dataset: xr.Dataset) -> Iterator[str]:
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[str]:
-    """Points whose lives are beyond those of which constants are known."""
-    for name, values in _every_life(dataset):
-        out = _beyond(values)
+    """Points with lives beyond those of which constants are known."""
+    for name in map(str, dataset.data_vars):
+        if not _is_life(dataset, name):
+            continue
+        # A point may have several, such as those over critical distances.
+        lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
+        out = _beyond(lives)
         if out.any():
-            ends = dict.fromkeys((float(values[out].min()), float(values[out].max())))
+            ends = dict.fromkeys((float(lives[out].min()), float(lives[out].max())))
             found = " to ".join(numbers_words(ends, 3))
             known = " to ".join(numbers_words(KNOWN_LIVES, 3))
-            yield f"{name} extrapolated{_where(out)}: {found}, while the constants are known for {known}"
-
-
-def _every_life(dataset: xr.Dataset) -> Iterator[tuple[str, NDArray[np.float64]]]:
-    """Lives of the points, the shortest over what each has several of, in the shape of s."""
-    for name in map(str, dataset.data_vars):
-        if _is_life(dataset, name):
-            own = [dim for dim in dataset[name].dims if dim not in dataset.s.dims]
-            yield name, dataset[name].min(own).transpose(*dataset.s.dims).values
+            where = _where(np.asarray(out.any(axis=-1)))
+            yield f"{name} extrapolated{where}: {found}, while the constants are known for {known}"
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
@@ -245,7 +245,7 @@ def _is_life(dataset: xr.Dataset, name: str) -> bool:
 def _beyond(lives: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which are beyond `KNOWN_LIVES`; where nothing is in tension a life is infinite."""
     low, high = KNOWN_LIVES
-    return np.isfinite(lives) & ((lives < low) | (lives > high))
+    return np.asarray(np.isfinite(lives) & ((lives < low) | (lives > high)))
 
 
 def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> NDArray[np.float64]:

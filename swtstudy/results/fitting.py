@@ -48,7 +48,7 @@ XTOL = 1e-4
 #: Relative step of friction in difference quotients, well above what means are off by; its upper bound.
 STEP, MOST_FRICTION = 0.02, 3.0
 #: Nonlocal lives; the strictly local one knows no distance.
-NONLOCAL_LIVES = tuple(name for name in LIVES if name != "cycles")
+NONLOCAL_LIVES = tuple(name for name in LIVES if not name.endswith("cycles"))
 
 
 def fit(

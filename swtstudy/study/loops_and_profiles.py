@@ -54,6 +54,10 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
             continue
         try:
             if kind == "file":
+                if table.get("keep_cycles") is True and table.get("harmonics") is not None:
+                    allowed = "one of the two: kept cycles are as they were recorded"
+                    report(key, "keep_cycles and harmonics", allowed)
+                    continue
                 signal = signal_from(folder / table["file"], name, table)
                 found[name] = signal.loop
                 found |= {each.name: each for each in signal.loops if table.get("keep_cycles") is True}

@@ -51,6 +51,9 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[Value]) -> tupl
     """
     known = list(map(str, loads))
     report = Report()
+    if not isinstance(rounds, Mapping):
+        report("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
+        report.refuse()
     report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
         report += wrong_rounds(number, f"blocks.{name}")
@@ -127,10 +130,12 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     """
     rounds = ", ".join(f"{number_words(each.rounds)} of {each.load}" for each in blocks)
     known = {start: by for start, by in CRITERIA.items() if f"{start}{REPETITIONS}" in dataset}
-    words = "; ".join(
+    several = [
         _to_a_crack(dataset[f"{start}{REPETITIONS}"], dataset[f"{start}{SHARE}"], by)
         for start, by in known.items()
-    )
+    ]
+    # Each begins with what joins it to the rounds.
+    words = "; ".join([*several[:1], *(each.lstrip(":, ") for each in several[1:])])
     return f"{rounds}{words}" if words and rounds else ""
 
 

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
+from swtstudy.mechanics.load.load import Loop
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.rules import check_largest
+from swtstudy.points.rules import AMPLITUDES, check_largest
 from swtstudy.points.shapes import largest_depths, largest_reach
 from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
@@ -174,6 +175,9 @@ def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Repo
 def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     """Return whether a parameter is in its range everywhere; report the first value that is not."""
     row, values = PARAMETERS[column], grid.numbers[column]
+    if column in AMPLITUDES:
+        # Of a loop, by which its vertices are multiplied, the largest load counts.
+        values = values * max(_reach(load, column) for load in grid.values("load"))
     source = grid.control.given_for(column)
     if column == "bulk_stress_mean" and grid.values("bulk_stress_ratio"):
         source = "bulk_stress_ratio"
@@ -204,6 +208,15 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     most = f"{'at most' if high[first] else 'at least'} {bound * own / number:.4g} {unit}".strip()
     report.of(source, f"{found} at {words}, {number:.4g} {scale}{more}", f"{most}, {bound:g} {scale}")
     return False
+
+
+def _reach(load: Value, column: str) -> float:
+    """Largest size of a loop's values in the column of an amplitude; 1 of a harmonic load."""
+    if not isinstance(load, Loop):
+        return 1.0
+    of_bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
+    ends = dict(zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, of_bulk), strict=True))
+    return max(map(abs, ends[column]))
 
 
 def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:

@@ -147,3 +147,38 @@ def test_axes_that_differ_by_more_are_two(tmp_path):
     one = made(tmp_path, "one", [0.2], [0, 1])
     other = made(tmp_path, "other", [0.2 * (1 + 1e-11)], [0, 1])
     assert merge([one, other]).friction.values.tolist() == [0.2, 0.2 * (1 + 1e-11)]
+
+
+def test_contacts_that_share_a_point_keep_their_own_distances(tmp_path):
+    """In different sizes of one non-dimensional contact a length is several distances."""
+    head = (
+        'title = "t"\nrtol = 1e-2\n[units]\nlength = "mm"\nforce = "N"\nstress = "MPa"\n[fixed]\n'
+        "young_modulus = 115e3\npoisson_ratio = 0.32\nradius = 40\nfriction = 0.7\nbody = 1\n"
+        "critical_distance = 0.05\n"
+    )
+    paths = []
+    for force in (300, 500):
+        paths.append(tmp_path / f"{force}.nc")
+        text = f"{head}[axes]\nnormal_force = [{force}]\ntangential_force_amplitude = [60, 100]\n"
+        run(Study.from_text(text), paths[-1], workers=1)
+    merged = merge(paths)
+    assert np.isfinite(merged.SWT_volume).all()
+    for path in paths:
+        own = open_results(path)
+        np.testing.assert_array_equal(merged.SWT_volume.sel(normal_force=own.normal_force), own.SWT_volume)
+    # Again a study whose run has nothing to do.
+    save(merged, tmp_path / "merged.nc")
+    counting = stand_in.Counting()
+    run(Study.from_text(merged.attrs["study"]), tmp_path / "merged.nc", solver=counting, workers=1)
+    assert counting.points == 0
+
+
+def test_different_loops_of_one_name_are_refused(tmp_path):
+    paths = []
+    for name, last in (("one", -1), ("other", -0.5)):
+        paths.append(tmp_path / f"{name}.nc")
+        loop = f"[loads.rig]\nvertices = [[0, 1], [0.1, 0], [0, {last}]]\n"
+        text = f'title = "{name}"\nrtol = 1e-2\n{loop}[fixed]\nload = "rig"\n[axes]\nfriction = [0.3]\n'
+        run(Study.from_text(text), paths[-1], solver=stand_in.smooth)
+    with pytest.raises(ConflictError, match=r"^rig: of this name each archive defines another one$"):
+        merge(paths)

@@ -528,3 +528,15 @@ def test_the_worked_example():
 def test_sizes_that_can_be_computed_with(value, sign, allowed):
     found = [mistake.allowed for mistake in wrong_size("radius", value, "a length", sign)]
     assert found == ([] if allowed is None else [allowed])
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-3])
+def test_loops_are_in_range_by_their_size_not_by_their_factor(scale):
+    """Micrometres in millimetres, or in metres: a factor of 1 is 150 δ0 then."""
+    own = {"young_modulus": 73.1e3 / scale**2, "poisson_ratio": 0.33, "radius": 50.0 * scale, "friction": 0.5}
+    vertices = np.array([[0.0064, -0.001], [0.008, 0.0015], [0.006, 0.0005]]) * scale
+    loop = swtstudy.LoadPath.absolute("rig", vertices)
+    found = swtstudy.physical(**own, load=loop, normal_amplitude=1.0, tangential_amplitude=1.0, body=1)
+    assert found.solve().SWT.item() == pytest.approx(0.36364926 / scale**2, rel=1e-4)
+    with pytest.raises(swtstudy.StudyError, match=r": found 10000 at .*, 3540 μ E.*allowed: at most 28"):
+        swtstudy.physical(**own, load=loop, normal_amplitude=1.0, tangential_amplitude=1e4, body=1)

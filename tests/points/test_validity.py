@@ -275,3 +275,26 @@ def test_what_is_meant_is_not(phase):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         Study.from_text(f'title = "t"\n[fixed]\nphase = {phase}')
+
+
+def test_lives_of_each_distance_count():
+    rig = {"young_modulus": 115e3, "poisson_ratio": 0.32, "radius": 40.0, "friction": 0.7, "body": 1}
+    contact = physical(**rig, normal_force=[900.0, 1000.0], tangential_force_amplitude=500.0)
+    found = contact.solve(critical_distance=[0.02, 0.5], constants=ALUMINIUM, rtol=1e-2)
+    short, long = found.cycles_volume.transpose("critical_distance", ...).values
+    assert (short < 1e7).all()
+    assert (long > 1e7).tolist() == [False, True]
+    (line,) = [line for line in found.swt.validity() if line.startswith("cycles_volume")]
+    assert line.startswith("cycles_volume extrapolated at 1 of 2 points: ")
+
+
+def test_empty_results_have_no_validity():
+    found = swtstudy.solve(friction=[0.3, 0.6], rtol=1e-2).isel(friction=[])
+    assert found.swt.validity() == ()
+
+
+def test_a_force_that_is_too_large_is_told_in_its_own_unit():
+    given = {"young_modulus": 73.1e3, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
+    found = physical(**given, normal_force=200.0, tangential_force_amplitude=101.0, body=1).solve()
+    (line,) = found.swt.validity()
+    assert line == "no equilibrium: tangential_force_amplitude 101 exceeds μ F_N = 100"

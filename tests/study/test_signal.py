@@ -280,3 +280,41 @@ def test_a_study_tells_of_vertices_that_are_absolute_or_have_a_mean() -> None:
     given = RIG.replace("[fixed]", "[fixed]\nnormal_force = 300")
     about = Study.from_text(given + f"[loads.rig]\nvertices = {off}\nmean_normal = 200\n").grid
     assert about.values("normal_force") == (300.0,)
+
+
+def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:
+    time = np.arange(400) / 2000.0
+    wave = np.sin(40.0 * np.pi * time)
+    rows = np.stack([time, 300.0 + 20.0 * wave, 100.0 * wave], axis=1)
+    write(tmp_path / "gap.csv", np.delete(rows, slice(110, 210), axis=0), "time,normal,tangential")
+    with pytest.warns(
+        UserWarning, match=r"gap: a gap of 0.0505 in the time, at 0.0545, where most .* 0.0005"
+    ):
+        read_signal(tmp_path / "gap.csv", time="time", absolute=True, period=0.05)
+    # A quarter of a period is none, nor are the corners of a slow cycle.
+    for name, lost in (("less", slice(110, 130)), ("corners", np.flatnonzero(np.arange(400) % 25))):
+        write(tmp_path / f"{name}.csv", np.delete(rows, lost, axis=0), "time,normal,tangential")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            read_signal(tmp_path / f"{name}.csv", time="time", absolute=True, period=0.05)
+
+
+def test_a_closed_record_is_warned_of(tmp_path: Path) -> None:
+    closed = np.array([[0.0, 200, 0], [0.25, 260, 60], [0.5, 200, 0], [0.75, 200, -60], [1.0, 200, 0]])
+    write(tmp_path / "closed.csv", closed, "time,normal,tangential")
+    with pytest.warns(
+        UserWarning, match="closed: the last sample is the first again: leave it out if closed"
+    ):
+        read_signal(tmp_path / "closed.csv", time="time", absolute=True)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        # By a period the last one is of the next cycle.
+        signal = read_signal(tmp_path / "closed.csv", time="time", absolute=True, period=1.0)
+    assert signal.mean_normal == pytest.approx(215.0)
+
+
+def test_kept_cycles_have_no_harmonics(tmp_path: Path) -> None:
+    write(tmp_path / "rig.csv", np.tile(CYCLE, (2, 1)), "normal,tangential,bulk")
+    table = '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 2\nharmonics = 2\n'
+    (found,) = mistakes_of(f"{RIG}{table}keep_cycles = true\n", tmp_path)
+    assert "loads.rig: found keep_cycles and harmonics; allowed: one of the two" in found
