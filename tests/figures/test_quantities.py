@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from curves import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
 
+from swtstudy.figures.quantity_words import title_words
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -284,3 +286,11 @@ def test_all_mistakes_of_a_layout_come_at_once(dataset):
         dataset.swt.panels("fase", "friction", kind="pie", y=["s", "speed"], title="$x^2^3$")
     assert len(str(caught.value).splitlines()) == 4
     assert isinstance(caught.value.mistakes, tuple)
+
+
+def test_the_title_of_a_panel_is_a_whole_symbol() -> None:
+    values = xr.DataArray(
+        1.0, attrs={"long_name": "rounds", "symbol": r"N_{\mathrm{FS, volume}}", "units": "1"}
+    )
+    assert title_words(values.rename("FS_cycles_volume"), "FS_cycles_volume") == r"$N_{\mathrm{FS, volume}}$"
+    assert title_words(values, "s") == "$s$"

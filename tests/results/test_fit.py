@@ -146,6 +146,8 @@ def test_wrong_requests_are_named(rig, tmp_path):
     tests = {"tangential_force_amplitude": [30, 60], "life": [1e5, 1e6]}
     with pytest.raises(StudyError, match="y: found 'cycles'"):
         swtstudy.fit(rig[0], tests, y="cycles")
+    with pytest.raises(StudyError, match=r"y: found 'FS_cycles'; allowed: .*FS_cycles_volume"):
+        swtstudy.fit(rig[0], tests, y="FS_cycles")
     with pytest.raises(StudyError, match="confidence: found 2"):
         swtstudy.fit(rig[0], tests, confidence=2)
     plain = tmp_path / "plain.toml"
@@ -185,6 +187,9 @@ def test_the_command_writes_the_figure(rig, monkeypatch, tmp_path):
     ratios = sorted(round(float(line.get_ydata()[0] / line.get_xdata()[0]), 3) for line in lines)
     assert ratios == [0.2, 0.5, 1.0, 2.0, 5.0]
     assert fit_lines(found)[0] == done.stdout.splitlines()[0]
+    # Friction may be a column of the tests, and is no result then.
+    of_tests = {"tangential_force_amplitude": forces, "friction": np.full(6, 0.5), "life": observed}
+    assert fit_lines(swtstudy.fit(rig[0], of_tests)) == fit_lines(found)
 
 
 def with_material(*lines):

@@ -84,6 +84,7 @@ def test_a_single_load_and_a_contact_in_python_have_blocks_too(tmp_path: Path) -
     for blocks, words in (
         ({"runing": 1, "start-up": 1}, r"blocks: found 'runing'; allowed: did you mean running"),
         ({"running": -1, "start-up": 1}, r"blocks.running: found -1; allowed: a positive number of rounds"),
+        ([("running", 1)], r"blocks: found \[\('running', 1\)\]; allowed: rounds by the name of each load"),
         ({"running": 1}, r"blocks: found no rounds of 'start-up'; allowed: rounds of each load"),
     ):
         with pytest.raises(StudyError, match=words):
@@ -197,3 +198,4 @@ def test_lives_of_shear_are_summed_as_those_of_tension(tmp_path: Path) -> None:
     (line,) = [each for each in sentences(found) if "sequence of blocks" in each]
     assert f"repeated {times} times to a crack; running does" in line
     assert " times to a crack by Fatemi and Socie; running does" in line
+    assert "of the damage; repeated" in line
