@@ -54,12 +54,7 @@ class Swing(ABC):
 
     @abstractmethod
     def on_planes(
-        self,
-        stress: FloatArray,
-        normal: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        like: FloatArray,
+        self, stress: FloatArray, normal: FloatArray, tension: FloatArray, ν: float, like: FloatArray
     ) -> FloatArray:
         """Its curves with E = 1, (m, k, T), of m histories, (m, T, 6), on k planes each, (m, k, 3).
 
@@ -68,12 +63,7 @@ class Swing(ABC):
 
     @abstractmethod
     def amplitudes(
-        self,
-        stress: FloatArray,
-        normals: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        young_modulus: float,
+        self, stress: FloatArray, normals: FloatArray, tension: FloatArray, ν: float, E: float
     ) -> FloatArray:
         """Its amplitudes, (…, k), on k planes, (k, 3), for a look at many.
 
@@ -106,15 +96,10 @@ class NormalStrain(Swing):
     is_strain: ClassVar[bool] = True
 
     def on_planes(
-        self,
-        stress: FloatArray,
-        normal: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        like: FloatArray,
+        self, stress: FloatArray, normal: FloatArray, tension: FloatArray, ν: float, like: FloatArray
     ) -> FloatArray:
         trace = stress[..., 0] + stress[..., 1] + stress[..., 2]
-        return (1.0 + poisson_ratio) * tension - poisson_ratio * trace[:, None]
+        return (1.0 + ν) * tension - ν * trace[:, None]
 
     def in_section(self, tension: FloatArray, yy: FloatArray, poisson_ratio: FloatArray) -> FloatArray:
         ν = poisson_ratio
@@ -131,16 +116,11 @@ class NormalStrain(Swing):
         return (tensor @ normal_weights(normal)[..., None])[..., 0]
 
     def amplitudes(
-        self,
-        stress: FloatArray,
-        normals: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        young_modulus: float,
+        self, stress: FloatArray, normals: FloatArray, tension: FloatArray, ν: float, E: float
     ) -> FloatArray:
         # ε_n = (1 + ν)/E · (σ_n − ν/(1 + ν) tr σ): the trace is the same for every plane.
-        tension -= (poisson_ratio / (1.0 + poisson_ratio)) * stress[..., :3].sum(axis=-1, keepdims=True)
-        modulus = young_modulus / (1.0 + poisson_ratio)
+        tension -= (ν / (1.0 + ν)) * stress[..., :3].sum(axis=-1, keepdims=True)
+        modulus = E / (1.0 + ν)
         return 0.5 * (tension.max(axis=-2) / modulus - tension.min(axis=-2) / modulus)
 
     def amplitude_jets(self, jets: FloatArray, change: FloatArray) -> FloatArray:
@@ -175,23 +155,13 @@ class ShearStress(Swing):
         return _along_chord(tensor, normal, tensor).reshape(shape)
 
     def on_planes(
-        self,
-        stress: FloatArray,
-        normal: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        like: FloatArray,
+        self, stress: FloatArray, normal: FloatArray, tension: FloatArray, ν: float, like: FloatArray
     ) -> FloatArray:
         several = [_along_chord(stress, own, like) for own in normal.swapaxes(0, 1)]
         return np.stack(several, axis=1)
 
     def amplitudes(
-        self,
-        stress: FloatArray,
-        normals: FloatArray,
-        tension: FloatArray,
-        poisson_ratio: float,
-        young_modulus: float,
+        self, stress: FloatArray, normals: FloatArray, tension: FloatArray, ν: float, E: float
     ) -> FloatArray:
         first, second = tangent_basis(normals).swapaxes(0, 1)
         highest = np.zeros_like(tension[..., 0, :])
