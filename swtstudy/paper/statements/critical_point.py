@@ -129,28 +129,28 @@ STATEMENTS = (
         "The contacts oscillate in partial slip.",
         "at 95% of all points the regime is partial slip: part of the contact slips, no gross slip "
         "(max(u − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off",
-        _ALL,
         slips_partially,
+        _ALL,
     ),
     Statement(
         "Section 4.1",
         "The critical point lies on the surface, on the line y = 0.",
         "at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%",
-        (f"{AUDIT_PREFIX}parameter_box",),
         on_the_line,
+        (f"{AUDIT_PREFIX}parameter_box",),
     ),
     Statement(
         "Section 4.1",
         "For basically all simulations the critical point lies well outside the zone of permanent stick.",
         "|x| at least 1.1 times the radius of permanent stick at 95% of the points that have such a zone",
-        _ALL,
         outside_of_stick,
+        _ALL,
     ),
     Statement(
         "Section 4.1",
         "For basically all simulations the critical plane's normal lies close to the x axis.",
         "within 10° at 95% of all points",
-        _ALL,
         normal_along_x,
+        _ALL,
     ),
 )

@@ -60,29 +60,29 @@ STATEMENTS = (
         "Section 4.1",
         "s rises with the coefficient of friction.",
         "s never falls beyond its error, on any curve",
-        ("friction",),
         rises_with_friction,
+        ("friction",),
     ),
     Statement(
         "Section 4.1",
         "s rises with the amplitude of the tangential oscillation.",
         "s never falls beyond its error, on any curve",
-        ("tangential_amplitude",),
         rises_with_tangential_amplitude,
+        ("tangential_amplitude",),
     ),
     Statement(
         "Section 4.1",
         "The dependence on the Poisson ratio is very weak.",
         "s changes by at most 5% over ν = 0.25…0.35, for every μ",
-        ("poisson_ratio",),
         poisson_ratio_is_weak,
+        ("poisson_ratio",),
     ),
     Statement(
         "Section 4.1",
         "The dependence on the Poisson ratio is intricate.",
         "s(ν) is not simply monotone in the same sense for every μ",
-        ("poisson_ratio",),
         poisson_ratio_is_intricate,
+        ("poisson_ratio",),
     ),
 )
 

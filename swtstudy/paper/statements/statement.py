@@ -46,17 +46,21 @@ class Statement:
         What the paper says, in other words.
     criterion
         When it counts as holding. The paper uses words where a test needs a bound, so the bounds are ours.
-    studies
-        Names of the studies whose archives it is tested on.
     test
-        Called with these archives, in this order.
+        Called with the archives of the studies, in their order.
+    studies
+        Names of the studies whose archives it is tested on; without any that of its figure, such as figure3.
     """
 
     place: str
     sentence: str
     criterion: str
-    studies: tuple[str, ...]
     test: Callable[..., Finding]
+    studies: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if not self.studies:
+            object.__setattr__(self, "studies", (self.place.replace(" ", "").lower(),))
 
 
 class NotInArchiveError(LookupError):
