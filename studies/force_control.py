@@ -21,10 +21,7 @@ from swtstudy.vocabulary.wording import place_words
 
 STUDY = Path(__file__).with_suffix(".toml")
 #: The displacement in the place of each force.
-PAIRS = {
-    "normal_force_amplitude": "normal_amplitude",
-    "tangential_force_amplitude": "tangential_amplitude",
-}
+PAIRS = {"normal_force_amplitude": "normal_amplitude", "tangential_force_amplitude": "tangential_amplitude"}
 
 
 def both(phases: int | None) -> tuple[xr.Dataset, xr.Dataset]:

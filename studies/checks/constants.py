@@ -23,19 +23,8 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
 KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
-KINDS |= {
-    "harmonic_sum": "loop",
-    "smooth": "loop",
-    "_path": "loop",
-    "polygon": "loop",
-    ".control.": "force",
-}
-KINDS |= {
-    "nonlocal": "means",
-    "local_swt": "means",
-    "half_sphere": "means",
-    "quick_planes": "means",
-}
+KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
+KINDS |= {"nonlocal": "means", "local_swt": "means", "half_sphere": "means", "quick_planes": "means"}
 KINDS |= {"histories": "means", ".work": "work"}
 KINDS |= {"paraboloid": "edge", ".punch": "body", ".strip": "body", ".superposition": "body"}
 KINDS |= {".contact_states": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}

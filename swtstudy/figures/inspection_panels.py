@@ -62,11 +62,7 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_ylim(0.0, top)
     stick = float(dataset.permanent_stick_radius)
     for radius, dashes, words in (
-        (
-            abs(float(dataset.shown_x)),
-            DASHED,
-            "critical point" if _is_finite(dataset) else "largest sampled",
-        ),
+        (abs(float(dataset.shown_x)), DASHED, "critical point" if _is_finite(dataset) else "largest sampled"),
         (stick, DOTTED, "always sticks"),
     ):
         if radius > 0.0:

@@ -58,13 +58,7 @@ LIMITS = (
         "largest von Mises stress over the yield strength",
         "first yield",
     ),
-    Limit(
-        "radius_ratio",
-        0.1,
-        "contact too large for half-spaces",
-        "contact radius over R",
-        "half-spaces",
-    ),
+    Limit("radius_ratio", 0.1, "contact too large for half-spaces", "contact radius over R", "half-spaces"),
     Limit(
         "bulk_shift_ratio",
         0.5,

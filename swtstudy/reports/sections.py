@@ -17,14 +17,7 @@ from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
 from swtstudy.reports.findings import along, extreme_points, levers, measured, measured_at, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
-from swtstudy.reports.values import (
-    place_html,
-    share,
-    symbol_html,
-    symbol_of,
-    value_text,
-    with_unit,
-)
+from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, value_text, with_unit
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.units.reading import read_contact
 from swtstudy.vocabulary.mistakes import StudyError

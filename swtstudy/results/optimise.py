@@ -19,14 +19,7 @@ from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
 from swtstudy.units.variables import LIVES
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_RTOL,
-    DEFAULT_RTOL,
-    Report,
-    is_rtol,
-    literal,
-    nearest,
-)
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, is_rtol, literal, nearest
 from swtstudy.vocabulary.quantities import NAMED, Request
 
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.

@@ -298,10 +298,7 @@ def test_a_contact_without_friction_does_not_move():
         ({"profile": "rounded_punch"}, "flat_radius: found nothing"),
         ({"profile": "cone"}, "no such profile"),
         ({"radius": math.nan}, "radius"),
-        (
-            {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 0.1},
-            "compact",
-        ),
+        ({"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 0.1}, "compact"),
     ],
 )
 def test_mistakes_are_named(changes, words):

@@ -47,10 +47,7 @@ def test_a_name_that_no_archive_can_hold(name: str) -> None:
     [
         ('title = "a\\u0000b"', "title"),
         ('title = "t"\n[loads."a\\u0000b"]\nvertices = [[0, 1], [0, -1]]', "loads.a\0b.vertices"),
-        (
-            f'title = "t"\n[profiles."a\\u0000b"]\nradius = {R}\nheight = {R}',
-            "profiles.a\0b",
-        ),
+        (f'title = "t"\n[profiles."a\\u0000b"]\nradius = {R}\nheight = {R}', "profiles.a\0b"),
         ('title = "t"\nunits = {length = "m\\u0000", force = "N", stress = "Pa"}', "units.length"),
     ],
 )

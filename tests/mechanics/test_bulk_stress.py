@@ -309,8 +309,7 @@ def test_s_is_continuous_where_the_bulk_stress_ends(profile: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "profile",
-    ["paraboloid", *(pytest.param(name, marks=pytest.mark.slow) for name in PROFILE_NAMES[1:])],
+    "profile", ["paraboloid", *(pytest.param(name, marks=pytest.mark.slow) for name in PROFILE_NAMES[1:])]
 )
 def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     batch = random_bulk(7, random_points(7, 8, profile, largest_term=3))

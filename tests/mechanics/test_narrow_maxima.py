@@ -45,12 +45,7 @@ CASES = [
     ("rounded_punch", (0.3, 0.3, 0.75, 5 / 6, 3.141592653589793, 1, 2), {"flat_radius": 0.175}, 0.0931248802),
     ("rounded_punch", (0.3, 0.3, 0.75, 5 / 6, 3.141592653589793, 1, 2), {"flat_radius": 0.2}, 0.0913278766),
     # Gross slip: next to the singular edge, at ln(1/ε) of some 31.
-    (
-        "truncated_paraboloid",
-        (0.3, 0.95, 0.75, 5 / 6, 1.5, 1, 1),
-        {"flat_radius": 1.0},
-        2.0695997068,
-    ),
+    ("truncated_paraboloid", (0.3, 0.95, 0.75, 5 / 6, 1.5, 1, 1), {"flat_radius": 1.0}, 2.0695997068),
     # The largest σ_n is between the instants of a first look, in a part of the cycle where these are lower.
     (
         "rounded_punch",
@@ -66,12 +61,7 @@ CASES = [
 # The same with values at the tightest tolerance: what some part of the search is there for.
 FROZEN = [
     # A second plane, not far from the one of the first look.
-    (
-        "paraboloid",
-        (0.0795418, 0.574001, 0.82084386, 1.06225358, 1.71521037, 4, 3),
-        {},
-        0.8357207106,
-    ),
+    ("paraboloid", (0.0795418, 0.574001, 0.82084386, 1.06225358, 1.71521037, 4, 3), {}, 0.8357207106),
     (
         "rounded_punch",
         (0.37897634, 0.30414001, 0.70318321, 0.33407447, 5.72945468, 4, 1),
@@ -85,12 +75,7 @@ FROZEN = [
         0.0762849428,
     ),
     # After the first round the largest maximum is 1 % below another one.
-    (
-        "paraboloid",
-        (0.20926969, 0.81969808, 0.65394187, 0.21103958, 1.58282955, 4, 1),
-        {},
-        0.3160460844,
-    ),
+    ("paraboloid", (0.20926969, 0.81969808, 0.65394187, 0.21103958, 1.58282955, 4, 1), {}, 0.3160460844),
     # Between two events the parabola makes a lower maximum of σ_n higher than that at an event.
     (
         "paraboloid",

@@ -126,8 +126,7 @@ def test_s_is_continuous_in_every_parameter(point: Points) -> None:
 def test_chunks_do_not_matter(singles: list[Points]) -> None:
     names = [name for name, values in vars(singles[0]).items() if isinstance(values, np.ndarray)]
     batch = replace(
-        singles[0],
-        **{name: np.concatenate([getattr(single, name) for single in singles]) for name in names},
+        singles[0], **{name: np.concatenate([getattr(single, name) for single in singles]) for name in names}
     )
     together = solve_points(batch, RTOL)
     half = len(batch) // 2

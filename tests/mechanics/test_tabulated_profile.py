@@ -116,10 +116,7 @@ def test_contact_radius_and_load(one: TabulatedProfile) -> None:
 
 @pytest.mark.parametrize(
     ("name", "coarse", "fine"),
-    [
-        ("rounded_punch", 1e-6, 1e-6),
-        pytest.param("wavy_paraboloid", 1e-5, 3e-7, marks=pytest.mark.slow),
-    ],
+    [("rounded_punch", 1e-6, 1e-6), pytest.param("wavy_paraboloid", 1e-5, 3e-7, marks=pytest.mark.slow)],
 )
 def test_s_converges_to_that_of_the_closed_form(name: str, coarse: float, fine: float) -> None:
     box = random_points(5, 3)

@@ -38,10 +38,7 @@ def test_figure_3_is_almost_a_factor_of_two():
 
 @pytest.mark.parametrize(
     ("name", "place", "least"),
-    [
-        ("figure3", {"normal_amplitude": 8 / 9}, 2.68906),
-        ("figure3", {"normal_amplitude": 0.5}, 2.63081),
-    ],
+    [("figure3", {"normal_amplitude": 8 / 9}, 2.68906), ("figure3", {"normal_amplitude": 0.5}, 2.63081)],
 )
 def test_a_curve_has_its_least_value_among_its_points(name, place, least):
     """Where two branches cross, which is where 145 phases missed 1.3 % of it."""

@@ -128,10 +128,7 @@ def test_figures_over_critical_distances(tmp_path: Path, monkeypatch: pytest.Mon
     for change, words in (
         (('"s_volume"', '"s"'), "'critical_distance', not an axis of s in this study"),
         (('"s_volume"', '"s_line"'), "no place for the axis direction"),
-        (
-            ('y = "s_volume"', 'y = "s_volume"\nregimes = true'),
-            r"figure\.regimes: found true over crit",
-        ),
+        (('y = "s_volume"', 'y = "s_volume"\nregimes = true'), r"figure\.regimes: found true over crit"),
     ):
         with pytest.raises(StudyError, match=words):
             Study.from_text(study(axes=axes).text + figure.replace(*change))
@@ -140,10 +137,7 @@ def test_figures_over_critical_distances(tmp_path: Path, monkeypatch: pytest.Mon
 @pytest.mark.parametrize(
     ("entry", "words"),
     [
-        (
-            "[fixed]\ncritical_distance = 0",
-            r"fixed\.critical_distance: found 0 \(out of range\)",
-        ),
+        ("[fixed]\ncritical_distance = 0", r"fixed\.critical_distance: found 0 \(out of range\)"),
         ("[fixed]\ncritical_distance = 'far'", r"critical_distance: found 'far' \(.*\); allowed: a number"),
         ("[axes]\ncritical_distance = []", r"axes\.critical_distance: found an empty axis"),
         ("[axes]\ncritical_distance = [0.1, '1/10']", r"distance\[1\]: found '1/10', the same as"),
@@ -195,23 +189,15 @@ def test_points_with_nonlocal_values_are_cut_into_small_blocks(monkeypatch: pyte
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
-        (
-            lambda found: found.drop_vars("dissipation_error"),
-            "dissipation_error: found nothing; allowed: a",
-        ),
-        (
-            lambda found: found.assign(s_volume=found.s),
-            r"s_volume: found dimensions .*critical_distance",
-        ),
+        (lambda found: found.drop_vars("dissipation_error"), "dissipation_error: found nothing; allowed: a"),
+        (lambda found: found.assign(s_volume=found.s), r"s_volume: found dimensions .*critical_distance"),
         (lambda found: found.isel(critical_distance=[0]), r"found no critical_distance=0\.2; allowed: those"),
         (
             lambda found: found.assign_attrs(runs=found.attrs["runs"].replace('"dissipation"', '"friction"')),
             "attribute runs: found .*quantities of a run",
         ),
         (
-            lambda found: found.assign(
-                dissipation=found.dissipation.assign_attrs(units="J"),
-            ),
+            lambda found: found.assign(dissipation=found.dissipation.assign_attrs(units="J")),
             "attribute units of dissipation: found 'J'; allowed: '1'",
         ),
     ],

@@ -114,10 +114,7 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
 @pytest.mark.parametrize(
     ("tests", "words"),
     [
-        (
-            {"tangential_force_amplitude": [30.0, 60.0]},
-            "tests: found the columns tangential_",
-        ),
+        ({"tangential_force_amplitude": [30.0, 60.0]}, "tests: found the columns tangential_"),
         ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 tests; allowed: 2 at least"),
         ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),

@@ -74,13 +74,7 @@ def test_three_mistakes(validator):
 
 
 @pytest.mark.parametrize(
-    "line",
-    [
-        "wavelength = 0",
-        "frequency_ratio = 65",
-        "friction = true",
-        "friction = [0.1]",
-    ],
+    "line", ["wavelength = 0", "frequency_ratio = 65", "friction = true", "friction = [0.1]"]
 )
 def test_the_editor_refuses_what_the_study_refuses(line, validator):
     text = f'title = "t"\n[fixed]\n{line}\n'

@@ -12,10 +12,7 @@ from swtstudy import StudyError, read_trace
 from swtstudy.study.trace import folded
 
 #: A sphere of R = 50, and a flat face of half-width 0.5 with rounded edges.
-SHAPES = {
-    "sphere": lambda x: x**2 / 100.0,
-    "flat": lambda x: np.maximum(np.abs(x) - 0.5, 0.0) ** 2 / 20.0,
-}
+SHAPES = {"sphere": lambda x: x**2 / 100.0, "flat": lambda x: np.maximum(np.abs(x) - 0.5, 0.0) ** 2 / 20.0}
 
 
 def trace(shape: str, noise: float, tilt: float, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:

@@ -125,10 +125,7 @@ def test_a_study_says_newtons_per_millimetre(tmp_path: Path) -> None:
             "depth: found a depth with a plane profile; allowed: normal_force",
         ),
         ({}, "tangential_force_amplitude: found nothing"),
-        (
-            {"tangential_amplitude": 0.1},
-            "tangential_amplitude: found a displacement with",
-        ),
+        ({"tangential_amplitude": 0.1}, "tangential_amplitude: found a displacement with"),
         (
             {"profile": "paraboloid", "contact_length": 1.0, "tangential_force_amplitude": 1.0},
             "contact_length: found a l",

@@ -52,15 +52,9 @@ def test_arrays_in_python_are_the_study(solved):
     ("changes", "words"),
     [
         ({"radius": [50.0, -1.0]}, "radius[1]: found -1.0 (out of range); allowed: a positive length"),
-        (
-            {"radius": [[50.0]]},
-            "radius: found [[50.0]]; allowed: a single value or a one-dim",
-        ),
+        ({"radius": [[50.0]]}, "radius: found [[50.0]]; allowed: a single value or a one-dim"),
         ({"frictoin": 1}, "frictoin: found unknown parameter 'frictoin'; allowed: did you mean friction?"),
-        (
-            {"young_modulus": (73e3, -1)},
-            "young_modulus[1]: found -1 (out of range); allowed: a positive",
-        ),
+        ({"young_modulus": (73e3, -1)}, "young_modulus[1]: found -1 (out of range); allowed: a positive"),
         ({"bulk_stress_body": 0}, "bulk_stress_body: found 0; allowed: 1 or 2"),
         ({"similar": -1}, "similar: found -1; allowed: a number ≥ 0"),
     ],
@@ -77,7 +71,7 @@ def test_mistakes_in_what_is_asked_of_arrays_are_named_at_once():
     with pytest.raises(StudyError) as error:
         contacts.solve(2.0, quantities=["x"], critical_distance=-1, constants=3)
     assert [each.key for each in error.value.mistakes] == [
-        *("rtol", "critical_distance", "quantities[0]", "constants"),
+        *("rtol", "critical_distance", "quantities[0]", "constants")
     ]
 
 
@@ -201,17 +195,11 @@ def test_materials_come_by_name_from_a_file(tmp_path):
     assert grid.dims[-1] == "body"
     assert len(unique_points(grid).table) == 8  # s is that of both
     for table, words in (
-        (
-            'file = "materials.toml"\nname = "wek"',
-            "material.name: found 'wek'; allowed: a material in",
-        ),
+        ('file = "materials.toml"\nname = "wek"', "material.name: found 'wek'; allowed: a material in"),
         ('file = "materials.toml"', "material.name: found nothing; allowed: a material in materials.toml"),
         ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (No such file"),
         ('name = "weak"', "material.file: found nothing; allowed: a TOML file with a table"),
-        (
-            'file = "materials.toml"\nname = "weak"\nstrength = 1',
-            "material: found a name and strength;",
-        ),
+        ('file = "materials.toml"\nname = "weak"\nstrength = 1', "material: found a name and strength;"),
     ):
         with pytest.raises(StudyError) as error:
             study(table)

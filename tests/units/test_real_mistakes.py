@@ -141,7 +141,7 @@ def test_all_mistakes_are_said_at_once():
     with pytest.raises(StudyError) as error:
         Study.from_text(wrong, "mine.toml")
     assert sorted(mistake.key for mistake in error.value.mistakes) == [
-        *("axes.normal_force[1]", "fixed.critical_distance", "fixed.radius", "material.strength"),
+        *("axes.normal_force[1]", "fixed.critical_distance", "fixed.radius", "material.strength")
     ]
 
 

@@ -194,7 +194,7 @@ def test_figures_have_the_units(solved):
             "rounds to a crack, $N$",
             r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
             "position of the critical point, $x$ (mm)",
-        ),
+        )
     ]
     assert "$F_0$ = 150 N" in figure.axes[0].get_title(loc="left")
     labels = [text.get_text() for text in figure.legends[0].get_texts()]

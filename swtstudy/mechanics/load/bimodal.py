@@ -223,10 +223,7 @@ def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray,
 
 
 def fold_bulk_phase(
-    phase: FloatArray,
-    moves: NDArray[np.bool_],
-    mirrored: NDArray[np.bool_],
-    both_ways: NDArray[np.bool_],
+    phase: FloatArray, moves: NDArray[np.bool_], mirrored: NDArray[np.bool_], both_ways: NDArray[np.bool_]
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Fold ψ_B of bulk stresses that oscillate with the tangential load, once ψ is folded.
 

@@ -170,13 +170,7 @@ class SmoothPath(Loop):
     """A loop of sums of harmonics; see `LoadPath.harmonic_sum`."""
 
     def __init__(
-        self,
-        name: str,
-        normal: object,
-        tangential: object,
-        bulk: object = (),
-        *,
-        mean_normal: object = None,
+        self, name: str, normal: object, tangential: object, bulk: object = (), *, mean_normal: object = None
     ) -> None:
         self.name = checked_name(name)
         self.mean_normal = checked_mean(mean_normal, self.name)

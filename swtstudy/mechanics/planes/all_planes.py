@@ -53,10 +53,7 @@ class CriticalPlane(NamedTuple):
 
 
 def swt_of_history(
-    stress: ArrayLike,
-    poisson_ratio: float,
-    young_modulus: float = 1.0,
-    criterion: Criterion = SWT,
+    stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0, criterion: Criterion = SWT
 ) -> CriticalPlane:
     """Largest value over all planes of a criterion of shape (1,), without checks of the input."""
     history = np.asarray(stress, dtype=float)

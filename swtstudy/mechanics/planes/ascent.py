@@ -36,11 +36,7 @@ Rows = NDArray[np.intp] | slice
 
 
 def climb(
-    stress: FloatArray,
-    tensor: FloatArray,
-    start: FloatArray,
-    criterion: Criterion,
-    last_step: float = SAME,
+    stress: FloatArray, tensor: FloatArray, start: FloatArray, criterion: Criterion, last_step: float = SAME
 ) -> tuple[FloatArray, FloatArray]:
     """Climb to a summit over the planes for each history.
 

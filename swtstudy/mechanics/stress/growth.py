@@ -110,11 +110,7 @@ class GrowthIntegrals:
         return slope * grown
 
     def up_to(
-        self,
-        row: NDArray[np.intp],
-        column: NDArray[np.intp],
-        index: NDArray[np.intp],
-        radius: FloatArray,
+        self, row: NDArray[np.intp], column: NDArray[np.intp], index: NDArray[np.intp], radius: FloatArray
     ) -> FloatArray:
         """The integrals over single growths up to ``radius``, shape (3, m) or (2, m).
 
@@ -185,12 +181,7 @@ class _OverRanges:
     """
 
     def __init__(
-        self,
-        low: FloatArray,
-        high: FloatArray,
-        density: Density,
-        layers: FloatArray,
-        count: NDArray[np.intp],
+        self, low: FloatArray, high: FloatArray, density: Density, layers: FloatArray, count: NDArray[np.intp]
     ) -> None:
         self.low, self.span = low, high - low
         #: Shape (n, X, k, 2), as the arrays of halves below: in which of the groups with as many nodes each
