@@ -9,11 +9,10 @@ from functools import partial
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, BoolArray, Solution
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
@@ -167,7 +166,7 @@ def _words(value: object) -> str:
     return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)
 
 
-def _first(dataset: xr.Dataset, name: str, wrong: NDArray[np.bool_]) -> str:
+def _first(dataset: xr.Dataset, name: str, wrong: BoolArray) -> str:
     """The first wrong value, where it is, and how many more there are."""
     index = index_at(dataset.s, int(wrong.argmax()))
     place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())

@@ -16,7 +16,7 @@ from swtstudy.mechanics.contact.memory import held_offset
 from swtstudy.mechanics.control.coordinate import ForceCoordinate
 from swtstudy.mechanics.numerics.arrays import ROUNDING
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.work import LARGEST_SIZE, Conjugate
 
@@ -24,7 +24,7 @@ from swtstudy.mechanics.stress.work import LARGEST_SIZE, Conjugate
 NODES = 64
 
 
-def of_instants(whole: Conjugate, interval: NDArray[np.intp]) -> Conjugate:
+def of_instants(whole: Conjugate, interval: IndexArray) -> Conjugate:
     """That of one cycle at T instants, as T cycles of one interval each."""
     return whole.take_intervals(np.zeros(len(interval), dtype=np.intp), interval)
 
@@ -158,7 +158,7 @@ def of_states(flags: Mapping[str, Any]) -> dict[str, Any]:
     return {**flags, "long_name": "state of the contact next to its edge, until the next instant"}
 
 
-def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[NDArray[np.intp], list[str]]:
+def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[IndexArray, list[str]]:
     """Instants at which curves over the cycle are extreme, in the order of time, and the reason for each.
 
     Parameters

@@ -17,7 +17,7 @@ from swtstudy.figures.marks import mark_along
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words, slices
 from swtstudy.figures.style import stroke
 from swtstudy.figures.ticks import tick_flags, tick_in_pi, tick_in_ratios
-from swtstudy.mechanics.points import WITHOUT_S
+from swtstudy.mechanics.points import WITHOUT_S, IndexArray
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
@@ -206,7 +206,7 @@ def may_jump(name: str) -> bool:
     return known or (row is not None and row.is_place)
 
 
-def place_jumps(curve: NDArray[Any], name: str) -> NDArray[np.intp]:
+def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     """Indices of the points of a curve that another maximum begins at.
 
     A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it in

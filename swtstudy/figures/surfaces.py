@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.contour_labels import parts_of, places_of_labels
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, value_words
 
@@ -96,7 +96,7 @@ def _runs(places: FloatArray, turn: float) -> FloatArray:
     return kept
 
 
-def jumps(places: FloatArray, turn: float) -> NDArray[np.intp]:
+def jumps(places: FloatArray, turn: float) -> IndexArray:
     """The rows at which another run begins."""
     step = np.abs(np.diff(places, prepend=np.nan))
     return np.flatnonzero(~(step <= _JUMP * turn))

@@ -65,6 +65,9 @@ def _joined(several: list[Any]) -> Any:
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
+BoolArray = NDArray[np.bool_]
+#: Numbers of rows, columns and the like.
+IndexArray = NDArray[np.intp]
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")

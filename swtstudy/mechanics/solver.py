@@ -18,7 +18,7 @@ from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_lo
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import SAME
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
-from swtstudy.mechanics.points import REGIMES, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray, IndexArray, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -71,7 +71,7 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     return Solution(s, error, position, angle, regime, surface)
 
 
-def scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
+def scenes(points: Points) -> Iterator[tuple[IndexArray, Scene]]:
     """Indices of points that are solved together, and their scenes: each of one kind.
 
     Points that are in no equilibrium are in none of them.
@@ -96,9 +96,7 @@ def scenes(points: Points) -> Iterator[tuple[NDArray[np.intp], Scene]]:
                         yield sharing[rows[taken]], scene
 
 
-def _scene(
-    points: Points, load: Load, shared: Cycle | None, number: NDArray[np.intp]
-) -> tuple[NDArray[np.intp], Scene]:
+def _scene(points: Points, load: Load, shared: Cycle | None, number: IndexArray) -> tuple[IndexArray, Scene]:
     """The scene of those points that are in equilibrium, and which of the points these are.
 
     With a ``shared`` contact solution all are, and the points' cycles are those of the given numbers in it.
@@ -122,12 +120,12 @@ def _kinds(points: Points, level: IntArray) -> IntArray:
     return 6 * level + 2 * bulk_kind(points) + (points.walker_exponent != SWT_EXPONENT)
 
 
-def _split(index: NDArray[np.intp], size: int) -> list[NDArray[np.intp]]:
+def _split(index: IndexArray, size: int) -> list[IndexArray]:
     """The index in pieces of ``size`` at most, which are nearly equal."""
     return np.array_split(index, -(-len(index) // size))
 
 
-def _idle(scene: Scene) -> NDArray[np.bool_]:
+def _idle(scene: Scene) -> BoolArray:
     """Where s is 0: pressure alone makes no tension at ν = 1/2 or in the plane, rest no swing of strain."""
     load = scene.cycle.load
     rests = load.largest_normal == load.least_normal
@@ -150,7 +148,7 @@ def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
     return found.put(higher, Maximum(far, none, none + np.nan, plane).take(higher))
 
 
-def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:
+def _regime(cycle: Cycle, lost: BoolArray) -> NDArray[np.int8]:
     """Index into `REGIMES` of each point; those ``lost`` have no finite s."""
     state = np.where(cycle.slips(), "partial_slip", "stick")
     for name, where in (("gross_slip", cycle.gross_slip), ("lift_off", cycle.lift_off), ("not_finite", lost)):
@@ -158,7 +156,7 @@ def _regime(cycle: Cycle, lost: NDArray[np.bool_]) -> NDArray[np.int8]:
     return np.array([REGIMES.index(name) for name in state], dtype=np.int8)
 
 
-def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maximum:
+def _maximum(scene: Scene, finite: IndexArray, accuracy: Accuracy) -> Maximum:
     """The maximum of each point of the scene, NaN but for those at ``finite``."""
     found = Maximum.unknown(len(scene), np.nan)
     if finite.size:
@@ -169,6 +167,6 @@ def _maximum(scene: Scene, finite: NDArray[np.intp], accuracy: Accuracy) -> Maxi
     return found
 
 
-def _fold_angle(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
+def _fold_angle(degrees: FloatArray) -> FloatArray:
     """The same plane's angle in (−90, 90]."""
     return 90.0 - np.mod(90.0 - degrees, 180.0)

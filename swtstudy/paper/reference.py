@@ -10,10 +10,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Points
 
 
 class TextbookSolution(NamedTuple):
@@ -102,7 +101,7 @@ def _with_turns(time: FloatArray, course: _Course) -> FloatArray:
     mix, step = np.nonzero(falls[:, 1:] != falls[:, :-1])
     (a, c), fell = mixes[mix].T, falls[mix, step]
 
-    def same_sense(t: FloatArray) -> NDArray[np.bool_]:
+    def same_sense(t: FloatArray) -> BoolArray:
         pull, push = course.rates(t)
         return (a * pull + c * push < 0.0) == fell
 
@@ -124,9 +123,7 @@ def _with_events(time: FloatArray, course: _Course, g: FloatArray) -> FloatArray
     return np.union1d(time, onset)
 
 
-def bisect(
-    before: Callable[[FloatArray], NDArray[np.bool_]], time: FloatArray, step: NDArray[np.intp]
-) -> FloatArray:
+def bisect(before: Callable[[FloatArray], BoolArray], time: FloatArray, step: IndexArray) -> FloatArray:
     """Instants within the given steps of ``time`` until which ``before`` holds."""
     low, high = time[step], time[step + 1]
     for _ in range(50):

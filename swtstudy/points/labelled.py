@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import REGIMES, Solution
+from swtstudy.mechanics.points import REGIMES, BoolArray, Solution
 from swtstudy.points import requested
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.records import STATES
@@ -194,7 +194,7 @@ def control_coordinate(grid: Grid) -> xr.Variable:
     return xr.Variable((), grid.control.name, attributes)
 
 
-def arrays_of(solution: Solution, mirrored: NDArray[np.bool_]) -> dict[str, NDArray]:
+def arrays_of(solution: Solution, mirrored: BoolArray) -> dict[str, NDArray]:
     """Data variables of points, from the solutions of their canonical points, mirrored back where needed."""
     angle = np.where(mirrored, -solution.critical_angle, solution.critical_angle)
     return {

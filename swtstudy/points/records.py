@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray, Rows, Solution
+from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Rows, Solution
 from swtstudy.points.canonical import ROW, Table, group_rows
 from swtstudy.vocabulary.quantities import columns_of
 
@@ -133,7 +133,7 @@ class Records(Rows):
         self.message[rows] = part.message
         return replace(self, runs=runs)
 
-    def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> NDArray[np.bool_]:
+    def usable(self, rtol: float, solver_version: str, retry_failed: bool) -> BoolArray:
         """Which records can be used for a study with this accuracy and solver, shape (n,)."""
         good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
         worst = COMPUTED if retry_failed else FAILED
@@ -143,7 +143,7 @@ class Records(Rows):
         """A column of the quantities, NaN where it is not known, shape (n,)."""
         return self.quantities.get(column, np.full(len(self), np.nan))
 
-    def lacking(self, names: Sequence[str]) -> NDArray[np.bool_]:
+    def lacking(self, names: Sequence[str]) -> BoolArray:
         """Which quantities are not known of which computed points, shape (n, len(names))."""
         known = [[name in run.quantities for name in names] for run in self.runs]
         # The last row is for missing points, and for those that a run has filled in since.
@@ -219,7 +219,7 @@ def _with_runs(runs: tuple[Run, ...], more: tuple[Run, ...]) -> tuple[tuple[Run,
     return tuple(every), np.array([*indices, -1], np.int32)
 
 
-def look_up(table: Table, records: Records, candidates: NDArray[np.bool_]) -> IntArray:
+def look_up(table: Table, records: Records, candidates: BoolArray) -> IntArray:
     """Index of the record of every canonical row of a table, -1 if there is none, shape (len(table),).
 
     Of several candidates for one point a computed one is preferred to a failed one, then the most accurate
@@ -238,7 +238,7 @@ def look_up(table: Table, records: Records, candidates: NDArray[np.bool_]) -> In
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
 
 
-def matching(table: Table, records: Records, candidates: NDArray[np.bool_]) -> Records:
+def matching(table: Table, records: Records, candidates: BoolArray) -> Records:
     """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
     found = look_up(table, records, candidates)
     return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))

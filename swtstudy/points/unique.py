@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray, IntArray, Points
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
 from swtstudy.points.canonical import (
     COST,
     LOAD_COLUMNS,
@@ -50,7 +50,7 @@ class UniquePoints:
 
     table: Table
     index: IntArray
-    mirrored: NDArray[np.bool_]
+    mirrored: BoolArray
     definitions: Definitions
 
     @property
@@ -163,7 +163,7 @@ def _stretch_ends(table: Table, names: tuple[str, ...]) -> IntArray:
     return np.append(np.flatnonzero(columns[1:] != columns[:-1]) + 1, len(columns))
 
 
-def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], NDArray[np.bool_]]:
+def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], BoolArray]:
     """Items that are asked of some points, and of which, shape (len(points.table), number of items)."""
     distances, at = grid.items(asked)
     of = np.zeros((len(points.table), len(asked.same) + len(distances)), bool)
@@ -197,7 +197,7 @@ def columns_back(
     size = len(points.table)
     found: dict[str, FloatArray] = {}
 
-    def put(name: str, rows: NDArray[np.intp], values: FloatArray) -> None:
+    def put(name: str, rows: IndexArray, values: FloatArray) -> None:
         found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
 
     every = np.arange(grid.size)
@@ -210,14 +210,14 @@ def columns_back(
     return found
 
 
-def _mirrored(values: FloatArray, points: UniquePoints, rows: NDArray[np.intp], is_place: bool) -> FloatArray:
+def _mirrored(values: FloatArray, points: UniquePoints, rows: IndexArray, is_place: bool) -> FloatArray:
     """Values at some points; places of points that are mirrored have the other sign."""
     return np.where(points.mirrored[rows], -values, values) + 0.0 if is_place else values
 
 
 def _columns(
     asked: str, items: tuple[str, ...], at: NDArray[np.int64]
-) -> Iterator[tuple[str, str, NDArray[np.intp], bool]]:
+) -> Iterator[tuple[str, str, IndexArray, bool]]:
     """The columns of an item as it is asked, of the item that it is at some points, these, and if a place."""
     for number in np.unique(at).tolist():
         rows = np.flatnonzero(at == number)

@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.positions import INNERMOST
-from swtstudy.mechanics.points import REGIMES
+from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray
 from swtstudy.points.requested import has_units, require
 from swtstudy.points.values import index_at
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
@@ -161,7 +160,7 @@ def _without_s(dataset: xr.Dataset) -> Iterator[str]:
         yield f"s is not finite{_where(infinite)}: swt grows without bound towards an edge"
 
 
-def _lacking(dataset: xr.Dataset, lost: NDArray[np.bool_]) -> str:
+def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     """Say which force is too large at points in no equilibrium."""
     ratio = np.zeros(lost.shape)
     if "prescribed_force_ratio" in dataset:
@@ -236,18 +235,18 @@ def _is_life(dataset: xr.Dataset, name: str) -> bool:
     return has_units(dataset) and name.removeprefix("FS_").partition("_")[0] == "cycles"
 
 
-def _beyond(lives: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _beyond(lives: FloatArray) -> BoolArray:
     """Which are beyond `KNOWN_LIVES`; where nothing is in tension a life is infinite."""
     low, high = KNOWN_LIVES
     return np.asarray(np.isfinite(lives) & ((lives < low) | (lives > high)))
 
 
-def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> NDArray[np.float64]:
+def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> FloatArray:
     """Values in the shape of s."""
     return np.asarray(values.broadcast_like(dataset.s).transpose(*dataset.s.dims).values, float)
 
 
-def _where(out: NDArray[np.bool_]) -> str:
+def _where(out: BoolArray) -> str:
     """Say at how many of how many points; nothing of a single one."""
     if out.size == 1:
         return ""
@@ -255,7 +254,7 @@ def _where(out: NDArray[np.bool_]) -> str:
     return f" at {words} {out.size} points"
 
 
-def _place(dataset: xr.Dataset, values: NDArray[np.float64], besides: tuple[str, ...] = ()) -> str:
+def _place(dataset: xr.Dataset, values: FloatArray, besides: tuple[str, ...] = ()) -> str:
     """At which point values in the shape of s are largest, but for some dimensions."""
     words = []
     for dim, number in index_at(dataset.s, int(np.nan_to_num(values, nan=-np.inf).argmax())).items():

@@ -7,9 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, IntArray, Points, Solution
+from swtstudy.mechanics.points import REGIMES, WITHOUT_S, BoolArray, IntArray, Points, Solution
 from swtstudy.points.canonical import Definitions, Table, points_from
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
 from swtstudy.points.unique import UniquePoints, block_ends, weights
@@ -165,7 +164,7 @@ def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
 
 
 def chunks(
-    points: UniquePoints, wanted: NDArray[np.bool_], size: Callable[[], float], asked: Asked = ONLY_S
+    points: UniquePoints, wanted: BoolArray, size: Callable[[], float], asked: Asked = ONLY_S
 ) -> Iterator[Chunk]:
     """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
 
@@ -195,7 +194,7 @@ def chunks(
         yield Chunk.of(points, blocks, asked)
 
 
-def _long_cycles_first(table: Table, wanted: NDArray[np.bool_], weight: IntArray) -> list[IntArray]:
+def _long_cycles_first(table: Table, wanted: BoolArray, weight: IntArray) -> list[IntArray]:
     """The wanted rows of each block that has some, long cycles first, and of these the largest blocks.
 
     So the last blocks let no worker wait, nor do the first ones, which are solved beside one another.

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.events.stretches import cosine_nodes, stretches
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, swt_of_history
 from swtstudy.mechanics.planes.weights import normal_weights
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.contact_states import contact_states
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -29,7 +29,7 @@ VALUES = 65536
 class TimeNodes(Rows):
     """Instants of a cycle, each with its interval, shape (T,)."""
 
-    interval: NDArray[np.intp]
+    interval: IndexArray
     instant: FloatArray
 
 

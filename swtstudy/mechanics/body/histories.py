@@ -12,10 +12,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.contact_states import resolving_cells
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.superposition import kernels_of
@@ -53,19 +52,19 @@ class SpringCells:
     """
 
     ends: FloatArray
-    cell: NDArray[np.intp]
+    cell: IndexArray
     intercept: FloatArray
     gradient: FloatArray
-    first: NDArray[np.intp]
-    least: NDArray[np.intp]
-    most: NDArray[np.intp]
-    function: NDArray[np.intp]
+    first: IndexArray
+    least: IndexArray
+    most: IndexArray
+    function: IndexArray
     share: FloatArray
-    start: NDArray[np.intp]
-    below: NDArray[np.intp]
-    level: NDArray[np.intp]
-    below_start: NDArray[np.intp]
-    index: NDArray[np.intp]
+    start: IndexArray
+    below: IndexArray
+    level: IndexArray
+    below_start: IndexArray
+    index: IndexArray
 
     @classmethod
     def of(cls, scene: Scene, cells: int, circle: float | None = None) -> SpringCells:
@@ -123,14 +122,14 @@ class SpringCells:
             index=pieces.index[0],
         )
 
-    def cell_of(self, radius: FloatArray, function: NDArray[np.intp]) -> NDArray[np.intp]:
+    def cell_of(self, radius: FloatArray, function: IndexArray) -> IndexArray:
         """The cells of slope functions in which radii lie."""
         found = np.searchsorted(self.ends, radius, "right") - 1
         least = self.least[function]
         return self.first[function] + np.clip(found, least, self.most[function]) - least
 
 
-def _fewer(ends: FloatArray, starts: FloatArray, circle: float) -> NDArray[np.intp]:
+def _fewer(ends: FloatArray, starts: FloatArray, circle: float) -> IndexArray:
     """Numbers of the ends of cells that are kept, those of pieces among them."""
     needed = np.zeros(ends.size, dtype=bool)
     middle = 0.5 * (ends[1:] + ends[:-1])
@@ -204,7 +203,7 @@ class Histories:
             base[:, some] = base[:, below[some]] + inner[:, some]
         return base - own
 
-    def stress(self, instant: FloatArray, rows: NDArray[np.intp] | None = None) -> FloatArray:
+    def stress(self, instant: FloatArray, rows: IndexArray | None = None) -> FloatArray:
         """Stress in E* √(δ0/R) at instants of places.
 
         Parameters
@@ -228,7 +227,7 @@ class Histories:
         self.scene.add_bulk(stress, instant)
         return stress
 
-    def _functions(self, instant: FloatArray, place: NDArray[np.intp]) -> tuple[Any, Any]:
+    def _functions(self, instant: FloatArray, place: IndexArray) -> tuple[Any, Any]:
         """The functions integrated over the springs at instants of places, (n,), of pressure and of drag."""
         scene, springs = self.scene, self.springs
         cycle, coordinate = scene.cycle, scene.coordinate
@@ -254,12 +253,12 @@ class Histories:
         drag = -scene.friction[0] * (held - sign * (normal - inner))
         return self.kernels.functions(*normal), self.kernels.functions(*drag)
 
-    def _primitives(self, radius: FloatArray, place: NDArray[np.intp]) -> FloatArray:
+    def _primitives(self, radius: FloatArray, place: IndexArray) -> FloatArray:
         """Primitives of the functions, with the weights 1 and ξ, at radii, shape (2, f, …)."""
         return np.array(self.kernels.primitives(self.radius.take(place), self.depth.take(place), radius))
 
     def _up_to(
-        self, radius: FloatArray, function: NDArray[np.intp], place: NDArray[np.intp], primitive: FloatArray
+        self, radius: FloatArray, function: IndexArray, place: IndexArray, primitive: FloatArray
     ) -> FloatArray:
         """Integrals of slope functions from their first cells to radii at places, shape (f, …)."""
         cell = self.springs.cell_of(radius, function)

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
@@ -28,7 +27,7 @@ from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, gather, packed
 from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of all intervals of a cycle at most, unless each has one: 200 sides are a third faster.
@@ -62,7 +61,7 @@ class Places(NamedTuple):
     depth: FloatArray
     angle: FloatArray
 
-    def at(self, index: NDArray[np.intp]) -> Places:
+    def at(self, index: IndexArray) -> Places:
         """Some of the places."""
         return Places(*(values[index] for values in self))
 
@@ -106,7 +105,7 @@ def _common_instants(scene: Scene, fineness: Fineness, circles: Sequence[float] 
     return np.unique(np.mod(time_nodes(scene, steps, circles).instant, PERIOD))
 
 
-def _passages(scene: Scene, places: Places) -> tuple[FloatArray, NDArray[np.bool_]]:
+def _passages(scene: Scene, places: Places) -> tuple[FloatArray, BoolArray]:
     """Instants at which edge or fronts pass near N places, and whether they do, shape (N, E)."""
     cycle = scene.cycle
     near = np.maximum(places.radius[:, None] + places.depth[:, None] * OFFSETS, 0.0)
@@ -119,7 +118,7 @@ def _passages(scene: Scene, places: Places) -> tuple[FloatArray, NDArray[np.bool
     return np.mod(instant, PERIOD), gap > SAME
 
 
-def _packed(instant: FloatArray, kept: NDArray[np.bool_]) -> FloatArray:
+def _packed(instant: FloatArray, kept: BoolArray) -> FloatArray:
     """The instants that are kept, shape (N, E); a place without any keeps one for the others' sake."""
     kept[:, 0] |= ~kept.any(axis=1)
     return packed(kept, instant)[0]
@@ -150,7 +149,7 @@ class LocalSwt:
         #: Which of the gaps that follow the instants matter at the places that are shown.
         self.open, self.planes = self._decisive(shown)
 
-    def _decisive(self, shown: Places) -> tuple[NDArray[np.bool_], CoarsePlanes]:
+    def _decisive(self, shown: Places) -> tuple[BoolArray, CoarsePlanes]:
         """In which gaps between the instants swt is made at places, shape (m, T), and on what planes."""
         open_ = np.zeros((shown.radius.size, self.instant.size), dtype=bool)
         histories, instant = Histories(self.scene, *shown, self.springs), self._instants(shown, ~open_)
@@ -167,7 +166,7 @@ class LocalSwt:
             open_[row, np.searchsorted(self.instant, side) - 1] = True
         return open_, planes
 
-    def _open_at(self, places: Places) -> NDArray[np.bool_]:
+    def _open_at(self, places: Places) -> BoolArray:
         """Which of the gaps matter at places: those that do at some of the nearest that are shown."""
         here, there = (self._scaled(some) for some in (places, self.shown))
         away = ((here[:, None] - there) ** 2).sum(axis=-1)
@@ -181,7 +180,7 @@ class LocalSwt:
         arc = np.minimum(places.angle, np.pi - places.angle)
         return np.stack([right / root, places.depth / root, arc], axis=1)
 
-    def swt(self, places: Places, single: NDArray[np.bool_]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def swt(self, places: Places, single: BoolArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """swt over E* δ0/R at N places, an estimate of what is missing of it, (N,) each, and normals, (N, 3).
 
         Those that are ``single``, (N,), are searched until they can hide little: nothing averages that out.
@@ -213,7 +212,7 @@ class LocalSwt:
         return value[best], missing[best] + HIDDEN * hides[best], normals[best]
 
     def _high(
-        self, instant: FloatArray, stress: FloatArray, row: NDArray[np.intp], normal: FloatArray
+        self, instant: FloatArray, stress: FloatArray, row: IndexArray, normal: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Instants at which a curve is high on one plane each, and those beside them, with the stresses.
 
@@ -228,7 +227,7 @@ class LocalSwt:
     def _closer(
         self,
         histories: Histories,
-        rows: NDArray[np.intp],
+        rows: IndexArray,
         instant: FloatArray,
         stress: FloatArray,
         normal: FloatArray,
@@ -258,13 +257,13 @@ class LocalSwt:
         amplitude = np.where(some, amplitude, np.inf)
         return power[0] * (hidden[0] / tension) + power[1] * ((hidden[1] + hidden[2]) / amplitude)
 
-    def _instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
+    def _instants(self, places: Places, open_: BoolArray) -> FloatArray:
         """Instants of places in some of the gaps, shapes (N, T): common ones and their own."""
         common = np.broadcast_to(self.instant, open_.shape)
         (common,) = packed(open_ | np.roll(open_, 1, axis=1), common)
         return np.concatenate([common, self._own_instants(places, open_)], axis=1)
 
-    def _own_instants(self, places: Places, open_: NDArray[np.bool_]) -> FloatArray:
+    def _own_instants(self, places: Places, open_: BoolArray) -> FloatArray:
         """Instants at which the contact edge or a slip front passes near places, shape (N, E)."""
         instant, passes = _passages(self.scene, places)
         within = np.searchsorted(self.instant, instant, "right") - 1

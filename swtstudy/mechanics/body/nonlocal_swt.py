@@ -17,7 +17,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.half_sphere import (
     ABSCISSAE,
@@ -30,7 +29,7 @@ from swtstudy.mechanics.body.half_sphere import (
 )
 from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
@@ -307,7 +306,7 @@ def nonlocal_swt(
     return NonlocalSwt(volume, volume_error, point, point_error, line, line_error, volume_x, point_x, point_x)
 
 
-def _groups(distance: FloatArray) -> list[NDArray[np.intp]]:
+def _groups(distance: FloatArray) -> list[IndexArray]:
     """Indices of the distances that share their places."""
     order = np.argsort(distance)
     ratio = distance[order] / distance[order[0]]

@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import SAME, gather
@@ -18,7 +17,7 @@ from swtstudy.mechanics.planes.ascent import ROUGH_STEP, ActiveForms, Rows, clim
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.swing import Swing
 from swtstudy.mechanics.planes.weights import normal_weights
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 
 class Peaks(NamedTuple):
@@ -34,7 +33,7 @@ class Peaks(NamedTuple):
 
     instant: FloatArray
     value: FloatArray
-    peaked: NDArray[np.bool_]
+    peaked: BoolArray
 
     @classmethod
     def of(cls, instant: FloatArray, curve: FloatArray, count: int) -> Peaks:
@@ -66,7 +65,7 @@ class Peaks(NamedTuple):
         return np.where(self.peaked, np.maximum(off + self.value[..., 1] - top, 0.0), 0.0).max(axis=-1)
 
 
-def _neighbours(instant: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def _neighbours(instant: FloatArray) -> tuple[FloatArray, IndexArray]:
     """The last instant before each of the rows', itself, and the next one, and where they are, (3, m, T).
 
     Those that meet have the same next one; only the first of them has one before.
@@ -102,7 +101,7 @@ def planes_like(stress: FloatArray, ν: float, criterion: Criterion) -> CoarsePl
 
 def rival_planes(
     stress: FloatArray, planes: CoarsePlanes, ν: float, criterion: Criterion
-) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Planes on which swt has its summits, if not much lower than the highest of their history.
 
     Parameters

@@ -9,10 +9,9 @@ and fronts are: these are places of the mesh themselves.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.body.body import SUBDIVISIONS, Body, TimeNodes, nodes_at, time_nodes
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Steps of each stretch of the cycle, and cells of a slope that is bent.
@@ -118,7 +117,7 @@ def _highest(place: FloatArray, largest: FloatArray, apart: float) -> list[int]:
     return found
 
 
-def _around(scene: Scene, nodes: TimeNodes, some: TimeNodes, number: NDArray[np.intp]) -> TimeNodes:
+def _around(scene: Scene, nodes: TimeNodes, some: TimeNodes, number: IndexArray) -> TimeNodes:
     """Instants between those of numbers among some and their neighbours: all there are, and others."""
     near = np.unique(np.concatenate([number - 1, number]))
     near = near[(near >= 0) & (near < len(some.instant) - 1)]

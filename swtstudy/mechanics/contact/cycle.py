@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.memory import GROWTH, GrowthTimes, Memory
 from swtstudy.mechanics.contact.slip_front import Senses, SlipStates, slip_states, stick_coordinate
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import ROUNDING, packed
-from swtstudy.mechanics.points import FloatArray, IntArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows
 from swtstudy.vocabulary.parameters import Control
 
 
@@ -48,12 +47,12 @@ class Cycle(Rows):
     end: FloatArray
     memory: Memory
     times: GrowthTimes
-    forward: NDArray[np.bool_]
-    backward: NDArray[np.bool_]
-    gross_slip: NDArray[np.bool_]
-    lift_off: NDArray[np.bool_]
+    forward: BoolArray
+    backward: BoolArray
+    gross_slip: BoolArray
+    lift_off: BoolArray
 
-    def states(self, interval: NDArray[np.intp], instant: FloatArray) -> SlipStates:
+    def states(self, interval: IndexArray, instant: FloatArray) -> SlipStates:
         """Contact states at instants φ in intervals of the cycle, each of shape (n, …)."""
         return slip_states(self.load, self.memory, self.senses, self.times, interval, instant)
 
@@ -62,7 +61,7 @@ class Cycle(Rows):
         """In which intervals springs may slip forward and backward."""
         return self.forward, self.backward
 
-    def slips(self) -> NDArray[np.bool_]:
+    def slips(self) -> BoolArray:
         """True where any spring slips somewhere in the cycle, shape (n,)."""
         interval = np.arange(self.begin.shape[1])
         middle = self.states(interval, 0.5 * (self.begin + self.end))
@@ -73,14 +72,14 @@ class Cycle(Rows):
         """The intervals that begin in the first half of the common period, and empty ones."""
         return self.only(self.begin < 0.5 * PERIOD)
 
-    def only(self, kept: NDArray[np.bool_]) -> Cycle:
+    def only(self, kept: BoolArray) -> Cycle:
         """The intervals that are ``kept``, (n, i), and empty ones."""
         (interval,) = packed(kept, np.broadcast_to(np.arange(kept.shape[1]), kept.shape))
         chosen = self.take_intervals(np.arange(len(kept)), interval)
         empty = np.arange(interval.shape[1]) >= kept.sum(axis=1, keepdims=True)
         return replace(chosen, end=np.where(empty, chosen.begin, chosen.end))
 
-    def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Cycle:
+    def take_intervals(self, index: IndexArray, interval: IndexArray) -> Cycle:
         """The cycles at ``index``, of which only the intervals of shape (len(index), j) are kept."""
         at = index[:, None], interval
         return Cycle(
@@ -121,9 +120,9 @@ class _Course:
     instant: FloatArray
     edge: FloatArray
     tangential: FloatArray
-    forward: NDArray[np.bool_]
-    backward: NDArray[np.bool_]
-    grows: NDArray[np.bool_]
+    forward: BoolArray
+    backward: BoolArray
+    grows: BoolArray
     branch: IntArray
     growth: FloatArray
     times: GrowthTimes
@@ -216,7 +215,7 @@ def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
     _push(stack, front < edge, Memory(front, tangential + sign * (front - edge), sign, *none))
 
 
-def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
+def _push(stack: Memory, where: BoolArray, piece: Memory) -> None:
     """Pop what begins at or outside of the piece's start, then push the piece, in the rows ``where``."""
     row = np.flatnonzero(where)
     keep = stack.start[row, 0] < piece.start[row, None]
@@ -224,7 +223,7 @@ def _push(stack: Memory, where: NDArray[np.bool_], piece: Memory) -> None:
     stack.write((row, 0, keep.sum(axis=1)), piece.take((row,)))
 
 
-def out_of_equilibrium(load: Load, control: Control) -> NDArray[np.bool_]:
+def out_of_equilibrium(load: Load, control: Control) -> BoolArray:
     """True where there is no equilibrium at some instant, so that there is no stationary cycle.
 
     A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.

@@ -8,12 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import gather, packed
 from swtstudy.mechanics.numerics.roots import Brackets
-from swtstudy.mechanics.points import FloatArray, IntArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows
 
 #: Value of `Memory.slope` that marks a piece left by growth in stick which is no line.
 GROWTH = 2.0
@@ -97,7 +96,7 @@ class Growths:
     begin: FloatArray
     end: FloatArray
     branch: IntArray
-    index: NDArray[np.intp]
+    index: IndexArray
 
     @classmethod
     def of(cls, memory: Memory) -> Growths:
@@ -138,10 +137,10 @@ class DistinctPieces(Rows):
 
     start: FloatArray
     slope: FloatArray
-    first: NDArray[np.intp]
-    level: NDArray[np.intp]
-    below: NDArray[np.intp]
-    index: NDArray[np.intp]
+    first: IndexArray
+    level: IndexArray
+    below: IndexArray
+    index: IndexArray
 
     @classmethod
     def of(cls, memory: Memory) -> DistinctPieces:
@@ -178,11 +177,11 @@ class GrowthTimes(Rows):
         no ground was gained.
     """
 
-    row: NDArray[np.intp]
+    row: IndexArray
     table: FloatArray
 
     @classmethod
-    def of(cls, load: Load, edge: FloatArray, branch: IntArray, grows: NDArray[np.bool_]) -> GrowthTimes:
+    def of(cls, load: Load, edge: FloatArray, branch: IntArray, grows: BoolArray) -> GrowthTimes:
         """Of intervals of time between which the edge is at the coordinates (n, i + 1).
 
         Parameters
@@ -204,10 +203,10 @@ class GrowthTimes(Rows):
                 of_sense[:, row, interval] = np.stack(list(vars(brackets).values()))
         return cls(np.arange(len(load)), table)
 
-    def take(self, index: NDArray[np.intp]) -> GrowthTimes:
+    def take(self, index: IndexArray) -> GrowthTimes:
         """Return the times of the loads at ``index``, repetitions allowed."""
         return replace(self, row=self.row[index])
 
-    def slip_line_brackets(self, sense: float, row: NDArray[np.intp], number: IntArray) -> Brackets:
+    def slip_line_brackets(self, sense: float, row: IndexArray, number: IntArray) -> Brackets:
         """The stretches of given numbers of the loads at ``row``, for the slip line sense·T − N."""
         return Brackets(*self.table[0 if sense > 0.0 else 1][:, self.row[row], number])

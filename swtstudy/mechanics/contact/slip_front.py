@@ -8,15 +8,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.memory import GROWTH, GrowthTimes, Memory
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import count_below
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 #: In which intervals springs may slip forward (τ = +w) and backward (τ = −w), each of shape (n, i).
-Senses = tuple[NDArray[np.bool_], NDArray[np.bool_]]
+Senses = tuple[BoolArray, BoolArray]
 
 
 @dataclass(frozen=True)
@@ -41,16 +40,11 @@ class SlipStates:
     tangential: FloatArray
     front: FloatArray
     sign: FloatArray
-    piece: NDArray[np.intp]
+    piece: IndexArray
 
 
 def slip_states(
-    load: Load,
-    memory: Memory,
-    senses: Senses,
-    times: GrowthTimes,
-    interval: NDArray[np.intp],
-    instant: FloatArray,
+    load: Load, memory: Memory, senses: Senses, times: GrowthTimes, interval: IndexArray, instant: FloatArray
 ) -> SlipStates:
     """Where the springs slip at instants.
 
@@ -97,8 +91,8 @@ def _front_in_piece(
     sense: float,
     times: GrowthTimes,
     slip_line: FloatArray,
-    place: NDArray[np.intp],
-    piece: NDArray[np.intp],
+    place: IndexArray,
+    piece: IndexArray,
 ) -> FloatArray:
     """Solve sense·o(G) − G = slip line in the given piece of the stacks ``place``; −inf where piece < 0."""
     last = memory.start.shape[-1] - 1

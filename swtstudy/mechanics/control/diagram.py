@@ -9,7 +9,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import (
     Coordinate,
@@ -26,7 +25,7 @@ from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, between, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.parameters import Control
 
@@ -84,7 +83,7 @@ class MappedLoad(Load):
         return np.asarray(self.normal_motion + self.given.tangential_amplitude)
 
     @property
-    def moves_tangentially(self) -> NDArray[np.bool_]:
+    def moves_tangentially(self) -> BoolArray:
         return self.given.moves_tangentially
 
     @property
@@ -126,7 +125,7 @@ class MappedLoad(Load):
         """The slip line sense·tangential − normal of the loads, and two derivatives."""
         given, p, q = self.given, self.given.p, self.given.q
 
-        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def line(instant: FloatArray, active: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             d, psi, u = (v[active] for v in (given.normal_amplitude, given.phase, given.tangential_amplitude))
             ground, own, u = q * instant + psi, p * instant, sense * u
             sine, rate, u_sine = d * np.sin(ground), q * d * np.cos(ground), u * np.sin(own)
@@ -151,7 +150,7 @@ class MappedLoad(Load):
         row, first, last = sign_changes(angle, samples.reshape(n * m, -1))
         slip_line = self.take(row // m)._slip_line(sense)
 
-        def rate(at: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def rate(at: FloatArray, active: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             _, slope, bend = slip_line(at, active)
             return slope, bend, np.zeros_like(slope)
 

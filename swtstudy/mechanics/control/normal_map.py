@@ -13,14 +13,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import ForceCoordinate
 from swtstudy.mechanics.indenter.base import Tables
 from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.numerics.chebyshev import EvenTable
 from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, IndexArray, Rows
 
 
 class NormalMap(Rows, ABC):
@@ -179,19 +178,17 @@ class RootTable:
             bend[:, 0] = 0.0
         self._table = EvenTable(last, value, slope, bend)
 
-    def value(self, row: NDArray[np.intp], x: FloatArray) -> FloatArray:
+    def value(self, row: IndexArray, x: FloatArray) -> FloatArray:
         """y of the functions number ``row``, shape (n, …)."""
         return self._table(row, _root(x, self._power))
 
-    def with_slope(self, row: NDArray[np.intp], x: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def with_slope(self, row: IndexArray, x: FloatArray) -> tuple[FloatArray, FloatArray]:
         """y and its derivative by x."""
         root = np.maximum(_root(x, self._power), SAME)
         value, slope = self._table.with_slope(row, root)
         return value, slope / (self._power * root ** (self._power - 1))
 
-    def with_derivatives(
-        self, row: NDArray[np.intp], x: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def with_derivatives(self, row: IndexArray, x: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """y and two derivatives by x."""
         root = np.maximum(_root(x, self._power), SAME)
         value, slope, bend = self._table.with_derivatives(row, root)
@@ -221,7 +218,7 @@ class TabledMap(NormalMap):
         The functions and their inverses.
     """
 
-    row: NDArray[np.intp]
+    row: IndexArray
     forward: RootTable
     backward: RootTable
 

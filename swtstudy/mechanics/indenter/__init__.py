@@ -5,9 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid, RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.plane import Cylinder, RoundedFlat
@@ -15,7 +12,7 @@ from swtstudy.mechanics.indenter.power_law import PowerLaw, PowerLawCylinder
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.indenter.tabulated import Tabulated, TabulatedPlane
 from swtstudy.mechanics.indenter.wavy import WavyCylinder, WavyParaboloid
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray
 
 PROFILES: dict[str, type[Profile]] = {
     "paraboloid": Paraboloid,
@@ -70,7 +67,7 @@ def resolved_shape(
 
 def compact_shapes(
     profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
-) -> NDArray[np.bool_]:
+) -> BoolArray:
     """True where `check_shape` accepts a shape up to a depth, each of shape (n,)."""
     own, given = _class_of(profile, shape)
     return own.compact(largest_depth, **given)

@@ -12,12 +12,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, align
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
-from swtstudy.mechanics.points import FloatArray, IntArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows
 
 
 class Primitives(ABC):
@@ -62,7 +61,7 @@ class Tables:
     """
 
     profile: Profile
-    number: NDArray[np.intp]
+    number: IndexArray
     cells: int
 
 
@@ -101,7 +100,7 @@ class Profile(Rows, ABC):
         return shape, np.zeros(len(largest_depth))
 
     @classmethod
-    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
+    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> BoolArray:
         """True where the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 

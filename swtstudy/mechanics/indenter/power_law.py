@@ -8,13 +8,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import TINY, align
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 
 #: Chebyshev nodes of the series over the inner springs besides one for each digit, and for each digit of the
 #: outer ones. Errors at exponents up to 20: 4e-6 at 6 digits, 2e-8 at 8, 1e-10 at 10, over 20.
@@ -175,11 +174,11 @@ class _FarSeries:
             exponent - 1.0
         )
 
-    def __call__(self, row: NDArray[np.intp], ratio: FloatArray) -> FloatArray:
+    def __call__(self, row: IndexArray, ratio: FloatArray) -> FloatArray:
         """At ratios c of shape (m,) of the profiles ``row``."""
         return chebyshev.evaluate(self.series, 4.0 * ratio * ratio - 1.0, row) + self._pole(row, ratio)
 
-    def _pole(self, row: NDArray[np.intp], ratio: FloatArray) -> FloatArray:
+    def _pole(self, row: IndexArray, ratio: FloatArray) -> FloatArray:
         """The two terms that are taken together."""
         offset, logarithm = self.offset[row], np.log(np.maximum(ratio, TINY))
         rise = np.expm1(offset * logarithm)

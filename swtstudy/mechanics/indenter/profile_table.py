@@ -7,11 +7,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
@@ -188,7 +188,7 @@ class TabulatedProfile(Definition):
         return np.hypot(w, pieces.flat_radius), slope, depth
 
     @property
-    def _falls(self) -> NDArray[np.intp]:
+    def _falls(self) -> IndexArray:
         """Where of these radii g falls."""
         slope = self._sampled[1]
         return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())

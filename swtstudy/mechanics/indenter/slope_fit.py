@@ -13,10 +13,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import TINY, polynomial_in
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -201,11 +200,11 @@ class SlopePieces:
         integral[0, 1:] = np.cumsum(gains)
         return integral
 
-    def piece(self, w: FloatArray) -> NDArray[np.intp]:
+    def piece(self, w: FloatArray) -> IndexArray:
         """The piece in which each w lies."""
         return np.searchsorted(self.start[1:], w, "right")
 
-    def value(self, coefficients: FloatArray, w: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+    def value(self, coefficients: FloatArray, w: FloatArray, piece: IndexArray) -> FloatArray:
         """One of the functions at w in its pieces."""
         return polynomial_in(coefficients, piece, w - self.start.take(piece))
 
@@ -241,7 +240,7 @@ def _edges(exact: Exact, last: float, allowed: float) -> FloatArray:
 
 
 def _fitted(  # type: ignore[no-untyped-def]
-    function, start: FloatArray, width: FloatArray, degree: int, narrow: NDArray[np.bool_]
+    function, start: FloatArray, width: FloatArray, degree: int, narrow: BoolArray
 ) -> FloatArray:
     """Coefficients (degree + 1, m) of polynomials through the function, of lower degree where narrow."""
     coefficients = np.zeros((degree + 1, start.size))

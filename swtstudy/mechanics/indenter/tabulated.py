@@ -11,7 +11,6 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile, Tables
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlanePrimitives, PlaneProfile
@@ -19,7 +18,7 @@ from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.indenter.slope_fit import SlopePieces
 from swtstudy.mechanics.numerics.arrays import TINY, align, gather
 from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 #: Gives the coefficient of a power, the same for all or one for each of what is integrated over.
 Coefficient = Callable[[int], FloatArray]
@@ -80,7 +79,7 @@ class PiecePrimitives(Primitives):
         w = self._w(radius)
         return self.pieces.value(self.pieces.half_load, w, self.pieces.piece(w))
 
-    def _offset(self, offset: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+    def _offset(self, offset: FloatArray, piece: IndexArray) -> FloatArray:
         """Offsets (n, X, m) of the pieces of (n, X or 1, …)."""
         shape = np.broadcast_shapes(piece.shape, (*offset.shape[:2], *(1,) * (piece.ndim - 2)))
         flat = np.broadcast_to(piece, shape).reshape(*shape[:2], -1)
@@ -170,7 +169,7 @@ class Tabulated(Profile):
         self._pieces = table.pieces
 
     @classmethod
-    def compact(cls, largest_depth: FloatArray, **shape: TabulatedProfile) -> NDArray[np.bool_]:  # type: ignore[override]
+    def compact(cls, largest_depth: FloatArray, **shape: TabulatedProfile) -> BoolArray:  # type: ignore[override]
         return np.asarray(np.asarray(largest_depth) <= shape["table"].deepest)
 
     @classmethod
@@ -259,7 +258,7 @@ class TabulatedPlane(PlaneProfile, Tabulated):
         before = np.append(0.0, np.cumsum(whole))
         return before.take(piece) + self._part(pieces.start.take(piece), w, piece)
 
-    def _part(self, low: FloatArray, high: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+    def _part(self, low: FloatArray, high: FloatArray, piece: IndexArray) -> FloatArray:
         """∫ N/(N_0 ξ) dξ between places w of pieces."""
         node, weight = np.polynomial.legendre.leggauss(NODES)
         w = low[..., None] + (high - low)[..., None] * (0.5 + 0.5 * node)

@@ -9,13 +9,12 @@ from copy import copy
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.indenter.base import Primitives, Profile, TablePrimitives, Tables
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlaneProfile, StripTablePrimitives
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.numerics.arrays import SAME, RowTable, align
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
 #: Half of the first: 4e-6 at rtol 1e-5, no faster; twice: 2e-10. Of the second: 6e-8; no third one: 3e-8.
@@ -80,7 +79,7 @@ class WavyParaboloid(Profile):
         )
 
     @classmethod
-    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> NDArray[np.bool_]:
+    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> BoolArray:
         h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
         return (h == 0.0) | (wavelength >= cls.smallest_wavelength(largest_depth, h, wavelength))
 
@@ -100,7 +99,7 @@ class WavyParaboloid(Profile):
         # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
         return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
-    def take(self, index: NDArray[np.intp]) -> WavyParaboloid:
+    def take(self, index: IndexArray) -> WavyParaboloid:
         taken = copy(self)
         for name in ("largest_depth", "waviness_amplitude", "wavelength", "wave_number", "reach", "_row"):
             setattr(taken, name, getattr(self, name)[index])

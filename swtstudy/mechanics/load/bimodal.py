@@ -10,13 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.harmonic_sum import even_instants
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import ROUNDING, TINY, align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
-from swtstudy.mechanics.points import FloatArray, IntArray, Points
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
 
 
 @dataclass(frozen=True)
@@ -67,7 +66,7 @@ class BimodalLoad(Load):
         return self.normal_amplitude + self.tangential_amplitude
 
     @property
-    def moves_tangentially(self) -> NDArray[np.bool_]:
+    def moves_tangentially(self) -> BoolArray:
         return self.tangential_amplitude > 0.0
 
     @property
@@ -148,7 +147,7 @@ class BimodalLoad(Load):
     def _slip_line(self, sense: float) -> Function:
         """The slip line sense·tangential − normal of the loads, and two derivatives."""
 
-        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def line(instant: FloatArray, active: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             d, psi = self.normal_amplitude[active], self.phase[active]
             u, ground = sense * self.tangential_amplitude[active], self.q * instant + psi
             own = self.p * instant
@@ -181,7 +180,7 @@ def _turning_points_of_slip_line(load: BimodalLoad, sign: float) -> FloatArray:
     row, low, high = sign_changes(grid, load.tangential_rate(nodes) - sign * load.normal_rate(nodes))
     line = load.take(row)
 
-    def rate(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def rate(instant: FloatArray, active: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         one = line.take(active)
         slope = -p * p * one.tangential(instant) + sign * q * q * (one.normal(instant) - 1.0)
         own, normal_rate = one.tangential_rate(instant), one.normal_rate(instant)
@@ -192,13 +191,13 @@ def _turning_points_of_slip_line(load: BimodalLoad, sign: float) -> FloatArray:
 
 
 def without_what_stands_still(
-    constant: NDArray[np.bool_], phase: FloatArray, p: IntArray, q: IntArray
+    constant: BoolArray, phase: FloatArray, p: IntArray, q: IntArray
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Phase and ω2/ω1 = p/q, each (n,): 0 and 1 for a constant normal load, which has neither."""
     return np.where(constant, 0.0, phase), np.where(constant, 1, p), np.where(constant, 1, q)
 
 
-def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, BoolArray]:
     """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
 
     Shifting time by π/ω2 flips u and mirrors x.
@@ -223,8 +222,8 @@ def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray,
 
 
 def fold_bulk_phase(
-    phase: FloatArray, moves: NDArray[np.bool_], mirrored: NDArray[np.bool_], both_ways: NDArray[np.bool_]
-) -> tuple[FloatArray, NDArray[np.bool_]]:
+    phase: FloatArray, moves: BoolArray, mirrored: BoolArray, both_ways: BoolArray
+) -> tuple[FloatArray, BoolArray]:
     """Fold ψ_B of bulk stresses that oscillate with the tangential load, once ψ is folded.
 
     Mirroring x leaves a bulk stress as it is, but the shift of time by π/ω2 that flips u flips its
@@ -261,7 +260,7 @@ def load_of(points: Points) -> Load:
     return BimodalLoad(*of_load, int(points.p[0]), int(points.q[0]))
 
 
-def alike(points: Points) -> list[NDArray[np.intp]]:
+def alike(points: Points) -> list[IndexArray]:
     """Indices of points whose loads are one `Load`; within each, points with the same load are neighbours."""
     if not len(points):
         return []
@@ -286,7 +285,7 @@ def largest_turn_count(points: Points) -> int:
     return 6 * int(max(points.p[0], points.q[0]))
 
 
-def shared_load(points: Points) -> tuple[Load, NDArray[np.intp]]:
+def shared_load(points: Points) -> tuple[Load, IndexArray]:
     """The distinct loads of points that are alike, and which of them each point has."""
     table = np.stack([points.normal_amplitude, points.tangential_amplitude, points.phase], axis=1)
     _, first, number = np.unique(table, axis=0, return_index=True, return_inverse=True)

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME
 from swtstudy.mechanics.numerics.roots import Brackets, monotone_roots, sign_changes
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import FloatArray, IndexArray, IntArray
 
 #: Samples of a derivative for each harmonic between which its zeros are looked for. Four times as many find
 #: no others in 2,000 random sums of up to 6 harmonics.
@@ -78,7 +77,7 @@ class HarmonicSum:
         grid = even_instants(self.highest)
         _, low, high = sign_changes(grid, self.value(grid, derivative)[None])
 
-        def curve(at: FloatArray, _: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def curve(at: FloatArray, _: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             values = [self.value(at, derivative + k) for k in range(3)]
             return values[0], values[1], values[2]
 
@@ -136,7 +135,7 @@ class HarmonicSum:
         """`inverse` for values and stretches of one shape, by Newton's method."""
         end = np.append(self.turns[1:], self.turns[0] + PERIOD)
 
-        def curve(at: FloatArray, _: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def curve(at: FloatArray, _: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             return self.value(at), self.value(at, 1), self.value(at, 2)
 
         brackets = Brackets.of(curve, self.turns[stretch.ravel()], end[stretch.ravel()])

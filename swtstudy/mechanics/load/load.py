@@ -11,10 +11,9 @@ from abc import ABC, abstractmethod
 from typing import ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.roots import Brackets
-from swtstudy.mechanics.points import FloatArray, IntArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Rows
 from swtstudy.vocabulary.definition import Definition, wrong_name
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
 from swtstudy.vocabulary.parameters import PAIRS
@@ -74,7 +73,7 @@ class Load(Rows, ABC):
 
     @property
     @abstractmethod
-    def moves_tangentially(self) -> NDArray[np.bool_]:
+    def moves_tangentially(self) -> BoolArray:
         """Shape (n,): whether the tangential load changes at all."""
 
     @property

@@ -11,12 +11,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import ROUNDING, align
 from swtstudy.mechanics.numerics.roots import Brackets
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 
 #: Rounding of the corner's sine, in the sizes of its products: each has two differences and a product, 1.5 ε.
 STRAIGHT = 4.0 * float(np.finfo(float).eps)
@@ -40,7 +39,7 @@ class PolygonLoad(Load):
     corner_normal: FloatArray
     corner_tangential: FloatArray
     sides: IntArray
-    row: NDArray[np.intp]
+    row: IndexArray
 
     @classmethod
     def of(cls, loops: Sequence[FloatArray]) -> PolygonLoad:
@@ -62,7 +61,7 @@ class PolygonLoad(Load):
     def __len__(self) -> int:
         return len(self.sides)
 
-    def take(self, index: NDArray[np.intp]) -> PolygonLoad:
+    def take(self, index: IndexArray) -> PolygonLoad:
         return PolygonLoad(self.corner_normal, self.corner_tangential, self.sides[index], self.row[index])
 
     def with_normal(self, function: Callable[[FloatArray], FloatArray]) -> PolygonLoad:
@@ -96,7 +95,7 @@ class PolygonLoad(Load):
         return np.asarray(0.5 * spans[self.row])
 
     @property
-    def moves_tangentially(self) -> NDArray[np.bool_]:
+    def moves_tangentially(self) -> BoolArray:
         return np.asarray(np.ptp(self.corner_tangential, axis=1)[self.row] > 0.0)
 
     @property

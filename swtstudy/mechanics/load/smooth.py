@@ -8,13 +8,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum, even_instants
 from swtstudy.mechanics.load.load import LARGEST, PERIOD, Load, Loop, checked_mean, checked_name, mean_of
 from swtstudy.mechanics.numerics.arrays import ROUNDING, TINY, align, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
 
 
@@ -64,7 +64,7 @@ class SmoothLoad(Load):
         return np.asarray(normal * self.normal_amplitude + tangential * self.tangential_amplitude)
 
     @property
-    def moves_tangentially(self) -> NDArray[np.bool_]:
+    def moves_tangentially(self) -> BoolArray:
         return (self.tangential_amplitude > 0.0) & (not self.tangential_sum.is_constant)
 
     @property
@@ -139,7 +139,7 @@ class SmoothLoad(Load):
     def _slip_line(self, sense: float, derivative: int = 0) -> Function:
         """A derivative of the slip line sense·tangential − normal of the loads, and two more of them."""
 
-        def line(instant: FloatArray, active: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        def line(instant: FloatArray, active: IndexArray) -> tuple[FloatArray, FloatArray, FloatArray]:
             n, t = self.normal_amplitude[active], sense * self.tangential_amplitude[active]
             values = [
                 t * self.tangential_sum.value(instant, k) - n * self.normal_sum.value(instant, k)

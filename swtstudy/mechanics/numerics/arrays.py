@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 #: What is nearer than this, relative or in rad, is apart by rounding.
 ROUNDING = 1e-12
@@ -30,7 +30,7 @@ SHORT = 24
 T = TypeVar("T", bound=np.generic)
 
 
-def gather(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
+def gather(values: NDArray[T], index: IndexArray) -> NDArray[T]:
     """``np.take_along_axis(values, index, axis=-1)``, where index may have more leading axes.
 
     Parameters
@@ -45,12 +45,12 @@ def gather(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
     return np.ascontiguousarray(values).reshape(-1).take(rows * values.shape[-1] + index)
 
 
-def pick(values: NDArray[T], index: NDArray[np.intp]) -> NDArray[T]:
+def pick(values: NDArray[T], index: IndexArray) -> NDArray[T]:
     """One value of each row: values of shape (…, k) at the index of shape (…) or (s, …)."""
     return gather(values, index[..., None])[..., 0]
 
 
-def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) -> NDArray[np.intp]:
+def count_below(values: FloatArray, row: IndexArray, level: FloatArray) -> IndexArray:
     """Count the values in a row that are below each level.
 
     Parameters
@@ -75,7 +75,7 @@ def count_below(values: FloatArray, row: NDArray[np.intp], level: FloatArray) ->
     return count
 
 
-def packed(keep: NDArray[np.bool_], *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
+def packed(keep: BoolArray, *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
     """The kept entries of each row, moved to its front; shorter rows repeat their first kept entry.
 
     Parameters
@@ -118,7 +118,7 @@ class RowTable:
         #: All rows as one ascending row, each within a unit of its own.
         self._key = self._keys(np.arange(len(abscissa))[:, None], abscissa).ravel()
 
-    def interpolated(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+    def interpolated(self, row: IndexArray, at: FloatArray) -> FloatArray:
         """The functions number ``row`` at (…), linear between their abscissae and constant beyond."""
         k = self.abscissa.shape[1]
         place = np.searchsorted(self._key, self._keys(row, at), side="right") - 1
@@ -128,12 +128,12 @@ class RowTable:
         slope = (last - first) / (high - low)
         return np.asarray(slope * (np.clip(at, low, high) - low) + first)
 
-    def _keys(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+    def _keys(self, row: IndexArray, at: FloatArray) -> FloatArray:
         share = (at - self.abscissa[row, 0]) / self._width[row, 0]
         return np.asarray(row + 0.5 * np.clip(share, 0.0, 1.0))
 
 
-def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: float) -> FloatArray:
+def filled_rows(row: IndexArray, values: FloatArray, count: int, fill: float) -> FloatArray:
     """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
     sizes = np.bincount(row, minlength=count)
     filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
@@ -142,25 +142,25 @@ def filled_rows(row: NDArray[np.intp], values: FloatArray, count: int, fill: flo
     return filled
 
 
-def place_in_row(row: NDArray[np.intp]) -> NDArray[np.intp]:
+def place_in_row(row: IndexArray) -> IndexArray:
     """Count the entries of the same row that stand before each, shape (m,), of entries listed row by row."""
     return np.arange(row.size) - np.searchsorted(row, row)
 
 
-def largest_of_rows(row: NDArray[np.intp], values: FloatArray) -> FloatArray:
+def largest_of_rows(row: IndexArray, values: FloatArray) -> FloatArray:
     """The largest of the values ≥ 0, (m,), of each row, (n,), 0 where it has none."""
     largest = np.zeros(row.max(initial=-1) + 1)
     np.maximum.at(largest, row, values)
     return largest
 
 
-def highest_of_rows(row: NDArray[np.intp], values: FloatArray) -> NDArray[np.intp]:
+def highest_of_rows(row: IndexArray, values: FloatArray) -> IndexArray:
     """Indices of the largest of the values, (m,), of each row that has any; of equal ones the first."""
     order = np.lexsort((-values, row))
     return order[np.unique(row[order], return_index=True)[1]]
 
 
-def as_rows(row: NDArray[np.intp], rows: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+def as_rows(row: IndexArray, rows: IndexArray) -> tuple[IndexArray, BoolArray]:
     """Where the entries of some rows are among those of all, which are listed row by row.
 
     Parameters
@@ -185,7 +185,7 @@ def align(values: NDArray[T], like: NDArray[Any]) -> NDArray[T]:
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
 
 
-def distinct(values: FloatArray) -> tuple[FloatArray, NDArray[np.intp]]:
+def distinct(values: FloatArray) -> tuple[FloatArray, IndexArray]:
     """The distinct values of each row, ascending.
 
     Parameters
@@ -217,7 +217,7 @@ def layer_share(thickness: FloatArray, length: FloatArray) -> FloatArray:
     return np.asarray(2.0 / np.pi * np.sqrt(thickness / length))
 
 
-def polynomial_in(coefficients: FloatArray, piece: NDArray[np.intp], t: FloatArray) -> FloatArray:
+def polynomial_in(coefficients: FloatArray, piece: IndexArray, t: FloatArray) -> FloatArray:
     """Values at t of the polynomials of its pieces, from coefficients of t⁰, t¹, …, shape (d, pieces)."""
     value = coefficients[-1].take(piece)
     for c in coefficients[-2::-1]:

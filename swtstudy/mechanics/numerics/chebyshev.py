@@ -12,9 +12,8 @@ from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebint, chebvander
-from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 
 #: Upper limits that are evaluated together, for the processor's cache. Half: 1.2 times the time; twice: as
 #: fast; all at once: 1.5 times.
@@ -68,7 +67,7 @@ def _combined(values: FloatArray, matrix: FloatArray) -> FloatArray:
     return combined.reshape(len(combined), *values.shape[:-1])
 
 
-def evaluate(series: FloatArray, y: FloatArray, column: NDArray[np.intp] | None = None) -> FloatArray:
+def evaluate(series: FloatArray, y: FloatArray, column: IndexArray | None = None) -> FloatArray:
     """Value of the series at y by Clenshaw's recurrence.
 
     Parameters
@@ -141,7 +140,7 @@ class RunningIntegrals:
             result[:, some] = found.swapaxes(1, 2)
         return result.reshape(c, *y.shape)
 
-    def single(self, y: FloatArray, column: NDArray[np.intp]) -> FloatArray:
+    def single(self, y: FloatArray, column: IndexArray) -> FloatArray:
         """The integrals of the functions number ``column`` from −1 to one limit y each, (c, len(y))."""
         result = np.empty((self.components, y.size))
         for begin in range(0, y.size, BLOCK):
@@ -179,7 +178,7 @@ class EvenTable:
         #: Coefficients of each cell, in powers of the share of it that is passed.
         self._coefficients = np.stack(powers, axis=-1).reshape(-1, len(powers))
 
-    def __call__(self, row: NDArray[np.intp], at: FloatArray) -> FloatArray:
+    def __call__(self, row: IndexArray, at: FloatArray) -> FloatArray:
         """The functions number ``row`` at (…)."""
         c, share, _ = self._cell(row, at)
         value = c[5] * share
@@ -189,22 +188,20 @@ class EvenTable:
         value += c[0]
         return value
 
-    def with_slope(self, row: NDArray[np.intp], at: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def with_slope(self, row: IndexArray, at: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The functions and their derivatives."""
         c, share, density = self._cell(row, at)
         value, slope = _with_slope(c, share)
         return value, slope * density
 
-    def with_derivatives(
-        self, row: NDArray[np.intp], at: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def with_derivatives(self, row: IndexArray, at: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """The functions and two derivatives."""
         c, share, density = self._cell(row, at)
         value, slope = _with_slope(c, share)
         bend = ((20.0 * c[5] * share + 12.0 * c[4]) * share + 6.0 * c[3]) * share + 2.0 * c[2]
         return value, slope * density, bend * density * density
 
-    def _cell(self, row: NDArray[np.intp], at: FloatArray) -> tuple[list[FloatArray], FloatArray, FloatArray]:
+    def _cell(self, row: IndexArray, at: FloatArray) -> tuple[list[FloatArray], FloatArray, FloatArray]:
         """Coefficients of the cells, the shares of them that are passed, and the density of cells."""
         density = self._density.take(row)
         place = at * density

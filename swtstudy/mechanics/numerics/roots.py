@@ -9,10 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import TINY, gather, pick
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 
 #: Iterations that converge, or fall back to bisection, need fewer steps than these.
 MOST_STEPS = 60
@@ -23,7 +22,7 @@ NEWTON_STEPS = 3
 LAST_STEP = 1e-5
 
 #: Maps abscissae, and the numbers of the brackets they belong to, to values and two derivatives.
-Function = Callable[[FloatArray, NDArray[np.intp]], tuple[FloatArray, FloatArray, FloatArray]]
+Function = Callable[[FloatArray, IndexArray], tuple[FloatArray, FloatArray, FloatArray]]
 
 
 @dataclass(frozen=True)
@@ -121,7 +120,7 @@ def _first_guess(goal: FloatArray, brackets: Brackets) -> FloatArray:
     )
 
 
-def sign_changes(grid: FloatArray, values: FloatArray) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+def sign_changes(grid: FloatArray, values: FloatArray) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Ranges in which smooth functions change their sign, from samples on an even grid.
 
     Parameters
@@ -172,7 +171,7 @@ def parabola(left: FloatArray, middle: FloatArray, right: FloatArray) -> tuple[F
     return np.where(inside, shift, 0.0), np.where(inside, -0.25 * (left - right) * shift, 0.0)
 
 
-def near_maximum(curve: FloatArray, share: float) -> NDArray[np.bool_]:
+def near_maximum(curve: FloatArray, share: float) -> BoolArray:
     """Where curves along the last axis come near to their maximum, within a share of their range."""
     high, low = curve.max(axis=-1, keepdims=True), curve.min(axis=-1, keepdims=True)
     return np.asarray(curve >= high - share * (high - low))
@@ -207,7 +206,7 @@ def polynomial_maximum(
 
 
 def vertex_near(
-    c: FloatArray, values: FloatArray, best: NDArray[np.intp], is_corner: NDArray[np.bool_]
+    c: FloatArray, values: FloatArray, best: IndexArray, is_corner: BoolArray
 ) -> tuple[FloatArray, FloatArray]:
     """Abscissa and value of the maximum of a parabola through the ``best`` value and its neighbours.
 

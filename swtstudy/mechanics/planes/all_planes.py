@@ -21,7 +21,7 @@ from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.ascent import climb, swap_instants
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
 from swtstudy.mechanics.planes.weights import normal_weights, symmetric_tensor
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 #: Planes of the coarse search, about 10° apart. Half: 1e-6 in 16 values of bodies, no faster; twice: 6e-7.
 COARSE_PLANES = 256
@@ -171,14 +171,14 @@ class CoarsePlanes:
     """
 
     normal: FloatArray
-    beside: NDArray[np.intp]
+    beside: IndexArray
 
     @staticmethod
     def everywhere() -> CoarsePlanes:
         """Return planes of all orientations."""
         return CoarsePlanes(hemisphere(LOOK_PLANES), _beside())
 
-    def some(self, which: NDArray[np.bool_]) -> CoarsePlanes:
+    def some(self, which: BoolArray) -> CoarsePlanes:
         """Some of the planes."""
         number = np.where(which, np.cumsum(which) - 1, -1)
         beside = number[self.beside[which]]
@@ -191,7 +191,7 @@ class CoarsePlanes:
 
 
 @lru_cache(maxsize=1)
-def _beside() -> NDArray[np.intp]:
+def _beside() -> IndexArray:
     """The planes beside each of the coarse ones, shape (LOOK_PLANES, BESIDE)."""
     normals = hemisphere(LOOK_PLANES)
     return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]

@@ -14,13 +14,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.weights import apply_jets, jet_weights, normal_weights, tangent_basis
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 
 #: Largest step of a climb, rad. Half or twice: 2e-16 in 16 values of bodies.
 LARGEST_STEP = 0.2
@@ -32,7 +31,7 @@ RIVALS = 16
 #: The value on one plane a row, (n,), and of its triple the stress and half the change of the tensor, (n, 6).
 ActiveForms = tuple[FloatArray, FloatArray, FloatArray]
 #: Some rows, or all.
-Rows = NDArray[np.intp] | slice
+Rows = IndexArray | slice
 
 
 def climb(

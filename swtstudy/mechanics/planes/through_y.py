@@ -10,13 +10,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.roots import NEWTON_STEPS
 from swtstudy.mechanics.planes.ascent import LARGEST_STEP
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 
 #: Largest step of 2θ in one Newton step, rad: that of a plane.
 LARGEST_TURN = 2.0 * LARGEST_STEP
@@ -59,7 +58,7 @@ class PlaneHistory:
         stress = np.stack([0.5 * (xx + zz), 0.5 * (xx - zz), np.broadcast_to(xz, xx.shape)])
         return cls(stress, criterion.swing.in_section(stress, yy, nu), criterion.reshape(*nu.shape[:-1]))
 
-    def take(self, *index: NDArray[np.intp] | slice) -> PlaneHistory:
+    def take(self, *index: IndexArray | slice) -> PlaneHistory:
         """Return the histories at ``index`` of the points' axes."""
         # The criterion is that of the point at all its positions.
         criterion = self.criterion.take((index[0], *(0 for _ in index[1:])))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.load.load import PERIOD, BulkCourse
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.planes.criterion import Criterion
-from swtstudy.mechanics.points import FloatArray, Points, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, Points, Rows
 
 
 class BulkStress(Rows, ABC):
@@ -40,7 +40,7 @@ class BulkStress(Rows, ABC):
         """Instants at which B turns but the load need not, shape (n, k), filled up with `PERIOD`."""
 
     @property
-    def moves(self) -> NDArray[np.bool_]:
+    def moves(self) -> BoolArray:
         """Shape (n,): which change over the cycle."""
         return np.asarray(self.largest > self.least)
 

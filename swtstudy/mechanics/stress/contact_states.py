@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
@@ -13,7 +13,7 @@ from swtstudy.mechanics.contact.slip_front import SlipStates
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.numerics.arrays import between
-from swtstudy.mechanics.points import FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.mechanics.stress.superposition import (
     Kernels,
     SlopeCells,
@@ -64,7 +64,7 @@ class ContactStates:
 
 
 def contact_states(
-    cycle: Cycle, coordinate: Coordinate, interval: NDArray[np.intp], instant: FloatArray, cells: int
+    cycle: Cycle, coordinate: Coordinate, interval: IndexArray, instant: FloatArray, cells: int
 ) -> ContactStates:
     """Contact states of one point at instants of its stationary cycle.
 
@@ -134,7 +134,7 @@ def _slopes(cycle: Cycle, coordinate: Coordinate, radius: FloatArray, branches: 
     return slope_cells(weighted_slopes, radius, start=float(coordinate.profile.flat_radius[0]))
 
 
-def _grown(memory: Memory) -> NDArray[np.bool_]:
+def _grown(memory: Memory) -> BoolArray:
     return (memory.slope == GROWTH) & np.isfinite(memory.start)
 
 

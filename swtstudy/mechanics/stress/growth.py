@@ -12,7 +12,6 @@ from collections.abc import Callable
 from copy import copy
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import Growths
@@ -20,7 +19,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 
 #: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows.
 #: 0.4: 1e-5 of the stress at ω2/ω1 = 20.
@@ -34,7 +33,7 @@ LAYER_STEP = 2.0
 NODE_STEP = 8
 
 #: Densities at abscissae of some ranges, see `_OverRanges`.
-Density = Callable[[tuple[NDArray[np.intp], ...], FloatArray], FloatArray]
+Density = Callable[[tuple[IndexArray, ...], FloatArray], FloatArray]
 
 
 class GrowthIntegrals:
@@ -73,7 +72,7 @@ class GrowthIntegrals:
             _outer_root(low, r), _outer_root(high, r), self._outer_density, layers, nodes
         )
 
-    def take(self, index: NDArray[np.intp]) -> GrowthIntegrals:
+    def take(self, index: IndexArray) -> GrowthIntegrals:
         """Return the growths of the cycles at ``index``, repetitions allowed."""
         taken = copy(self)
         if self.count:
@@ -85,7 +84,7 @@ class GrowthIntegrals:
             taken.inner, taken.outer = self.inner.take(index), self.outer.take(index)
         return taken
 
-    def _inner_density(self, at: tuple[NDArray[np.intp], ...], angle: FloatArray) -> FloatArray:
+    def _inner_density(self, at: tuple[IndexArray, ...], angle: FloatArray) -> FloatArray:
         """Densities of T1 and T3, or in the plane of A, over the angle, shape (2 or 1, m, nodes)."""
         r, b = self.position[at[:2]], self.flat[at[0], 0]
         radius = np.sqrt(b * b + np.maximum(r * r - b * b, 0.0) * np.sin(angle) ** 2)
@@ -95,23 +94,21 @@ class GrowthIntegrals:
         first = np.where(r > b, 2.0 / r, 0.0) * self._weighted_growth(at, radius)
         return np.stack([first, first * (radius / r) ** 2])
 
-    def _outer_density(self, at: tuple[NDArray[np.intp], ...], root: FloatArray) -> FloatArray:
+    def _outer_density(self, at: tuple[IndexArray, ...], root: FloatArray) -> FloatArray:
         """Density of Π over the root, shape (1, m, nodes)."""
         r, b = self.position[at[:2]], self.flat[at[0], 0]
         radius = np.sqrt(root * root + r * r)
         gap = np.sqrt(np.maximum(radius * radius - b * b, TINY))
         return (self._weighted_growth(at, radius) / (radius * gap))[None]
 
-    def _weighted_growth(self, at: tuple[NDArray[np.intp], ...], radius: FloatArray) -> FloatArray:
+    def _weighted_growth(self, at: tuple[IndexArray, ...], radius: FloatArray) -> FloatArray:
         """m dτ/dG at the radii of the springs, shape (m, nodes)."""
         row, _, growth = at
         coordinate, slope = self.coordinate.take(row).with_weighted_slope(radius)
         grown = self.cycle.load.take(row).growth_slope(coordinate, self.branch[row, growth, None])
         return slope * grown
 
-    def up_to(
-        self, row: NDArray[np.intp], column: NDArray[np.intp], index: NDArray[np.intp], radius: FloatArray
-    ) -> FloatArray:
+    def up_to(self, row: IndexArray, column: IndexArray, index: IndexArray, radius: FloatArray) -> FloatArray:
         """The integrals over single growths up to ``radius``, shape (3, m) or (2, m).
 
         Parameters
@@ -147,7 +144,7 @@ def _layers(load: Load, growths: Growths, digits: float) -> FloatArray:
     return np.asarray(thickness[behind.argmax(axis=-1)] / np.sqrt(3.0))
 
 
-def _node_count(load: Load, layers: FloatArray, digits: float, more: float) -> NDArray[np.intp]:
+def _node_count(load: Load, layers: FloatArray, digits: float, more: float) -> IndexArray:
     """Number of Chebyshev nodes of both halves of growths, shape (n, k, 2).
 
     In w, β = ε sinh w, the slope is singular at ±iπ/2, beside the end of 0 ≤ w ≤ asinh(π/4ε), and in the
@@ -181,7 +178,7 @@ class _OverRanges:
     """
 
     def __init__(
-        self, low: FloatArray, high: FloatArray, density: Density, layers: FloatArray, count: NDArray[np.intp]
+        self, low: FloatArray, high: FloatArray, density: Density, layers: FloatArray, count: IndexArray
     ) -> None:
         self.low, self.span = low, high - low
         #: Shape (n, X, k, 2), as the arrays of halves below: in which of the groups with as many nodes each
@@ -194,7 +191,7 @@ class _OverRanges:
         )
         real = np.broadcast_to((self.span > 0.0)[..., None], self.group.shape)
         self.groups: list[chebyshev.RunningIntegrals] = []
-        wholes: list[tuple[tuple[NDArray[np.intp], ...], FloatArray]] = []
+        wholes: list[tuple[tuple[IndexArray, ...], FloatArray]] = []
         for number, nodes in enumerate(np.unique(count)):
             at = np.nonzero(real & (count == nodes)[:, None])
             self.group[at], self.column[at] = number, np.arange(len(at[0]))
@@ -207,7 +204,7 @@ class _OverRanges:
         #: Shape (c, n, X, k): over all of each range.
         self.whole = halves.sum(axis=-1)
 
-    def take(self, index: NDArray[np.intp]) -> _OverRanges:
+    def take(self, index: IndexArray) -> _OverRanges:
         """Return the growths at ``index`` of the first axis."""
         taken = copy(self)
         for name in ("low", "span", "layer", "reach", "group", "column"):
@@ -216,7 +213,7 @@ class _OverRanges:
         return taken
 
     def _integrals(
-        self, at: tuple[NDArray[np.intp], ...], density: Density, count: int
+        self, at: tuple[IndexArray, ...], density: Density, count: int
     ) -> chebyshev.RunningIntegrals:
         row, column, growth, half = at
         # The nodes of a half are the same at all positions.
@@ -231,7 +228,7 @@ class _OverRanges:
         values = density((row, column, growth), low + span * passed)
         return chebyshev.RunningIntegrals(values * (span * rate))
 
-    def up_to(self, at: NDArray[np.intp], abscissa: FloatArray) -> FloatArray:
+    def up_to(self, at: IndexArray, abscissa: FloatArray) -> FloatArray:
         """The integrals number ``at`` in S up to the abscissae, (c, len(at))."""
         result = np.zeros((len(self.whole), len(at)))
         real = np.flatnonzero(self.span.take(at) > 0.0)

@@ -11,7 +11,6 @@ from __future__ import annotations
 from copy import copy
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, DistinctPieces
@@ -20,7 +19,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import distinct, gather
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress
 from swtstudy.mechanics.stress.growth import GrowthIntegrals
 from swtstudy.mechanics.stress.history import History
@@ -96,7 +95,7 @@ class SurfaceLine(Rows):
         largest = self.coordinate.radius(self.cycle.load.largest_normal[:, None])
         return np.minimum(self.position, OUTSIDE * largest)
 
-    def take(self, index: NDArray[np.intp]) -> SurfaceLine:
+    def take(self, index: IndexArray) -> SurfaceLine:
         """The lines at ``index`` with their positions, repetitions allowed."""
         taken = copy(self)
         taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
@@ -110,7 +109,7 @@ class SurfaceLine(Rows):
         taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
         return taken
 
-    def _growth_of(self, row: NDArray[np.intp], piece: NDArray[np.intp]) -> NDArray[np.intp]:
+    def _growth_of(self, row: IndexArray, piece: IndexArray) -> IndexArray:
         """Numbers of the growths that left distinct pieces, shape (m,)."""
         index = self.growth.index.reshape(len(self.position), -1)
         return np.asarray(index[row, self.pieces.first[row, piece]])

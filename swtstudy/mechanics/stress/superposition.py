@@ -19,11 +19,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 
 from swtstudy.mechanics.indenter.base import Profile
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress import punch, strip
 
 
@@ -92,7 +92,7 @@ class SlopeCells:
     intercept: FloatArray
     gradient: FloatArray
 
-    def merged(self, kept: NDArray[np.intp]) -> SlopeCells:
+    def merged(self, kept: IndexArray) -> SlopeCells:
         """The same on fewer cells, each with the integrals of those in it.
 
         Parameters

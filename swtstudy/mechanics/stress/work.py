@@ -12,7 +12,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.contact.memory import GROWTH, Memory
@@ -28,7 +27,7 @@ from swtstudy.mechanics.indenter.plane import PlaneProfile
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import SAME, between
 from swtstudy.mechanics.numerics.roots import parabola
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Digits for which growths on a wavy profile have more nodes. Other digits: 3e-11 of the work.
@@ -82,7 +81,7 @@ class Conjugate:
             other = DepthCoordinate(scene.profile) if by_force else ForceCoordinate(scene.profile, unit)
         return cls(scene.cycle, scene.coordinate, other, by_force, unit, nodes)
 
-    def take(self, index: NDArray[np.intp], nodes: int) -> Conjugate:
+    def take(self, index: IndexArray, nodes: int) -> Conjugate:
         """Return the tables at ``index``, with so many nodes."""
         return replace(
             self,
@@ -93,7 +92,7 @@ class Conjugate:
             nodes=nodes,
         )
 
-    def take_intervals(self, index: NDArray[np.intp], interval: NDArray[np.intp]) -> Conjugate:
+    def take_intervals(self, index: IndexArray, interval: IndexArray) -> Conjugate:
         """Return the integrals at ``index`` over one interval each, arrays of shape (m,)."""
         cycle = self.cycle.take_intervals(index, interval[:, None])
         return replace(self.take(index, self.nodes), cycle=cycle)
@@ -135,7 +134,7 @@ class Conjugate:
         )
         return node, weight
 
-    def _up_to(self, coordinate: FloatArray, piece: NDArray[np.intp]) -> FloatArray:
+    def _up_to(self, coordinate: FloatArray, piece: IndexArray) -> FloatArray:
         """∫ o′ dC up to coordinates in pieces of the memory, each of shape (n, i, k)."""
         memory, shape = self.cycle.memory, coordinate.shape
         row = np.broadcast_to(np.arange(shape[0])[:, None, None], shape)
@@ -154,7 +153,7 @@ class Conjugate:
         np.cumsum(part, axis=-1, out=inside[..., 1:])
         return inside
 
-    def _integral(self, row: NDArray[np.intp], pieces: Memory, end: FloatArray) -> FloatArray:
+    def _integral(self, row: IndexArray, pieces: Memory, end: FloatArray) -> FloatArray:
         """∫ o′ dC over pieces of the cycles number ``row`` up to a coordinate."""
         finite = np.isfinite(pieces.start)
         start = np.where(finite, pieces.start, 0.0)

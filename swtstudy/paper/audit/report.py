@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
-from swtstudy.mechanics.points import REGIMES
+from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray
 from swtstudy.paper.audit.point import TOLERANCE, VERDICTS, AuditedPoint
 from swtstudy.points.canonical import (
     COLUMNS,
@@ -215,7 +215,7 @@ def _lines(dataset: xr.Dataset) -> Iterator[str]:
         yield from _overlooked(dataset)
 
 
-def _of_the_solver(dataset: xr.Dataset, exceeded: NDArray[np.bool_]) -> Iterator[str]:
+def _of_the_solver(dataset: xr.Dataset, exceeded: BoolArray) -> Iterator[str]:
     """Report how far the solver's own s_surface finds what exceeds s."""
     remainder, verdict = dataset["remainder"].values, dataset["verdict"].values
     finite = np.isfinite(dataset["excess"].values)
@@ -260,7 +260,7 @@ def _overlooked(dataset: xr.Dataset) -> Iterator[str]:
     )
 
 
-def _shares(title: str, groups: list[tuple[str, NDArray[np.bool_]]], dataset: xr.Dataset) -> Iterator[str]:
+def _shares(title: str, groups: list[tuple[str, BoolArray]], dataset: xr.Dataset) -> Iterator[str]:
     """A table of how often and by how much s and s_surface are exceeded in groups of points."""
     excess, remainder = dataset["excess"].values, dataset["remainder"].values
     finite, exceeded = np.isfinite(excess), excess > TOLERANCE
@@ -274,7 +274,7 @@ def _shares(title: str, groups: list[tuple[str, NDArray[np.bool_]]], dataset: xr
     yield ""
 
 
-def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, NDArray[np.bool_]]]:
+def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, BoolArray]]:
     """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
     mean, ν = dataset["bulk_stress_mean"].values, dataset["poisson_ratio"].values
     edge = (dataset["profile"].values == "truncated_paraboloid") & (
@@ -296,10 +296,10 @@ def _percent(share: float, digits: int) -> str:
     return f"{share:.{digits}%}" if share <= _LARGE else f"over {_LARGE:.0%}"
 
 
-def _ranges(ν: NDArray[np.float64]) -> list[tuple[str, NDArray[np.bool_]]]:
+def _ranges(ν: FloatArray) -> list[tuple[str, BoolArray]]:
     pairs = itertools.pairwise(_POISSON_ENDS)
     return [(f"{low:g}–{high:g}", ((ν > low) | (low == 0.0)) & (ν <= high)) for low, high in pairs]
 
 
-def _values(values: NDArray) -> list[tuple[str, NDArray[np.bool_]]]:
+def _values(values: NDArray) -> list[tuple[str, BoolArray]]:
     return [(str(value).replace("_", " "), values == value) for value in np.unique(values)]
