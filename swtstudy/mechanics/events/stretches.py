@@ -26,7 +26,7 @@ from swtstudy.mechanics.numerics.arrays import (
     layer_share,
     packed,
 )
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 
 
 def front_passes(cycle: Cycle, coordinate: FloatArray) -> FloatArray:
@@ -82,8 +82,8 @@ def split_at(cycle: Cycle, cuts: FloatArray) -> Cycle:
 
 
 def _slip_line_passes(
-    cycle: Cycle, sense: float, row: NDArray[np.intp], interval: NDArray[np.intp], goal: FloatArray
-) -> tuple[NDArray[np.intp], FloatArray]:
+    cycle: Cycle, sense: float, row: IndexArray, interval: IndexArray, goal: FloatArray
+) -> tuple[IndexArray, FloatArray]:
     """Which goals, shape (m,), the slip line sense·T − N rises through in their intervals, and when."""
     load = cycle.load
     first, last = (
@@ -114,18 +114,18 @@ class Stretches(Rows):
     high: FloatArray
 
     @cached_property
-    def real(self) -> NDArray[np.bool_]:
+    def real(self) -> BoolArray:
         """Shape (n, X, m): which have a length."""
         return np.asarray(self.high - self.low > ROUNDING)
 
     @cached_property
-    def last_real(self) -> NDArray[np.intp]:
+    def last_real(self) -> IndexArray:
         """Shape (n, X, m): the last one with a length up to each, −1 for none."""
         number = np.arange(self.low.shape[-1])
         return np.maximum.accumulate(np.where(self.real, number, -1), axis=-1)
 
     @cached_property
-    def next_real(self) -> NDArray[np.intp]:
+    def next_real(self) -> IndexArray:
         """Shape (n, X, m): the first one with a length from each on, m for none."""
         total = self.low.shape[-1]
         behind = np.where(self.real, np.arange(total), total)[..., ::-1]
@@ -181,7 +181,7 @@ def split_at_layers(cycle: Cycle, at: FloatArray, thin: float) -> Cycle:
     return split_at(cycle, filled_rows(owner, cuts, len(at), PERIOD))
 
 
-def meet(end: FloatArray, begin: FloatArray) -> NDArray[np.bool_]:
+def meet(end: FloatArray, begin: FloatArray) -> BoolArray:
     """Return whether one stretch ends where another begins, in the periodic cycle."""
     gap = np.abs(begin - end)
     return np.asarray((gap <= SAME) | (PERIOD - gap <= SAME))
@@ -201,16 +201,16 @@ class Nodes(Rows):
         Shape (n, X, T): which of the k.
     """
 
-    interval: NDArray[np.intp]
+    interval: IndexArray
     instant: FloatArray
-    index: NDArray[np.intp]
+    index: IndexArray
 
     def spread(self, values: NDArray[T]) -> NDArray[T]:
         """Values at the distinct instants, shape (n, k), at the instants of each position, (n, X, T)."""
         return values.ravel().take(self._flat)
 
     @cached_property
-    def _flat(self) -> NDArray[np.intp]:
+    def _flat(self) -> IndexArray:
         n, distinct = self.instant.shape
         return np.arange(n)[:, None, None] * distinct + self.index
 
@@ -227,11 +227,11 @@ class Placed(Rows):
         Number of the node in it, from 0 to the number of its steps.
     """
 
-    stretch: NDArray[np.intp]
-    place: NDArray[np.intp]
+    stretch: IndexArray
+    place: IndexArray
 
     @property
-    def interval(self) -> NDArray[np.intp]:
+    def interval(self) -> IndexArray:
         """Number of the interval of the cycle."""
         return self.stretch // PER_INTERVAL
 

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from swtstudy.mechanics.events.stretches import PER_INTERVAL, Nodes, Stretches, meet
 from swtstudy.mechanics.numerics.arrays import T, between, gather, pick
 from swtstudy.mechanics.numerics.roots import parabola, polynomial_maximum, powers_from_values
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 
 #: Steps into which each side of a bracket is divided. One: 2e-3 at 18 of 128 points at rtol 1e-5; six: 2e-6,
 #: no faster.
@@ -53,11 +53,11 @@ class TimeBrackets(Rows):
 
     low: FloatArray
     high: FloatArray
-    interval: NDArray[np.intp]
+    interval: IndexArray
     start: FloatArray
     step: float
     grading: FloatArray
-    corner: NDArray[np.bool_]
+    corner: BoolArray
     centre: FloatArray
     width: float
 
@@ -66,9 +66,9 @@ class TimeBrackets(Rows):
         cls,
         parts: Stretches,
         count: int,
-        stretch: NDArray[np.intp],
-        place: NDArray[np.intp],
-        falling: NDArray[np.bool_] | None = None,
+        stretch: IndexArray,
+        place: IndexArray,
+        falling: BoolArray | None = None,
     ) -> TimeBrackets:
         """Brackets around nodes of `swtstudy.mechanics.events.stretches.cosine_nodes`.
 
@@ -99,7 +99,7 @@ class TimeBrackets(Rows):
             _grade(grading, high - low, corner, falling, step)
         return cls(low, high, interval, start, step, grading, corner, np.zeros(place.shape), 1.0)
 
-    def or_other(self, own: NDArray[np.bool_], other: TimeBrackets) -> TimeBrackets:
+    def or_other(self, own: BoolArray, other: TimeBrackets) -> TimeBrackets:
         """These brackets where ``own``, shape (n, X, e), elsewhere other ones of the same step and width."""
         two = own[..., None]
         return replace(
@@ -137,7 +137,7 @@ class TimeBrackets(Rows):
             steps[graded] = np.where(sign * some > 0.0, sign * share, some)
         return steps
 
-    def narrowed(self, best: NDArray[np.intp]) -> TimeBrackets:
+    def narrowed(self, best: IndexArray) -> TimeBrackets:
         """The brackets around the best samples, shape (n, X, e)."""
         width = self.width / STEPS
         centre = np.clip(self.centre + self.width * OFFSETS[best], width - 1.0, 1.0 - width)
@@ -184,11 +184,7 @@ class TimeBrackets(Rows):
 
 
 def _grade(
-    grading: FloatArray,
-    length: FloatArray,
-    corner: NDArray[np.bool_],
-    falling: NDArray[np.bool_],
-    step: float,
+    grading: FloatArray, length: FloatArray, corner: BoolArray, falling: BoolArray, step: float
 ) -> None:
     """Put `TimeBrackets.grading` where stretches of lengths (n, X, e, 2) meet at a ``corner``, (n, X, e)."""
     at = np.nonzero(corner)
@@ -217,8 +213,8 @@ POWERS = _interpolation()
 
 
 def _neighbours(
-    parts: Stretches, stretch: NDArray[np.intp], at_begin: NDArray[np.bool_], at_end: NDArray[np.bool_]
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    parts: Stretches, stretch: IndexArray, at_begin: BoolArray, at_end: BoolArray
+) -> tuple[IndexArray, IndexArray]:
     """The stretches before and after each node: its own inside of one, and where none meets it."""
     total = parts.low.shape[-1]
     # The cycle is periodic: before its first stretch comes its last one.

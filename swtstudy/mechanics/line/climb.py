@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import Look, Resolution
@@ -14,7 +13,7 @@ from swtstudy.mechanics.line.refine import beside, summits
 from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
 from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.through_y import PlaneHistory, on_planes
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Half the distance between the positions of a climb's first round, in gaps of the first look, and how it
@@ -50,18 +49,18 @@ class Climb(Rows):
         Whether the next round would change too little to matter.
     """
 
-    point: NDArray[np.intp]
+    point: IndexArray
     side: FloatArray
-    place: NDArray[np.intp]
-    intervals: NDArray[np.bool_]
+    place: IndexArray
+    intervals: BoolArray
     angle: FloatArray
     centre: FloatArray
     width: FloatArray
     top: FloatArray
     seen: FloatArray
     remaining: FloatArray
-    rounds: NDArray[np.intp]
-    settled: NDArray[np.bool_]
+    rounds: IndexArray
+    settled: BoolArray
 
     @classmethod
     def start(
@@ -98,7 +97,7 @@ class Climb(Rows):
         """Keep the climbs whose height, shape (m,), is at least a share of the largest one at their point."""
         return self.take(height >= share * largest_of_rows(self.point, height)[self.point])
 
-    def without_followers(self, moved: NDArray[np.bool_]) -> Climb:
+    def without_followers(self, moved: BoolArray) -> Climb:
         """Without those that have just moved to a position around which another one searches no lower.
 
         On another plane the position itself may be higher than the other one has seen.
@@ -112,9 +111,7 @@ class Climb(Rows):
         higher = seen > (1.0 + SAME) * seen[first]
         return self.take(order[~(same & moved[order]) | higher])
 
-    def twins(
-        self, index: NDArray[np.intp], centre: FloatArray, value: FloatArray, angle: FloatArray
-    ) -> Climb:
+    def twins(self, index: IndexArray, centre: FloatArray, value: FloatArray, angle: FloatArray) -> Climb:
         """Searches between the same neighbours as those at ``index``, around other values that were seen."""
         twins = self.take(index)
         return replace(
@@ -131,8 +128,8 @@ class Climb(Rows):
 
 
 def _high_intervals(
-    planes: PlaneHistory, double_angle: FloatArray, interval: NDArray[np.intp], count: int
-) -> NDArray[np.bool_]:
+    planes: PlaneHistory, double_angle: FloatArray, interval: IndexArray, count: int
+) -> BoolArray:
     """Which of ``count`` intervals of the cycle may make swt near places, shape (m, count).
 
     Parameters
@@ -155,7 +152,7 @@ def _high_intervals(
     return result
 
 
-def _starts(planes: PlaneHistory, double_angle: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+def _starts(planes: PlaneHistory, double_angle: FloatArray) -> tuple[IndexArray, FloatArray]:
     """Planes from which to climb to the `summits` of m places that may be the largest.
 
     Parameters

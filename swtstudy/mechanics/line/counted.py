@@ -20,7 +20,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.first_look import PLANES, joined_pieces, resolved
 from swtstudy.mechanics.line.look import Look, lifted
@@ -29,7 +28,7 @@ from swtstudy.mechanics.numerics.arrays import as_rows
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.rainflow import closed_cycles
 from swtstudy.mechanics.planes.through_y import PlaneHistory
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
@@ -56,7 +55,7 @@ class Histories(NamedTuple):
 
     stress: FloatArray
     swing: FloatArray
-    inside: NDArray[np.bool_]
+    inside: BoolArray
     criterion: Criterion
 
     @classmethod
@@ -68,7 +67,7 @@ class Histories(NamedTuple):
         stress, swing = stress.reshape(-1, count), swing.reshape(-1, count)
         return cls(stress, swing, inside.reshape(-1, count), criterion)
 
-    def take(self, rows: NDArray[np.intp]) -> Histories:
+    def take(self, rows: IndexArray) -> Histories:
         """Some of them."""
         stress, swing, inside, criterion = self
         return Histories(stress[rows], swing[rows], inside[rows], criterion.take(rows))
@@ -102,10 +101,10 @@ class _Places(NamedTuple):
         2θ, rad.
     """
 
-    point: NDArray[np.intp]
-    power: NDArray[np.intp]
+    point: IndexArray
+    power: IndexArray
     side: FloatArray
-    place: NDArray[np.intp]
+    place: IndexArray
     c: FloatArray
     angle: FloatArray
 
@@ -181,7 +180,7 @@ def _higher(split: Scene, positions: Positions, largest: FloatArray, least: Floa
 
 def _higher_of_some(split: Scene, r: FloatArray, largest: FloatArray, least: FloatArray) -> _Places:
     look = Look.at(split, r, STEPS, DIGITS)
-    kept: list[tuple[Histories, NDArray[np.intp], NDArray[np.intp], float, float]] = []
+    kept: list[tuple[Histories, IndexArray, IndexArray, float, float]] = []
     for x_sign in (1.0,) if split.mirrored_half else (1.0, -1.0):
         planes = split.planes(look.history, x_sign)
         for plane in 2.0 * np.pi * np.arange(PLANES) / PLANES:

@@ -15,13 +15,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.look import Look, Resolution, reach
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.numerics.arrays import as_rows, largest_of_rows, place_in_row
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, coarse_swt
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Share of the largest swt that planes and instants may leave unseen, and so may positions where it is lower
@@ -89,9 +88,7 @@ def first_look(scene: Scene, position: FloatArray, resolution: Resolution, plane
     return Seen(*(np.stack(both, axis=-1) for both in zip(*sides, strict=True)))
 
 
-def _seen(
-    planes: PlaneHistory, inside: NDArray[np.bool_], count: int
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _seen(planes: PlaneHistory, inside: BoolArray, count: int) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Values of `Seen` for one side, each (n, X)."""
     swt, angle = coarse_swt(planes, count)
     highest = swt.copy()
@@ -124,9 +121,7 @@ def resolved(scene: Scene, pieces: Pieces, least: FloatArray | float = np.inf) -
     return Positions.of(pieces, piece, np.pi * share), seen
 
 
-def _nested(
-    scene: Scene, pieces: Pieces, least: FloatArray
-) -> Iterator[tuple[NDArray[np.intp], FloatArray, Seen]]:
+def _nested(scene: Scene, pieces: Pieces, least: FloatArray) -> Iterator[tuple[IndexArray, FloatArray, Seen]]:
     """Places, as pieces and shares of their angles, and what is seen there: ever closer ones."""
     steps, going = STEPS, np.arange(len(pieces.point))
     # The last piece of a point has its end, too; the others end where the next one begins.
@@ -159,8 +154,8 @@ def _nested(
 
 
 def _open_gaps(
-    values: FloatArray, top: FloatArray, least: FloatArray, rounding: FloatArray, long: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+    values: FloatArray, top: FloatArray, least: FloatArray, rounding: FloatArray, long: BoolArray
+) -> BoolArray:
     """Between which values of pieces, (m, k + 1, sides), more are needed, shape (m, k); others of (m,)."""
     unseen = np.abs(values[:, 1::2] - _predicted(values[:, ::2])).max(axis=(1, 2))[:, None]
     are_first = values.shape[1] == STEPS + 1
@@ -190,11 +185,7 @@ def _predicted(values: FloatArray) -> FloatArray:
 
 
 def look_at(
-    scene: Scene,
-    pieces: Pieces,
-    piece: NDArray[np.intp],
-    share: FloatArray,
-    resolution: Resolution = RESOLUTION,
+    scene: Scene, pieces: Pieces, piece: IndexArray, share: FloatArray, resolution: Resolution = RESOLUTION
 ) -> Seen:
     """Look at shares of the angle of pieces, (m,) each, the pieces in ascending order."""
     point, r = pieces.point[piece], pieces.radius(piece, np.pi * share)
@@ -216,7 +207,7 @@ def look_at(
     return found
 
 
-def _parts(point: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _parts(point: IndexArray, most: int) -> tuple[IndexArray, IndexArray]:
     """The positions of points, (m,) ascending, in parts of so many at most: of whom each is, and which."""
     first = place_in_row(point) % most == 0
     return point[first], np.cumsum(first) - 1
@@ -224,7 +215,7 @@ def _parts(point: NDArray[np.intp], most: int) -> tuple[NDArray[np.intp], NDArra
 
 def high_positions(
     positions: Positions, seen: Seen, least: FloatArray | None = None
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+) -> tuple[IndexArray, IndexArray]:
     """Numbers and sides of the positions around which swt may be largest, shape (k,) each.
 
     These are the local maxima of what is seen, as far as positions, instants and planes may each leave a
@@ -248,7 +239,7 @@ def high_positions(
     return place, side
 
 
-def flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
+def flanks(point: IndexArray, seen: Seen) -> BoolArray:
     """Which positions, (m, sides), have a higher neighbour on another plane."""
     angle, swt = seen.double_angle, seen.swt
     turn = apart(np.diff(angle, axis=0)) > OTHER_PLANE
@@ -259,7 +250,7 @@ def flanks(point: NDArray[np.intp], seen: Seen) -> NDArray[np.bool_]:
     return flank
 
 
-def peaks(point: NDArray[np.intp], values: FloatArray) -> NDArray[np.bool_]:
+def peaks(point: IndexArray, values: FloatArray) -> BoolArray:
     """Local maxima of values, (m, sides), at the positions of points, (m,); of equal ones the first."""
     same = (np.diff(point) == 0)[:, None]
     peak = np.ones(values.shape, dtype=bool)
@@ -292,7 +283,7 @@ def joined_pieces(scene: Scene, pieces: Pieces) -> Pieces:
     return Pieces(pieces.point[begins], pieces.low[begins], pieces.high[last])
 
 
-def _begins(scene: Scene, pieces: Pieces) -> NDArray[np.bool_]:
+def _begins(scene: Scene, pieces: Pieces) -> BoolArray:
     """With which of the pieces, (P,), one begins once others are joined to it."""
     run = _runs(pieces)
     seen = Seen(*np.full((3, len(run), 1 if scene.mirrored_half else 2), np.nan))
@@ -306,7 +297,7 @@ def _begins(scene: Scene, pieces: Pieces) -> NDArray[np.bool_]:
     return run | kept | behind
 
 
-def _runs(pieces: Pieces) -> NDArray[np.bool_]:
+def _runs(pieces: Pieces) -> BoolArray:
     """Which pieces begin a run: every so many, each long one, and what is behind that."""
     first = np.append(True, np.diff(pieces.point) > 0)
     count = np.bincount(pieces.point)
@@ -316,7 +307,7 @@ def _runs(pieces: Pieces) -> NDArray[np.bool_]:
     return first | (rank % -(-count // RUNS)[pieces.point] == 0) | long | np.append(True, long[:-1])
 
 
-def _halves(point: NDArray[np.intp], swt: FloatArray, looked: NDArray[np.intp]) -> NDArray[np.intp]:
+def _halves(point: IndexArray, swt: FloatArray, looked: IndexArray) -> IndexArray:
     """The middles of the runs between places that were looked at, as far as they may hold the largest swt."""
     same = np.diff(point[looked]) == 0
     left, right = swt[looked[:-1]], swt[looked[1:]]
@@ -330,7 +321,7 @@ def _halves(point: NDArray[np.intp], swt: FloatArray, looked: NDArray[np.intp]) 
     return (looked[chosen] + looked[chosen + 1]) // 2
 
 
-def _kept(point: NDArray[np.intp], seen: Seen, looked: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _kept(point: IndexArray, seen: Seen, looked: IndexArray) -> BoolArray:
     """Which pieces lie about the highest places."""
     some, own = seen.take(looked), point[looked]
     top = largest_of_rows(own, some.swt.max(axis=1))[own]
@@ -344,7 +335,7 @@ def _kept(point: NDArray[np.intp], seen: Seen, looked: NDArray[np.intp]) -> NDAr
     return kept
 
 
-def _highest(point: NDArray[np.intp], height: FloatArray, count: int) -> NDArray[np.bool_]:
+def _highest(point: IndexArray, height: FloatArray, count: int) -> BoolArray:
     """Which heights are among the highest ones of their points, (m,) ascending."""
     order = np.lexsort((-height, point))
     highest = np.empty(len(order), dtype=bool)

@@ -8,13 +8,12 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.stretches import Nodes, Placed, Stretches, cosine_nodes, stretches
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.numerics.arrays import SAME, gather, pick
 from swtstudy.mechanics.numerics.roots import parabola
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.history import History
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
@@ -82,11 +81,11 @@ class Look(Rows):
         return self.line.history(self.nodes)
 
     @property
-    def inside(self) -> NDArray[np.bool_]:
+    def inside(self) -> BoolArray:
         """Shape (n, X, T): which instants are not at the end of their stretch."""
         return (self.placed.place % self.count) > 0
 
-    def brackets(self, instants: NDArray[np.intp], falling: NDArray[np.bool_] | None = None) -> TimeBrackets:
+    def brackets(self, instants: IndexArray, falling: BoolArray | None = None) -> TimeBrackets:
         """Brackets around instants, shape (n, X, e); for ``falling`` see `TimeBrackets.around`."""
         stretch, place = (gather(number, instants) for number in (self.placed.stretch, self.placed.place))
         return TimeBrackets.around(self.parts, self.count, stretch, place, falling)
@@ -106,12 +105,12 @@ class Extremes(Rows):
         Shape (…, 3, T): how high the curves may be about each instant; −∞ where that has been seen.
     """
 
-    best: NDArray[np.intp]
-    falling: NDArray[np.bool_]
+    best: IndexArray
+    falling: BoolArray
     reach: FloatArray
 
     @classmethod
-    def of(cls, curves: Iterable[FloatArray], inside: NDArray[np.bool_]) -> Extremes:
+    def of(cls, curves: Iterable[FloatArray], inside: BoolArray) -> Extremes:
         """Find the highest instants of three curves, (…, T); for ``inside`` see `Look.inside`."""
         best, falling, reach = [], [], []
         for curve in curves:
@@ -131,12 +130,12 @@ class Extremes(Rows):
             flat[rows, np.clip(self.best.ravel() + step, 0, flat.shape[1] - 1)] = -np.inf
         return Extremes(reach.argmax(axis=-1), np.zeros_like(self.falling), reach)
 
-    def may_exceed(self, top: FloatArray) -> NDArray[np.bool_]:
+    def may_exceed(self, top: FloatArray) -> BoolArray:
         """True where a curve may be higher than ``top``, both of shape (…, 3)."""
         return np.asarray(pick(self.reach, self.best) > top + SAME * np.abs(top))
 
 
-def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:
+def _falling(curve: FloatArray, best: IndexArray) -> BoolArray:
     """True where parabolas through the ``best`` instant and two on a side fall at once, shape (…, 2)."""
     count, flat = curve.shape[-1], curve.ravel()
     row, top = count * np.arange(best.size).reshape(best.shape), pick(curve, best)
@@ -147,7 +146,7 @@ def _falling(curve: FloatArray, best: NDArray[np.intp]) -> NDArray[np.bool_]:
     return np.stack(sides, axis=-1)
 
 
-def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+def lifted(curve: FloatArray, inside: BoolArray) -> FloatArray:
     """The curve with its local maxima as high as the parabolas through them and their neighbours.
 
     Of two maxima that are nearly as high, the instants alone would tell the wrong one.
@@ -164,7 +163,7 @@ def lifted(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
     return result
 
 
-def reach(curve: FloatArray, inside: NDArray[np.bool_]) -> FloatArray:
+def reach(curve: FloatArray, inside: BoolArray) -> FloatArray:
     """Upper estimate of a curve's maximum, shape (…), and beside ends of stretches; see `lifted`."""
     heights = curve.copy()
     _reach(heights, _crests(curve, inside), curve, inside)
@@ -182,7 +181,7 @@ class _Crests(NamedTuple):
         Shape (c,): the values before, at and after them.
     """
 
-    at: NDArray[np.intp]
+    at: IndexArray
     left: FloatArray
     centre: FloatArray
     right: FloatArray
@@ -193,19 +192,19 @@ class _Crests(NamedTuple):
         return self.centre + parabola(self.left, self.centre, self.right)[1]
 
 
-def _crests(curve: FloatArray, inside: NDArray[np.bool_]) -> _Crests:
+def _crests(curve: FloatArray, inside: BoolArray) -> _Crests:
     is_crest = np.zeros(curve.shape, dtype=bool)
     np.logical_and(_peaks(curve), inside[..., 1:-1], out=is_crest[..., 1:-1])
     at, flat = np.flatnonzero(is_crest), curve.ravel()
     return _Crests(at, flat[at - 1], flat[at], flat[at + 1])
 
 
-def _peaks(curve: FloatArray) -> NDArray[np.bool_]:
+def _peaks(curve: FloatArray) -> BoolArray:
     middle = curve[..., 1:-1]
     return np.asarray((middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
 
 
-def _reach(heights: FloatArray, crests: _Crests, curve: FloatArray, inside: NDArray[np.bool_]) -> None:
+def _reach(heights: FloatArray, crests: _Crests, curve: FloatArray, inside: BoolArray) -> None:
     """Put the local maxima of a curve as high as they may really be, also beside ends of stretches."""
     bend = 2.0 * crests.centre - crests.left - crests.right
     heights.ravel()[crests.at] = crests.centre + REACH * bend
@@ -213,9 +212,7 @@ def _reach(heights: FloatArray, crests: _Crests, curve: FloatArray, inside: NDAr
     heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
 
 
-def _rise_beside_end(
-    curve: FloatArray, inside: NDArray[np.bool_], at: tuple[NDArray[np.intp], ...]
-) -> FloatArray:
+def _rise_beside_end(curve: FloatArray, inside: BoolArray, at: tuple[IndexArray, ...]) -> FloatArray:
     """Rise of the parabolas through an end ``at`` and two instants of a stretch above that end, (m,)."""
     inside = np.broadcast_to(inside, (*curve.shape[:-1], inside.shape[-1]))
     *where, place = at

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.climb import Climb
 from swtstudy.mechanics.line.first_look import CLOSER, PLANES, first_look, joined_pieces, resolved
@@ -19,7 +18,7 @@ from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounding import of_rounding
 from swtstudy.mechanics.line.rounds import CHANGE_SHARE, tops
 from swtstudy.mechanics.numerics.arrays import highest_of_rows
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Local maxima below these shares of the largest are not followed further, after each round. The last one at
@@ -52,7 +51,7 @@ class Maximum(Rows):
         """``count`` points that all have the same ``value`` everywhere."""
         return cls(*(np.full(count, value) for _ in range(4)))
 
-    def put(self, index: NDArray[np.intp] | NDArray[np.bool_], other: Maximum) -> Maximum:
+    def put(self, index: IndexArray | BoolArray, other: Maximum) -> Maximum:
         """The same with other points at ``index``."""
         result = Maximum(*(values.copy() for values in vars(self).values()))
         result.write(index, other)
@@ -121,7 +120,7 @@ class Candidates(NamedTuple):
         Signed x in a_H, 2θ of the best plane there, rad, and swt; descending in swt for each point.
     """
 
-    rows: NDArray[np.intp]
+    rows: IndexArray
     position: FloatArray
     double_angle: FloatArray
     swt: FloatArray

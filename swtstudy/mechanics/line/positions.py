@@ -10,12 +10,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.contact.cycle import Cycle
 from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.numerics.arrays import SAME, between, layer_share, packed, place_in_row
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.line import COORDINATE
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -82,7 +81,7 @@ class Pieces:
         Shape (P,): their ends in a_H; each begins where the last one of its point ends.
     """
 
-    point: NDArray[np.intp]
+    point: IndexArray
     low: FloatArray
     high: FloatArray
 
@@ -112,18 +111,18 @@ class Pieces:
         )
 
     @property
-    def is_last(self) -> NDArray[np.bool_]:
+    def is_last(self) -> BoolArray:
         """Shape (P,): which are the last of their points."""
         return np.append(np.diff(self.point) > 0, True)
 
     @property
-    def are_long(self) -> NDArray[np.bool_]:
+    def are_long(self) -> BoolArray:
         """Shape (P,): the innermost of each point, and those as long as the mean of its others, nearly."""
         length, innermost = self.high - self.low, np.append(True, np.diff(self.point) > 0)
         others = np.bincount(self.point, np.where(innermost, 0.0, length)) / np.bincount(self.point)
         return np.asarray(innermost | (length >= others[self.point]))
 
-    def layers(self, thin: float) -> tuple[NDArray[np.intp], FloatArray]:
+    def layers(self, thin: float) -> tuple[IndexArray, FloatArray]:
         """Where thin layers of pieces end: what happens in a short piece makes one in a long neighbour, too.
 
         Parameters
@@ -143,7 +142,7 @@ class Pieces:
         piece, side = np.nonzero(share < thin)
         return piece, np.where(side == 0, share[piece, side], 1.0 - share[piece, side])
 
-    def radius(self, piece: NDArray[np.intp], alpha: FloatArray) -> FloatArray:
+    def radius(self, piece: IndexArray, alpha: FloatArray) -> FloatArray:
         """Positions r at the angles α of pieces, both of shape (m,)."""
         return between(self.low[piece], self.high[piece], alpha)
 
@@ -163,7 +162,7 @@ class Positions(Rows):
         the position in it, and the change of α to the next position.
     """
 
-    point: NDArray[np.intp]
+    point: IndexArray
     r: FloatArray
     low: FloatArray
     high: FloatArray
@@ -171,7 +170,7 @@ class Positions(Rows):
     step: FloatArray
 
     @classmethod
-    def of(cls, pieces: Pieces, piece: NDArray[np.intp], alpha: FloatArray) -> Positions:
+    def of(cls, pieces: Pieces, piece: IndexArray, alpha: FloatArray) -> Positions:
         """Positions at angles of pieces, in their order; each piece but the last of a point lacks its end."""
         point = pieces.point[piece]
         first = np.append(True, np.diff(point) > 0)
@@ -186,14 +185,14 @@ class Positions(Rows):
         return cls(point, r, pieces.low[sides], pieces.high[sides], np.stack([left, alpha], axis=-1), step)
 
     @property
-    def is_corner(self) -> NDArray[np.bool_]:
+    def is_corner(self) -> BoolArray:
         """Shape (m,): whether a piece ends there, so that swt may have a cusp."""
         return np.asarray(
             (self.alpha[:, 0] == np.pi) | (self.alpha[:, 1] == 0.0) | (self.alpha[:, 1] == np.pi)
         )
 
     @property
-    def is_even(self) -> NDArray[np.bool_]:
+    def is_even(self) -> BoolArray:
         """Shape (m,): whether both neighbours are equally far."""
         return np.asarray(np.abs(np.diff(self.step)[:, 0]) <= SAME * self.step[:, 0])
 

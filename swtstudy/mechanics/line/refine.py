@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.stretches import split_at_layers
 from swtstudy.mechanics.events.zoom import TimeBrackets
@@ -20,7 +19,7 @@ from swtstudy.mechanics.numerics.arrays import highest_of_rows, largest_of_rows
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.criterion import Criterion
 from swtstudy.mechanics.planes.through_y import PlaneHistory, apart, best_angle, climb_over_planes
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 from swtstudy.mechanics.stress.line import OUTSIDE
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -51,11 +50,11 @@ class Samples:
     near: FloatArray
     criterion: Criterion
 
-    def take(self, index: NDArray[np.intp]) -> Samples:
+    def take(self, index: IndexArray) -> Samples:
         """Return the samples of the points at ``index``."""
         return Samples(self.brackets.take(index), self.near[:, index], self.criterion.take(index))
 
-    def or_other(self, own: NDArray[np.bool_], other: Samples) -> Samples:
+    def or_other(self, own: BoolArray, other: Samples) -> Samples:
         """These around the extremes that are ``own``, shape (n, X, 3), and other ones around the others."""
         near = np.where(own[..., None], self.near, other.near)
         return replace(self, brackets=self.brackets.or_other(own, other.brackets), near=near)
@@ -215,7 +214,7 @@ class _Zoom:
     side: FloatArray
     resolution: Resolution
 
-    def take(self, rows: NDArray[np.intp]) -> _Zoom:
+    def take(self, rows: IndexArray) -> _Zoom:
         """Return the zooms of some points."""
         return replace(self, scene=self.scene.take(rows), look=self.look.take(rows), side=self.side[rows])
 
@@ -238,14 +237,14 @@ class _Zoom:
         return swt, angle
 
 
-def beside(row: NDArray[np.intp], double_angle: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
+def beside(row: IndexArray, double_angle: FloatArray) -> tuple[IndexArray, FloatArray]:
     """Planes at 2θ of places number ``row``, both (m,), and those beside them, with their places, (5 m,)."""
     return np.tile(row, len(BESIDE)), (double_angle + BESIDE[:, None]).ravel()
 
 
 def summits(
-    planes: PlaneHistory, inside: NDArray[np.bool_], row: NDArray[np.intp], start: FloatArray
-) -> tuple[NDArray[np.intp], FloatArray, FloatArray]:
+    planes: PlaneHistory, inside: BoolArray, row: IndexArray, start: FloatArray
+) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Planes of locally largest swt, from starts.
 
     Parameters

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
 from swtstudy.mechanics.line.first_look import SHARE
@@ -21,7 +20,7 @@ from swtstudy.mechanics.line.refine import SAME_PLANE, refine, refine_beside
 from swtstudy.mechanics.numerics.arrays import pick
 from swtstudy.mechanics.numerics.roots import polynomial_maximum, powers_from_values, vertex_near
 from swtstudy.mechanics.planes.through_y import apart
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Distances at which each round looks, in widths. All over 1.5: 4e-7, the same time.
@@ -71,7 +70,7 @@ class _Seen:
     c: FloatArray
     values: FloatArray
     angles: FloatArray
-    best: NDArray[np.intp]
+    best: IndexArray
 
     @property
     def place(self) -> FloatArray:
@@ -84,7 +83,7 @@ class _Seen:
         return pick(self.values, self.best)
 
     @property
-    def is_outermost(self) -> NDArray[np.bool_]:
+    def is_outermost(self) -> BoolArray:
         """Shape (m,): whether the largest value is the first or the last."""
         return (self.best == 0) | (self.best == self.c.shape[1] - 1)
 
@@ -106,7 +105,7 @@ class _Vertex:
     centre: FloatArray
     top: FloatArray
     remaining: FloatArray
-    clear: NDArray[np.bool_]
+    clear: BoolArray
 
 
 def climb_to_tops(
@@ -283,7 +282,7 @@ def _other_peaks(climb: Climb, seen: _Seen, tolerance: float) -> Climb:
     return climb.twins(at[0], seen.c[at], seen.values[at], seen.angles[at])
 
 
-def _jumps(angles: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _jumps(angles: FloatArray) -> tuple[IndexArray, IndexArray]:
     """Which of m climbs have a sudden turn of their planes, 2θ of shape (m, k), and between which columns."""
     turn = apart(np.diff(angles))
     speed = turn / np.diff(OFFSETS)

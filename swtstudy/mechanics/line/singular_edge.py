@@ -22,7 +22,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate, ForceCoordinate
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
@@ -34,7 +33,7 @@ from swtstudy.mechanics.line.rounding import reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import SAME, align
 from swtstudy.mechanics.planes.through_y import climb_over_planes
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Below this friction swt falls towards r = b from where the search over x ends. Half: no change at 32
@@ -56,7 +55,7 @@ ONSET, BESIDE = 1e-7, 0.3
 LEFT_OUT = 2.0 * ONSET
 
 
-def not_finite(scene: Scene) -> NDArray[np.bool_]:
+def not_finite(scene: Scene) -> BoolArray:
     """True where swt grows without bound towards r = b, or nearly, shape (n,); see the head of this file."""
     profile, cycle, friction = scene.profile, scene.cycle, scene.friction
     if not profile.has_singular_edge:
@@ -76,7 +75,7 @@ def not_finite(scene: Scene) -> NDArray[np.bool_]:
     return np.asarray(tears & (profile.flat_radius > 0.0))
 
 
-def _pulls_while_lost(scene: Scene, margin: FloatArray) -> NDArray[np.bool_]:
+def _pulls_while_lost(scene: Scene, margin: FloatArray) -> BoolArray:
     """True where a bulk stress pulls at an instant without contact, or nearly, by a margin (n, 1)."""
     assert scene.bulk is not None
     # Within the intervals of the cycle both are monotone.
@@ -85,7 +84,7 @@ def _pulls_while_lost(scene: Scene, margin: FloatArray) -> NDArray[np.bool_]:
     return np.asarray((pulls & (scene.cycle.load.normal(ends) <= margin)).any(axis=1))
 
 
-def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]:
+def _innermost_spring_slips(load: Load, margin: FloatArray) -> BoolArray:
     """True where the spring at G → 0 ends on a slip line: |T| ≥ N at some instant, by a margin (n, 1)."""
     instants = load.turning_instants()
     normal, tangential = load.normal(instants), load.tangential(instants)
@@ -95,7 +94,7 @@ def _innermost_spring_slips(load: Load, margin: FloatArray) -> NDArray[np.bool_]
     )
 
 
-def may_be_largest(scene: Scene) -> NDArray[np.bool_]:
+def may_be_largest(scene: Scene) -> BoolArray:
     """True where the maximum may lie nearer to r = b than the search over x goes, shape (n,)."""
     profile, cycle = scene.profile, scene.cycle
     if not profile.has_singular_edge:

@@ -14,7 +14,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import CLOSE_SHARE, SHARE
@@ -25,7 +24,7 @@ from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.planes.ascent import ROUGH_STEP, climb, swap_instants
 from swtstudy.mechanics.planes.weights import normal_weights
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.history import History, circle_stress
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -60,7 +59,7 @@ class _Places(Rows):
         Shape (m,): how far to either side the next round looks, rad.
     """
 
-    circle: NDArray[np.intp]
+    circle: IndexArray
     angle: FloatArray
     normal: FloatArray
     width: FloatArray
@@ -125,7 +124,7 @@ def _highest(scene: Scene, r: FloatArray, known: FloatArray) -> FloatArray:
     return highest
 
 
-def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> NDArray[np.intp]:
+def _leading(places: _Places, swt: FloatArray, highest: FloatArray) -> IndexArray:
     """Numbers of the places that may be as high as the highest of their circle and are not yet at the top.
 
     Of those that meet it is one.
@@ -204,9 +203,7 @@ def _around_extremes(scene: Scene, look: Look, whole: History, places: _Places) 
     return wide.followed_by(narrow).followed_by(peak)
 
 
-def _or_rivals(
-    scene: Scene, look: Look, places: _Places, extremes: Extremes, top: FloatArray
-) -> NDArray[np.intp]:
+def _or_rivals(scene: Scene, look: Look, places: _Places, extremes: Extremes, top: FloatArray) -> IndexArray:
     """The best instants, with maxima ``top`` about them, (m, 1, 3), or those that turn out to be higher."""
     best, top, rows = extremes.best.copy(), top.copy(), np.arange(len(top))
     extremes = extremes.next_best()
