@@ -18,7 +18,7 @@ from swtstudy.points.records import FAILED, Records, made_by
 from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of, require
 from swtstudy.points.shapes import shapes_needed
 from swtstudy.points.unique import columns_back, unique_points
-from swtstudy.points.values import Value, read_value
+from swtstudy.points.values import NamedValues, Value, read_value
 from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
@@ -40,7 +40,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         With every coordinate that no study can have; or if the results have been left without s.
     """
     require(dataset, "s")
-    values: dict[str, tuple[Value, ...]] = {}
+    values: NamedValues = {}
     report = Report()
     axes: list[str] = []
     sampled: list[str] = []

@@ -21,7 +21,7 @@ from swtstudy.points.canonical import (
     code_of,
     control_code,
 )
-from swtstudy.points.values import Value, amplitudes_of, read_value
+from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
@@ -55,8 +55,8 @@ class Grid:
     """
 
     fixed: dict[str, Value]
-    axes: dict[str, tuple[Value, ...]]
-    samples: dict[str, tuple[Value, ...]] = field(default_factory=dict)
+    axes: NamedValues
+    samples: NamedValues = field(default_factory=dict)
 
     @property
     def dims(self) -> tuple[str, ...]:
@@ -204,11 +204,7 @@ def _code(name: str, value: Value) -> float:
     return value if PARAMETERS[name].units == "rad" else canonical_number(value)
 
 
-def complete(
-    fixed: dict[str, Value],
-    axes: dict[str, tuple[Value, ...]],
-    samples: dict[str, tuple[Value, ...]] | None = None,
-) -> Grid:
+def complete(fixed: dict[str, Value], axes: NamedValues, samples: NamedValues | None = None) -> Grid:
     """A grid with defaults for every parameter that is not given, nor one in its place.
 
     These are those of Table 1, but for the amplitudes that scale loops, which are 1.

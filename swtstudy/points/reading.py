@@ -26,6 +26,7 @@ from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import (
     DEGREES,
     NOTHING,
+    NamedValues,
     Value,
     as_number,
     evaluate,
@@ -64,9 +65,13 @@ class Range:
     also: Sequence[object] = ()
 
 
+#: What is given along axes, by name; None for one that is wrong, which is reported elsewhere.
+GivenAxes = Mapping[str, Sequence[object] | Range | None]
+
+
 def read_grid(
     fixed: Mapping[str, object],
-    axes: Mapping[str, Sequence[object] | Range | None],
+    axes: GivenAxes,
     keys: Callable[[str], str] = str,
     source: str = "",
     others: Sequence[str] = (),
@@ -121,16 +126,16 @@ def read_grid(
 
 def read_values(
     fixed: Mapping[str, object],
-    axes: Mapping[str, Sequence[object] | Range | None],
+    axes: GivenAxes,
     report: Report,
     others: Sequence[str] = (),
     samples: Mapping[str, object] = MappingProxyType({}),
     known: Known = NOTHING_KNOWN,
     rows: Mapping[str, Parameter] = PARAMETERS,
-) -> tuple[dict[str, Value], dict[str, tuple[Value, ...]]]:
+) -> tuple[dict[str, Value], NamedValues]:
     """Return the fixed values and axes that are sound one by one; see `read_grid`."""
     good_fixed: dict[str, Value] = {}
-    good_axes: dict[str, tuple[Value, ...]] = {}
+    good_axes: NamedValues = {}
     for name in (*fixed, *axes):
         if name in CONTACT_AXES and name not in rows and name not in others:
             report.of(
@@ -176,9 +181,7 @@ def _warn_of_degrees(key: str, raw: object) -> None:
             return
 
 
-def _too_many(
-    axes: Mapping[str, Sequence[object] | Range | None], report: Report, rows: Mapping[str, Parameter]
-) -> bool:
+def _too_many(axes: GivenAxes, report: Report, rows: Mapping[str, Parameter]) -> bool:
     """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
     sizes = [
         raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
@@ -193,10 +196,7 @@ def _too_many(
 
 
 def read_distances(
-    fixed: Mapping[str, object],
-    axes: Mapping[str, Sequence[object] | Range | None],
-    report: Report,
-    row: Parameter = QUANTITY_AXES[DISTANCE],
+    fixed: Mapping[str, object], axes: GivenAxes, report: Report, row: Parameter = QUANTITY_AXES[DISTANCE]
 ) -> tuple[tuple[float, ...], bool]:
     """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
     key, raw = report.key(DISTANCE), axes.get(DISTANCE)

@@ -130,6 +130,8 @@ def _square_root(value: Fraction | float) -> Fraction | float:
 
 #: A checked value: a float, an exact frequency ratio, a built-in name, or what the user has defined.
 Value = float | Fraction | str | Definition
+#: Values of axes or samples, by parameter.
+NamedValues = dict[str, tuple[Value, ...]]
 
 #: Units of an angle that is not in rad.
 DEGREES = ("degrees", "deg", "°")

@@ -17,7 +17,7 @@ import numpy as np
 from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
-from swtstudy.points.values import NOTHING, Value, read_value
+from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
 from swtstudy.vocabulary.mistakes import Report, is_whole, literal, more_like_it, nearest
@@ -81,7 +81,7 @@ class Sample:
         How each parameter is distributed in the design.
     """
 
-    values: dict[str, tuple[Value, ...]]
+    values: NamedValues
     design: Design | None = None
     ranges: dict[str, Distribution] = field(default_factory=dict)
 
@@ -186,7 +186,7 @@ def _given(
     points: Mapping[str, Any], key: str, report: Report, known: Known, rows: Mapping[str, Parameter]
 ) -> Sample | None:
     """Points given one by one."""
-    values: dict[str, tuple[Value, ...]] = {}
+    values: NamedValues = {}
     lengths = {name: len(column) for name, column in points.items() if isinstance(column, Sequence)}
     if not lengths or min(lengths.values()) == 0:
         report(key, "no points", "at least one point")

@@ -116,16 +116,13 @@ _FILE = "a TOML file with a table of constants for each material"
 USUAL_STRAINS = 2e-4, 0.05
 #: Of each body.
 _BOTH = 2
+#: Moduli of both bodies, as far as they are single values.
+_Moduli = tuple[object, object] | None
 _Constants = TypeVar("_Constants", FatigueConstants, ShearConstants)
 
 
 def read_material(
-    raw: Mapping[str, Any],
-    young: tuple[object, object] | None,
-    shear: tuple[object, object] | None,
-    units: Units,
-    folder: Path,
-    report: Report,
+    raw: Mapping[str, Any], young: _Moduli, shear: _Moduli, units: Units, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """Read the materials of both bodies, and their critical distance, None without a threshold.
 
@@ -173,10 +170,7 @@ def read_material(
 
 
 def _constants(
-    tables: list[dict[str, Any]],
-    young: tuple[object, object] | None,
-    intended: Iterable[object],
-    report: Report,
+    tables: list[dict[str, Any]], young: _Moduli, intended: Iterable[object], report: Report
 ) -> tuple[FatigueConstants, ...]:
     """The strain–life constants of both bodies; none if there are none, or mistakes."""
     others = {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}
@@ -191,7 +185,7 @@ def _of_both(
     make: Callable[..., _Constants],
     fields_of: Mapping[str, str],
     tables: list[dict[str, Any]],
-    moduli: tuple[object, object] | None,
+    moduli: _Moduli,
     intended: Iterable[object],
     report: Report,
 ) -> tuple[_Constants, ...]:
@@ -232,10 +226,7 @@ def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
 
 
 def _shear_constants(
-    tables: list[dict[str, Any]],
-    moduli: tuple[object, object] | None,
-    intended: Iterable[object],
-    report: Report,
+    tables: list[dict[str, Any]], moduli: _Moduli, intended: Iterable[object], report: Report
 ) -> tuple[ShearConstants, ...]:
     """The constants of both bodies in torsion; none if there are none, or mistakes."""
     if not any(SHEAR_CONSTANTS.keys() & table.keys() for table in tables):

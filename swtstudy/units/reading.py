@@ -10,10 +10,10 @@ from dataclasses import replace
 from typing import Any
 
 from swtstudy.mechanics.load.load import Loop
-from swtstudy.points.reading import NOTHING_KNOWN, Known, Range, read_values
+from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
 from swtstudy.points.shapes import check_shapes_given
-from swtstudy.points.values import Value, amplitudes_of, as_number, read_value, values_taken
+from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS, labels_or
@@ -33,7 +33,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 
 def read_contacts(
     fixed: Mapping[str, object],
-    axes: Mapping[str, Sequence[object] | Range | None],
+    axes: GivenAxes,
     given: ContactDetails,
     keys: Callable[[str], str] = str,
     source: str = "",
@@ -96,10 +96,7 @@ def _check_units_of_criteria(
 
 
 def completed(
-    fixed: dict[str, Value],
-    axes: dict[str, tuple[Value, ...]],
-    samples: dict[str, tuple[Value, ...]],
-    about: ContactDetails,
+    fixed: dict[str, Value], axes: NamedValues, samples: NamedValues, about: ContactDetails
 ) -> PhysicalGrid:
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
     pairs = {name: two for name, two in about.pairs.items() if two[0] != two[1]}
