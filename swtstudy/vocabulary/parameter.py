@@ -28,7 +28,8 @@ class Parameter:
     open_lower
         True if ``lower`` itself is not allowed.
     kind
-        "number", "ratio" (a rational number p/q), or "name": built in, or of what the user has defined.
+        "number", "ratio" (a rational number p/q), or, with names, "name": built in, or of what the user has
+        defined.
     names
         The built-in ones of a name.
     part
@@ -65,6 +66,10 @@ class Parameter:
     optional: bool = False
     note: str = ""
     words: str = ""
+
+    def __post_init__(self) -> None:
+        if self.names:
+            object.__setattr__(self, "kind", "name")
 
     def goes_without_saying(self, value: object) -> bool:
         """Return whether a value means that the scene lacks the parameter's subject."""

@@ -93,19 +93,11 @@ PARAMETERS: dict[str, Parameter] = {
             "load",
             "course of the load: two harmonic oscillations, or the name of a loop",
             HARMONIC,
-            kind="name",
             names=(HARMONIC,),
             optional=True,
         ),
         Parameter(
-            "profile",
-            "f",
-            "f",
-            "profile of the indenter",
-            "paraboloid",
-            kind="name",
-            names=tuple(FAMILIES),
-            part="shape",
+            "profile", "f", "f", "profile of the indenter", "paraboloid", names=tuple(FAMILIES), part="shape"
         ),
         Parameter(
             "flat_radius", r"b/a_H", "b", "radius of the punch face", upper=20.0, part="shape", scale="a_H"
@@ -187,7 +179,6 @@ PARAMETERS: dict[str, Parameter] = {
             "criterion",
             "criterion of which s is the largest value",
             SWT,
-            kind="name",
             names=CRITERIA,
             part="criterion",
             optional=True,
@@ -307,13 +298,7 @@ QUANTITY_AXES: dict[str, Parameter] = {
             scale="a_H",
         ),
         Parameter(
-            "direction",
-            "",
-            "",
-            "direction from the critical point",
-            kind="name",
-            names=DIRECTIONS,
-            part="quantity",
+            "direction", "", "", "direction from the critical point", names=DIRECTIONS, part="quantity"
         ),
     )
 }
