@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any, ClassVar, Self
@@ -29,6 +30,13 @@ class Rows:
     def take(self, index: Any, /) -> Self:
         """The rows at an index of NumPy's of the leading axes, repetitions allowed."""
         return self._made(_taken(getattr(self, name), index) for name in self.__match_args__)
+
+    def _with_rows_of(self, names: Sequence[str], index: Any) -> Self:
+        """A copy that has the rows at an index of these attributes; all others are shared."""
+        taken = copy(self)
+        for name in names:
+            setattr(taken, name, _taken(getattr(self, name), index))
+        return taken
 
     @classmethod
     def joined(cls, several: Sequence[Self]) -> Self:

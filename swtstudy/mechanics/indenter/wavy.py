@@ -5,7 +5,6 @@ Of the paraboloid g = ξ² + (π/2) h z H₀(z), of the cylinder N/N_0 = ξ² + 
 
 from __future__ import annotations
 
-from copy import copy
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -100,9 +99,8 @@ class WavyParaboloid(Profile):
         return np.sqrt(np.pi**3 * np.maximum(np.interp(phase, *_steepest_falls()), 0.0))
 
     def take(self, index: IndexArray) -> WavyParaboloid:
-        taken = copy(self)
-        for name in ("largest_depth", "waviness_amplitude", "wavelength", "wave_number", "reach", "_row"):
-            setattr(taken, name, getattr(self, name)[index])
+        names = ("largest_depth", "waviness_amplitude", "wavelength", "wave_number", "reach", "_row")
+        taken = self._with_rows_of(names, index)
         taken._origin = self._origin or self
         return taken
 

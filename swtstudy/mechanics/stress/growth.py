@@ -9,7 +9,6 @@ running integral as exact as is asked for.
 from __future__ import annotations
 
 from collections.abc import Callable
-from copy import copy
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from swtstudy.mechanics.control.coordinate import Coordinate
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import FloatArray, IndexArray
+from swtstudy.mechanics.points import FloatArray, IndexArray, Rows
 
 #: Chebyshev nodes of half of a growth for each oscillation of the tangential load while the ground grows.
 #: 0.4: 1e-5 of the stress at ω2/ω1 = 20.
@@ -36,7 +35,7 @@ NODE_STEP = 8
 Density = Callable[[tuple[IndexArray, ...], FloatArray], FloatArray]
 
 
-class GrowthIntegrals:
+class GrowthIntegrals(Rows):
     """Running integrals of the primitives' kernels times −Ṫ/Ṅ over each growth of each cycle.
 
     Parameters
@@ -74,15 +73,8 @@ class GrowthIntegrals:
 
     def take(self, index: IndexArray) -> GrowthIntegrals:
         """Return the growths of the cycles at ``index``, repetitions allowed."""
-        taken = copy(self)
-        if self.count:
-            taken.index, taken.position, taken.flat = (
-                self.index[index],
-                self.position[index],
-                self.flat[index],
-            )
-            taken.inner, taken.outer = self.inner.take(index), self.outer.take(index)
-        return taken
+        names = ("index", "position", "flat", "inner", "outer") if self.count else ()
+        return self._with_rows_of(names, index)
 
     def _inner_density(self, at: tuple[IndexArray, ...], angle: FloatArray) -> FloatArray:
         """Densities of T1 and T3, or in the plane of A, over the angle, shape (2 or 1, m, nodes)."""
@@ -164,7 +156,7 @@ def _node_count(load: Load, layers: FloatArray, digits: float, more: float) -> I
     return NODE_STEP * np.ceil(count / NODE_STEP).astype(np.intp)
 
 
-class _OverRanges:
+class _OverRanges(Rows):
     """Running integrals over ranges, most of which are empty, by halves that begin at either end.
 
     Parameters
@@ -206,9 +198,7 @@ class _OverRanges:
 
     def take(self, index: IndexArray) -> _OverRanges:
         """Return the growths at ``index`` of the first axis."""
-        taken = copy(self)
-        for name in ("low", "span", "layer", "reach", "group", "column"):
-            setattr(taken, name, getattr(self, name)[index])
+        taken = self._with_rows_of(("low", "span", "layer", "reach", "group", "column"), index)
         taken.whole = self.whole[:, index]
         return taken
 

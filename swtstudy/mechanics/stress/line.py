@@ -8,8 +8,6 @@ are c = 3 such integrals, T1, T3 and Π, of a strip c = 2, A and B.
 
 from __future__ import annotations
 
-from copy import copy
-
 import numpy as np
 
 from swtstudy.mechanics.contact.cycle import Cycle
@@ -97,16 +95,10 @@ class SurfaceLine(Rows):
 
     def take(self, index: IndexArray) -> SurfaceLine:
         """The lines at ``index`` with their positions, repetitions allowed."""
-        taken = copy(self)
-        taken.cycle, taken.coordinate = self.cycle.take(index), self.coordinate.take(index)
-        taken.position, taken.base = self.position[index], self.base[:, index]
-        taken.inside = None if self.inside is None else self.inside[index]
-        taken.bulk = self.bulk and self.bulk.take(index)
-        taken.near, taken.at = self.near[index], self.at[index]
-        taken.at_edge, taken.at_front = self.at_edge[index], self.at_front[index]
+        names = ("cycle", "coordinate", "bulk", "position", "near", "at", "at_edge", "at_front", "inside")
+        taken = self._with_rows_of((*names, "growth", "pieces", "slope"), index)
+        taken.base = self.base[:, index]
         taken.primitives = taken.coordinate.profile.primitives(taken.position, self.digits)
-        taken.slope = self.slope[index]
-        taken.growth, taken.pieces = self.growth.take(index), self.pieces.take(index)
         return taken
 
     def _growth_of(self, row: IndexArray, piece: IndexArray) -> IndexArray:
