@@ -14,6 +14,7 @@ from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import grid_of, records_of
+from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.records import (
@@ -145,10 +146,7 @@ def _refuse_conflicts(
 
 
 def _refuse_gaps_in_quantities(
-    paths: Sequence[Path],
-    merged: Records,
-    asked: tuple[tuple[str, ...], NDArray[np.bool_]],
-    definitions: Definitions,
+    paths: Sequence[Path], merged: Records, asked: tuple[tuple[str, ...], BoolArray], definitions: Definitions
 ) -> None:
     names, of = asked
     for name, lacks in zip(names, (merged.lacking(names) & of).T, strict=True):

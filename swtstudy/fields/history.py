@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from swtstudy.mechanics.planes import all_planes
 from swtstudy.mechanics.planes.all_planes import CriticalPlane, crossland
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, FatemiSocie, Findley, Swt
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -65,7 +66,7 @@ def swt_of_history(
 
 def criterion_of_history(
     stress: ArrayLike, criterion: str, normal_sensitivity: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[FloatArray, FloatArray]:
     """Largest value over all planes of a criterion of shear, or Crossland's, which has no plane.
 
     Parameters
@@ -121,9 +122,7 @@ def criterion_of_history(
     return found.swt, found.normal
 
 
-def _checked(
-    stress: ArrayLike, poisson_ratio: float, young_modulus: float
-) -> tuple[NDArray[np.float64], Report]:
+def _checked(stress: ArrayLike, poisson_ratio: float, young_modulus: float) -> tuple[FloatArray, Report]:
     """A history as an array, and what is wrong with it and with constants."""
     history = np.zeros((1, 6))
     report = Report()

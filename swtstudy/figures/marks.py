@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.style import stroke
+from swtstudy.mechanics.points import BoolArray
 
 #: Colours of the band and of its rim, which is seen beside the lightest line; width over that of a line.
 _BAND, _RIM, _WIDE = "0.9", "0.45", 4.5
@@ -28,7 +29,7 @@ _MOST = 32
 
 
 def mark_along(
-    axes: Axes, x: NDArray[Any], y: NDArray[Any], outside: NDArray[np.bool_], words: str, drawstyle: str
+    axes: Axes, x: NDArray[Any], y: NDArray[Any], outside: BoolArray, words: str, drawstyle: str
 ) -> None:
     """A band under the parts of a line that are outside; of a single point a disc.
 
@@ -63,7 +64,7 @@ def _with_stubs(x: NDArray[Any], y: NDArray[Any]) -> NDArray[Any]:
     return np.stack([line, line + _STUB * (toward - line)], axis=-1)
 
 
-def mark_cells(axes: Axes, x: ArrayLike, y: ArrayLike, outside: NDArray[np.bool_], words: str) -> None:
+def mark_cells(axes: Axes, x: ArrayLike, y: ArrayLike, outside: BoolArray, words: str) -> None:
     """Dots on what is outside of a map, thinned where its points are many.
 
     Parameters

@@ -18,7 +18,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import FloatArray, IntArray, Points
+    from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Points
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -38,7 +38,7 @@ def value_of(code: int, definitions: Definitions, parameter: str = "profile") ->
     return names[code] if code < len(names) else definitions[code]
 
 
-def control_code(normal_force: NDArray[np.bool_], tangential_force: NDArray[np.bool_]) -> IntArray:
+def control_code(normal_force: BoolArray, tangential_force: BoolArray) -> IntArray:
     """The numbers that stand for what is prescribed, from whether each component is a force."""
     return normal_force + 2 * tangential_force
 
@@ -90,7 +90,7 @@ def rounded(values: NDArray) -> FloatArray:
     return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
 
 
-def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, NDArray[np.bool_]]:
+def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     """Canonical rows of points.
 
     Parameters
@@ -127,7 +127,7 @@ def _make_profiles_canonical(table: Table) -> None:
             table[name][profile == code] = 0.0
 
 
-def _make_loads_canonical(table: Table) -> NDArray[np.bool_]:
+def _make_loads_canonical(table: Table) -> BoolArray:
     """Returns where x is mirrored."""
     from swtstudy.mechanics.load.bimodal import fold_bulk_phase, fold_phase, without_what_stands_still
 
@@ -158,9 +158,7 @@ def _in_turns(angle: FloatArray) -> FloatArray:
     return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
 
 
-def _make_control_canonical(
-    table: Table, normal_rests: NDArray[np.bool_], tangential_rests: NDArray[np.bool_]
-) -> None:
+def _make_control_canonical(table: Table, normal_rests: BoolArray, tangential_rests: BoolArray) -> None:
     """A component that stands still is prescribed as the other one is, both that do as displacements."""
     control = table["control"]
     normal, tangential = (control & 1) == 1, (control & 2) == 2

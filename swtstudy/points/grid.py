@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.mechanics.load.load import Loop
-    from swtstudy.mechanics.points import FloatArray, IntArray
+    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.
@@ -119,7 +119,7 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[Table, NDArray[np.bool_]]:
+    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[Table, BoolArray]:
         """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
         stop = self.size if stop is None else stop
         columns = self.columns(start, stop)
@@ -173,7 +173,7 @@ class Grid:
             for name, codes in self._codes.items()
         }
 
-    def _position(self, start: int, stop: int) -> dict[str, NDArray[np.intp]]:
+    def _position(self, start: int, stop: int) -> dict[str, IndexArray]:
         places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
         return dict(zip(self.dims, places, strict=True))
 

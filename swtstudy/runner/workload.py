@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from swtstudy.mechanics.points import BoolArray, IndexArray
 from swtstudy.points.canonical import SHARED_COLUMNS, Table, group_rows
 from swtstudy.points.records import MISSING, Records, look_up, matching
 from swtstudy.points.unique import UniquePoints, block_ends, unique_points, wanted, weights
@@ -43,23 +43,23 @@ class Workload:
     points: UniquePoints
     records: Records
     quantities: tuple[str, ...]
-    wanted: NDArray[np.bool_]
+    wanted: BoolArray
     dropped: Records
     outdated: int
     coarse: int
 
     @property
-    def missing(self) -> NDArray[np.bool_]:
+    def missing(self) -> BoolArray:
         """Of which points s is to be computed, shape (n,)."""
         return self.records.status == MISSING
 
     @property
-    def incomplete(self) -> NDArray[np.bool_]:
+    def incomplete(self) -> BoolArray:
         """Of which points s is known, but not all quantities, shape (n,)."""
         return np.asarray(self._lacking.any(axis=1))
 
     @property
-    def _lacking(self) -> NDArray[np.bool_]:
+    def _lacking(self) -> BoolArray:
         """Which quantities that are asked of computed points are not known, shape (n, len(quantities))."""
         return self.records.lacking(self.quantities) & self.wanted
 
@@ -68,7 +68,7 @@ class Workload:
         """Number of points of which anything is to be computed."""
         return int((self.missing | self.incomplete).sum())
 
-    def tasks(self) -> Iterator[tuple[NDArray[np.bool_], Asked]]:
+    def tasks(self) -> Iterator[tuple[BoolArray, Asked]]:
         """Masks of points, shape (n,), and what is to be computed of them."""
         missing, lacking = self.missing, self._lacking
         for some, of, known in (
@@ -138,7 +138,7 @@ _VERTICES = 200
 
 def estimate(
     points: UniquePoints,
-    missing: NDArray[np.bool_],
+    missing: BoolArray,
     rtol: float,
     solver: Solver,
     timed: Callable[[Records], None] = lambda found: None,
@@ -206,7 +206,7 @@ def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[int, float]]:
 
 
 def _timed(
-    points: UniquePoints, inside: NDArray[np.intp], asked: Asked, rtol: float, solver: Solver, share: float
+    points: UniquePoints, inside: IndexArray, asked: Asked, rtol: float, solver: Solver, share: float
 ) -> tuple[Records, float]:
     """The result of as many points of a block as take some share of the time, and the time of all tries."""
     count, spent = 1, 0.0

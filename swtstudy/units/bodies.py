@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.labels import wrong_size
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants, not_negative
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     #: Values with names for their dimensions keep them.
-    Values = NDArray[np.float64] | xr.DataArray
+    Values = FloatArray | xr.DataArray
 
 #: Constants of one kind.
 _Kind = TypeVar("_Kind", FatigueConstants, ShearConstants)
@@ -54,7 +55,7 @@ def labels_or(names: Sequence[str]) -> str:
     return " or ".join((*map(str, LABELS), *map(literal, names)))
 
 
-def swt_from(s: ArrayLike | xr.DataArray, scale: Any, moduli: Moduli, bodies: NDArray[np.intp]) -> Values:
+def swt_from(s: ArrayLike | xr.DataArray, scale: Any, moduli: Moduli, bodies: IndexArray) -> Values:
     """SWT of the bodies from s, with the SWT scale of the half-space with E*: a number, or a DataArray."""
     import xarray as xr
 
@@ -66,7 +67,7 @@ def swt_from(s: ArrayLike | xr.DataArray, scale: Any, moduli: Moduli, bodies: ND
     return swt
 
 
-def bodies_of(s: ArrayLike | xr.DataArray, alike: bool, body: object) -> NDArray[np.intp]:
+def bodies_of(s: ArrayLike | xr.DataArray, alike: bool, body: object) -> IndexArray:
     """The index of the body of each value, 0 or 1, broadcastable to the shape of the values.
 
     Raises
@@ -94,7 +95,7 @@ def bodies_of(s: ArrayLike | xr.DataArray, alike: bool, body: object) -> NDArray
 def cycles_from(
     both: tuple[FatigueConstants, FatigueConstants],
     swt: Values,
-    bodies: NDArray[np.intp],
+    bodies: IndexArray,
     counted: xr.Dataset | None = None,
 ) -> Values:
     """Rounds to a crack of each value with the constants of its body, see `FatigueConstants.rounds`."""
@@ -137,7 +138,7 @@ def _of_both(name: str, constants: object, kind: type[_Kind], report: Report) ->
 
 
 def _labelled(
-    name: str, values: NDArray[np.float64], like: ArrayLike | xr.DataArray, attributes: dict[str, str]
+    name: str, values: FloatArray, like: ArrayLike | xr.DataArray, attributes: dict[str, str]
 ) -> Values:
     """The values with the dimensions and coordinates of others, if those have any."""
     import xarray as xr

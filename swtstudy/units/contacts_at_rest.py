@@ -14,6 +14,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.mechanics.load.load import Loop
+from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.rules import AMPLITUDES, check_largest
 from swtstudy.points.shapes import largest_depths, largest_reach
@@ -29,7 +30,6 @@ from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
     import xarray as xr
-    from numpy.typing import NDArray
 
     from swtstudy.units.grid import PhysicalGrid
 
@@ -272,7 +272,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
 
 def _largest(
     grid: PhysicalGrid, profile: Value, names: tuple[str, ...]
-) -> tuple[dict[str, NDArray[np.intp]], dict[str, Any], NDArray[np.float64]]:
+) -> tuple[dict[str, IndexArray], dict[str, Any], FloatArray]:
     """Places of the contacts of a profile, their shapes, tables and largest loads, of shape (n,)."""
     import xarray as xr
 

@@ -29,7 +29,7 @@ from swtstudy.vocabulary.quantities import Request, item_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.points import IntArray
+    from swtstudy.mechanics.points import FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -235,7 +235,7 @@ class PhysicalGrid(ContactDetails, Grid):
         return (*super().margins, *("radius_ratio",) * bool(self.values("radius")))
 
     @property
-    def curvatures(self) -> NDArray[np.float64]:
+    def curvatures(self) -> FloatArray:
         """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
         over = self.at_rest.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
         shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from swtstudy.mechanics.points import FloatArray
 from swtstudy.units.labels import wrong_size
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
@@ -68,18 +69,18 @@ class FatigueConstants:
         check_constants(self)
 
     @property
-    def _terms(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _terms(self) -> tuple[FloatArray, FloatArray]:
         """Level and slope of the elastic and the plastic term over the logarithm of 2N."""
         elastic = 2.0 * math.log(self.strength) - math.log(self.young_modulus)
         plastic = math.log(self.strength) + math.log(self.ductility)
         slopes = 2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent
         return np.array([elastic, plastic]), np.array(slopes)
 
-    def swt(self, cycles: ArrayLike) -> NDArray[np.float64]:
+    def swt(self, cycles: ArrayLike) -> FloatArray:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
         return at_cycles(*self._terms, cycles)
 
-    def cycles(self, swt: ArrayLike) -> NDArray[np.float64]:
+    def cycles(self, swt: ArrayLike) -> FloatArray:
         """Strain cycles N to the initiation of a crack at a given SWT.
 
         A round of a load may have several: `rounds` counts these.
@@ -143,7 +144,7 @@ class FatigueConstants:
 
 
 def rounds(
-    cycles: Callable[[Any], NDArray[np.float64]], value: Any, counted: Any, counted_number: Any, name: str
+    cycles: Callable[[Any], FloatArray], value: Any, counted: Any, counted_number: Any, name: str
 ) -> Any:
     """See `FatigueConstants.rounds`; the cycles at a value, which has a name, are given by a function."""
     import xarray as xr
@@ -156,11 +157,8 @@ def rounds(
 
 
 def _rounds(
-    cycles: Callable[[Any], NDArray[np.float64]],
-    value: NDArray[np.float64],
-    counted: NDArray[np.float64],
-    number: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    cycles: Callable[[Any], FloatArray], value: FloatArray, counted: FloatArray, number: FloatArray
+) -> FloatArray:
     """`rounds` of arrays."""
     each = value[..., None, None] * counted
     known = np.broadcast_to((counted > 0.0) & (number > 0.0), each.shape)
@@ -171,7 +169,7 @@ def _rounds(
     return np.where(known.any(axis=(-2, -1)), lives, cycles(value))
 
 
-def not_negative(name: str, values: object) -> NDArray[np.float64]:
+def not_negative(name: str, values: object) -> FloatArray:
     """Read numbers ≥ 0, or NaN, that a user gave; a StudyError if any is negative."""
     numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
@@ -179,18 +177,14 @@ def not_negative(name: str, values: object) -> NDArray[np.float64]:
     return numbers
 
 
-def at_cycles(
-    level: NDArray[np.float64], slopes: NDArray[np.float64], cycles: ArrayLike
-) -> NDArray[np.float64]:
+def at_cycles(level: FloatArray, slopes: FloatArray, cycles: ArrayLike) -> FloatArray:
     """Strength at N cycles: the sum of two powers of 2N, by the logarithms of their factors."""
     with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
         logarithm = np.log(2.0 * not_negative("cycles", cycles))
         return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
 
-def life(
-    level: NDArray[np.float64], slopes: NDArray[np.float64], value: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray:
     """The inverse of `at_cycles` for values ≥ 0."""
     with np.errstate(divide="ignore"):
         level = level - np.log(value)[..., None]
@@ -249,16 +243,16 @@ class ShearConstants:
         )
 
     @property
-    def _terms(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def _terms(self) -> tuple[FloatArray, FloatArray]:
         """Level and slope of both terms over the logarithm of 2N."""
         level = math.log(self.strength / self.shear_modulus), math.log(self.ductility)
         return np.array(level), np.array([self.strength_exponent, self.ductility_exponent])
 
-    def parameter(self, cycles: ArrayLike) -> NDArray[np.float64]:
+    def parameter(self, cycles: ArrayLike) -> FloatArray:
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
         return at_cycles(*self._terms, cycles)
 
-    def cycles(self, parameter: ArrayLike) -> NDArray[np.float64]:
+    def cycles(self, parameter: ArrayLike) -> FloatArray:
         """Cycles N to the initiation of a crack at a given Fatemi–Socie parameter, a strain.
 
         Parameters
