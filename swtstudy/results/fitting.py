@@ -36,6 +36,7 @@ from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
+    from scipy.optimize import OptimizeResult
 
 #: The column of a table of tests with the lives that were observed, in rounds of the load.
 LIFE = "life"
@@ -103,13 +104,11 @@ def fit(
     found = least_squares(
         model.residuals, np.clip(start, low, high), jac=model.slopes, bounds=(low, high), xtol=XTOL, ftol=XTOL
     )
-    names = [DISTANCE, "friction"][: len(found.x)]
     if not low[0] + STEP < found.x[0] < high[0] - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
         raise StudyError([Mistake(DISTANCE, words, "tests whose lives depend on it within that range")])
-    spread = _intervals(found.jac, found.fun, float(confidence))
-    return _labelled(model, names, found.x, spread, found.fun, float(confidence))
+    return _labelled(model, found, float(confidence))
 
 
 @dataclass(frozen=True)
@@ -209,23 +208,17 @@ def _intervals(slopes: FloatArray, residuals: FloatArray, confidence: float) -> 
     return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(np.diag(covariance)))
 
 
-def _labelled(
-    model: _Model,
-    names: Sequence[str],
-    logarithms: FloatArray,
-    spread: FloatArray,
-    residuals: FloatArray,
-    confidence: float,
-) -> xr.Dataset:
-    """The fit as a Dataset."""
+def _labelled(model: _Model, fitted: OptimizeResult, confidence: float) -> xr.Dataset:
+    """The fit as a Dataset, from the least squares that scipy found."""
+    residuals, spread = fitted.fun, _intervals(fitted.jac, fitted.fun, confidence)
     found: dict[str, Any] = {}
-    for name, value, half in zip(names, logarithms, spread, strict=True):
+    for name, value, half in zip((DISTANCE, "friction"), fitted.x, spread, strict=False):
         row = model.grid.row(name)
         words = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
         for end, number in (("", value), ("_low", value - half), ("_high", value + half)):
             with np.errstate(over="ignore"):
                 found[f"{name}{end}"] = (), float(np.exp(number)), words
-    freedom = len(residuals) - len(names)
+    freedom = len(residuals) - len(fitted.x)
     lives = {"observed": 10.0**model.observed, "predicted": 10.0 ** (model.observed + residuals)}
     found |= {
         name: ("test", values, {"long_name": f"{name} rounds to a crack", "symbol": "N"})
