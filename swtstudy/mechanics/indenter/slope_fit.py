@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 
 from swtstudy.mechanics.numerics.arrays import TINY, polynomial_in
 from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
@@ -175,8 +176,7 @@ class SlopePieces:
             slope = _fitted(exact.slope, start, width, DEGREE + 1, width < NARROW * last)
         else:
             slope = _times_w(over_radius, start)
-        at_end = (float(_horner(values[:, -1:], width[-1:])[0]) for values in (over_radius, slope))
-        beyond, rise = at_end
+        beyond, rise = (float(polyval(width[-1], values[:, -1])) for values in (over_radius, slope))
         tail = np.zeros((DEGREE + 1, 1)), np.zeros((DEGREE + 2, 1))
         tail[0][0], tail[1][:2, 0] = beyond, (rise, beyond)
         return cls(
@@ -196,7 +196,7 @@ class SlopePieces:
     def _integrated(self, rate: FloatArray) -> FloatArray:
         power = np.arange(1, len(rate) + 1)[:, None]
         integral = np.concatenate([np.zeros_like(rate[:1]), rate / power])
-        gains = _horner(integral[:, :-1], np.diff(self.start))
+        gains = polyval(np.diff(self.start), integral[:, :-1], tensor=False)
         integral[0, 1:] = np.cumsum(gains)
         return integral
 
@@ -228,7 +228,9 @@ def _edges(exact: Exact, last: float, allowed: float) -> FloatArray:
         over_radius = _fitted(exact.over_radius, start, width, DEGREE, width < NARROW * last)
         slope = _fitted(exact.slope, start, width, DEGREE + 1, width < NARROW * last)
         w = start[:, None] + width[:, None] * between
-        found = np.stack([_horner(fit[:, :, None], w - start[:, None]) for fit in (over_radius, slope)])
+        found = np.stack(
+            [polyval(w - start[:, None], fit[:, :, None], tensor=False) for fit in (over_radius, slope)]
+        )
         missed = np.abs(found * np.stack([np.hypot(w, exact.b), np.ones_like(w)]) - exact.slope(w)).max(
             axis=0
         )
@@ -263,10 +265,3 @@ def _times_w(coefficients: FloatArray, start: FloatArray) -> FloatArray:
     longer[:-1] = coefficients * start
     longer[1:] += coefficients
     return longer
-
-
-def _horner(coefficients: FloatArray, t: FloatArray) -> FloatArray:
-    value = coefficients[-1]
-    for c in coefficients[-2::-1]:
-        value = value * t + c
-    return np.asarray(value)
