@@ -14,14 +14,7 @@ import numpy as np
 
 from swtstudy.mechanics.body.body import time_nodes
 from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
-from swtstudy.mechanics.body.quick_planes import (
-    Peaks,
-    climb_from,
-    highest_coarse_planes,
-    on_planes,
-    planes_like,
-    rival_planes,
-)
+from swtstudy.mechanics.body.quick_planes import Peaks, climb_from, on_planes, planes_like, rival_planes
 from swtstudy.mechanics.events.stretches import front_passes
 from swtstudy.mechanics.load.load import PERIOD
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, gather, packed
@@ -189,7 +182,7 @@ class LocalSwt:
         instant = self._instants(places, self._open_at(places))
         stress = histories.stress(instant)
         # A peak between the instants may make another plane critical: the planes are searched twice.
-        normal = highest_coarse_planes(stress, self.planes, self.ν, self.criterion)
+        normal = self.planes.normal[self.planes.swt(stress, self.ν, self.criterion).argmax(axis=1)]
         instant, stress, _ = self._closer(histories, np.arange(len(instant)), instant, stress, normal, FIRST)
         # For the same reason the rivals of the critical plane have instants of their own.
         row, value, normal = rival_planes(stress, self.planes, self.ν, self.criterion)

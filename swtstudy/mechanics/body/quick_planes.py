@@ -138,13 +138,6 @@ def rival_planes(
     return np.nonzero(rival)[0], swt[rival], normal[rival]
 
 
-def highest_coarse_planes(
-    stress: FloatArray, planes: CoarsePlanes, poisson_ratio: float, criterion: Criterion
-) -> FloatArray:
-    """Normals, (m, 3), some degrees off those of `rival_planes`."""
-    return planes.normal[planes.swt(stress, poisson_ratio, criterion).argmax(axis=1)]
-
-
 def climb_from(
     stress: FloatArray, ν: float, start: FloatArray, criterion: Criterion
 ) -> tuple[FloatArray, FloatArray]:

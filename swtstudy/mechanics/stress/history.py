@@ -44,11 +44,6 @@ class History(Rows):
     traction: FloatArray
     bulk: FloatArray | None = None
 
-    @classmethod
-    def of_strip(cls, pressure: FloatArray, tangential: FloatArray, traction: FloatArray) -> History:
-        """Make the history of a plane contact."""
-        return cls(pressure, None, tangential, None, traction)
-
     def with_tangential_sign(self, sign: float | FloatArray) -> History:
         """The same with the tangential load times ±1."""
         third = None if self.tangential_3 is None else sign * self.tangential_3
@@ -69,10 +64,6 @@ class History(Rows):
             return None if values is None else (values.reshape(shape) * weights).sum(axis=-1)
 
         return self._made(map(mean, vars(self).values()))
-
-    def carrying(self, bulk: FloatArray | None) -> History:
-        """The same with a bulk stress, shape (n, X, T)."""
-        return replace(self, bulk=bulk)
 
 
 def stresses(

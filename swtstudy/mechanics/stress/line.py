@@ -162,14 +162,16 @@ class SurfaceLine(Rows):
         front = self._passing(nodes, self.coordinate.radius(states.front), states.front, self.at_front)
         inner, outer = self.primitives.inner(edge), self.primitives.outer(edge)
         tangential = self._tangential(nodes, states, front, (*inner, outer[0]))
+        bulk = nodes.spread(self.bulk.at(nodes.instant)) if self.bulk else None
         if self.inside is None:
-            history = History.of_strip(outer[0] / np.pi, *tangential)
-        else:
-            # What the springs inside r carry, and what those outside press on the inside.
-            half_load = nodes.spread(self.coordinate.profile.half_load(radius))
-            inside, r = np.minimum(half_load, self.inside), self.position[:, :, None]
-            history = History(outer[0] / np.pi, (2.0 / np.pi) * (inside / (r * r) + outer[1]), *tangential)
-        return history.carrying(nodes.spread(self.bulk.at(nodes.instant))) if self.bulk else history
+            pull, traction = tangential
+            return History(outer[0] / np.pi, None, pull, None, traction, bulk)
+        # What the springs inside r carry, and what those outside press on the inside.
+        half_load = nodes.spread(self.coordinate.profile.half_load(radius))
+        inside, r = np.minimum(half_load, self.inside), self.position[:, :, None]
+        mean = (2.0 / np.pi) * (inside / (r * r) + outer[1])
+        first, third, traction = tangential
+        return History(outer[0] / np.pi, mean, first, third, traction, bulk)
 
     def _passing(
         self, nodes: Nodes, radius: FloatArray, coordinate: FloatArray, near: FloatArray
