@@ -63,7 +63,7 @@ def as_text(contact: PhysicalContact) -> str:
     )
 
 
-def headline(grid: PhysicalGrid, body: int, at_rest: bool = False) -> str:
+def headline(grid: PhysicalGrid, body: int, at_rest: bool) -> str:
     """List what is given of one contact with symbols and units: of one of its bodies, or of it at rest."""
     words = {}
     for name, values in {"profile": grid.values("profile"), **_given(grid)}.items():

@@ -122,9 +122,7 @@ def draw_inspection(
     return figure
 
 
-def _headline(
-    dataset: xr.Dataset, labels: Labels, headlines: tuple[str, tuple[str, ...]] | None = None
-) -> str:
+def _headline(dataset: xr.Dataset, labels: Labels, headlines: tuple[str, tuple[str, ...]] | None) -> str:
     given, validity = headlines or (_given(dataset), validity_lines(dataset))
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"

@@ -138,7 +138,7 @@ _HALF_TURN = 180.0
 
 
 def draw_lines(
-    axes: Axes, panel: xr.Dataset, y: str, layout: FigureLayout, scale: ScalarMappable | None = None
+    axes: Axes, panel: xr.Dataset, y: str, layout: FigureLayout, scale: ScalarMappable | None
 ) -> None:
     """Draw the curves of one panel.
 

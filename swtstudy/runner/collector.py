@@ -203,7 +203,7 @@ class Collector:
         Name of the study.
     """
 
-    def __init__(self, records: Records, run: Run, writer: PartsWriter, todo: int, name: str = "") -> None:
+    def __init__(self, records: Records, run: Run, writer: PartsWriter, todo: int, name: str) -> None:
         self.records = records
         self.pace = Pace()
         self._run = run

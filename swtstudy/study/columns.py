@@ -80,9 +80,7 @@ def check_form(given: Mapping[str, Any], names: Sequence[str], report: Report) -
         report("separator, decimal", f"both {form.decimal!r}", "two different signs")
 
 
-def read_columns(
-    path: Path, names: Sequence[str], optional: Sequence[str] = (), form: Form = PLAIN
-) -> FloatArray:
+def read_columns(path: Path, names: Sequence[str], optional: Sequence[str], form: Form) -> FloatArray:
     """The columns of a table, shape (rows, k), in the order of the names.
 
     Parameters

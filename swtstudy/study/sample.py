@@ -16,13 +16,12 @@ import numpy as np
 
 from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
+from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
 from swtstudy.vocabulary.mistakes import Report, is_whole, literal, more_like_it, nearest
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: Key of the file in messages.
 POINTS_KEY = "sample.file"
@@ -87,11 +86,7 @@ class Sample:
 
 
 def read_sample(
-    raw: Mapping[str, Any],
-    folder: Path,
-    report: Report,
-    known: Known = NOTHING_KNOWN,
-    rows: Mapping[str, Parameter] = PARAMETERS,
+    raw: Mapping[str, Any], folder: Path, report: Report, known: Known, rows: Mapping[str, Parameter]
 ) -> tuple[Sample | None, list[str]]:
     """The sample of a study's table; None if there are mistakes, which are reported.
 

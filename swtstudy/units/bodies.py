@@ -96,7 +96,7 @@ def cycles_from(
     both: tuple[FatigueConstants, FatigueConstants],
     swt: Values,
     bodies: IndexArray,
-    counted: xr.Dataset | None = None,
+    counted: xr.Dataset | None,
 ) -> Values:
     """Rounds to a crack of each value with the constants of its body, see `FatigueConstants.rounds`."""
     if counted is None:

@@ -178,10 +178,7 @@ def _pairs(
 
 
 def _check_given(
-    everything: Collection[str],
-    good: Mapping[str, tuple[Value, ...]],
-    own: Mapping[str, Parameter],
-    report: Report,
+    everything: Collection[str], good: NamedValues, own: Mapping[str, Parameter], report: Report
 ) -> None:
     """Report which values a contact lacks, and which exclude one another."""
     tables = [isinstance(profile, Definition) for profile in good.get("profile", ("paraboloid",))]

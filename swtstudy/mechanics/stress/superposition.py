@@ -176,7 +176,7 @@ BLOCK = 16384
 
 
 def cell_stress(
-    x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float, kernels: Kernels = DISC
+    x: ArrayLike, y: ArrayLike, z: ArrayLike, cells: SlopeCells, poisson_ratio: float, kernels: Kernels
 ) -> FloatArray:
     """Stress due to each cell of springs: compressed by their full slope, and dragged by each slope function.
 

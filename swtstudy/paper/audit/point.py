@@ -58,7 +58,8 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
     best, position = 0.0, np.nan
     found: list[tuple[float, float, int, float]] = []
     sides = 1.0, -1.0
-    for side, swt, best_plane in zip(sides, *_highest(scene, r, sides, angles, INSTANTS), strict=True):
+    looked = _highest(scene, r, sides, angles, INSTANTS, DIGITS)
+    for side, swt, best_plane in zip(sides, *looked, strict=True):
         framed = np.pad(swt, 1, constant_values=-1.0)
         peak = (swt > framed[:-2]) & (swt >= framed[2:])
         found += [(swt[k], side, k, best_plane[k]) for k in np.flatnonzero(peak).tolist()]
@@ -72,12 +73,7 @@ def dense_look(scene: Scene, steps: int = 400, planes: int = 64) -> tuple[float,
 
 
 def _highest(
-    scene: Scene,
-    r: FloatArray,
-    sides: tuple[float, ...],
-    angles: FloatArray,
-    count: int,
-    digits: float = DIGITS,
+    scene: Scene, r: FloatArray, sides: tuple[float, ...], angles: FloatArray, count: int, digits: float
 ) -> tuple[FloatArray, FloatArray]:
     """Largest swt at each r over the planes at 2θ, and 2θ of that plane, both (sides, X)."""
     swt, best = np.zeros((2, len(sides), r.size))
