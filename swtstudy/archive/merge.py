@@ -17,16 +17,7 @@ from swtstudy.archive.recall import grid_of, records_of
 from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.points.records import (
-    COMPUTED,
-    MISSING,
-    Records,
-    completed,
-    join,
-    look_up,
-    made_by,
-    matching,
-)
+from swtstudy.points.records import COMPUTED, MISSING, Records, completed, join, look_up, made_by, matching
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.unique import unique_points, wanted
 from swtstudy.points.values import Value, as_number

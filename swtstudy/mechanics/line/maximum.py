@@ -140,7 +140,7 @@ def candidates(scene: Scene, least: FloatArray) -> Candidates:
     return _apart(found, SAME_MAXIMUM * scene.largest_radius)
 
 
-def _are_maxima(scene: Scene, x: FloatArray) -> NDArray[np.bool_]:
+def _are_maxima(scene: Scene, x: FloatArray) -> BoolArray:
     """At which of m places, one of each scene, swt is as high as beside them.
 
     Climbs may end where that of one plane is highest, on a flank of another one's.
