@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.mechanics.indenter.profile_table import AnyProfile
     from swtstudy.mechanics.load.load import Loop
 
 
@@ -76,6 +76,8 @@ IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 #: Numbers of rows, columns and the like.
 IndexArray = NDArray[np.intp]
+#: Shape parameters of n profiles of a family, by name.
+Shape = dict[str, FloatArray]
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
@@ -121,7 +123,7 @@ class Points(Rows):
         Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; 0 unless given.
     """
 
-    profile: str | TabulatedProfile
+    profile: AnyProfile
     poisson_ratio: FloatArray
     friction: FloatArray
     normal_amplitude: FloatArray
@@ -129,7 +131,7 @@ class Points(Rows):
     q: IntArray
     tangential_amplitude: FloatArray
     phase: FloatArray
-    shape: dict[str, FloatArray] = field(default_factory=dict)
+    shape: Shape = field(default_factory=dict)
     control: Control = DISPLACEMENTS
     path: Loop | None = None
     criterion: str = "swt"

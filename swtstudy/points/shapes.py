@@ -17,7 +17,7 @@ from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import FloatArray
+    from swtstudy.mechanics.points import FloatArray, Shape
 
 #: Shapes of one profile; each is looked at, a million in 0.1 s.
 MOST_SHAPES = 50_000_000
@@ -140,7 +140,7 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
     return refused, first
 
 
-def largest_depths(grid: Grid, profile: Any, shape: dict[str, FloatArray], normal: FloatArray) -> FloatArray:
+def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
     """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
     from swtstudy.mechanics.control.diagram import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes

@@ -14,6 +14,7 @@ import numpy as np
 
 from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile, too_small
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD
+from swtstudy.mechanics.indenter.profile_table import AnyProfile
 from swtstudy.mechanics.numerics.arrays import TINY_ROOT
 from swtstudy.points.canonical import canonical_number, rounded
 from swtstudy.units.rows import least_depths, length_of, number_of
@@ -114,7 +115,7 @@ class Contact:
     radius: float | None
     depth: float
     friction: float
-    profile: str | TabulatedProfile
+    profile: AnyProfile
     shape: Mapping[str, float] = field(default_factory=dict)
     contact_length: float | None = None
 
@@ -198,7 +199,7 @@ class Contact:
         return make_profile(self.pure_profile, shape, np.ones(1))
 
     @property
-    def pure_profile(self) -> str | TabulatedProfile:
+    def pure_profile(self) -> AnyProfile:
         """The non-dimensional profile, a table in a_H and δ0."""
         if isinstance(self.profile, str):
             return self.profile

@@ -20,11 +20,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
+from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.indenter.plane import PlaneProfile
+from swtstudy.mechanics.indenter.profile_table import AnyProfile
 from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, Rows, Shape
 
 
 @dataclass(frozen=True)
@@ -88,14 +89,14 @@ class ForceCoordinate(Coordinate):
         return half_load / align(self.unit, radius), slope
 
 
-def unit_half_load(name: str | TabulatedProfile, shape: dict[str, FloatArray], count: int) -> FloatArray:
+def unit_half_load(name: AnyProfile, shape: Shape, count: int) -> FloatArray:
     """`Profile.half_load` of ``count`` profiles of a family at the depth δ0, shape (count,)."""
     profile = make_profile(name, shape, np.ones(count))
     return profile.half_load(profile.radius(np.ones(count)))
 
 
 def profile_up_to_force(
-    name: str | TabulatedProfile, shape: dict[str, FloatArray], largest_force: FloatArray
+    name: AnyProfile, shape: Shape, largest_force: FloatArray
 ) -> tuple[Profile, FloatArray]:
     """n profiles of a family in contact up to a normal force over that at δ0, (n,), and its half at δ0."""
     unit = unit_half_load(name, shape, len(largest_force))

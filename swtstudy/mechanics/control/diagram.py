@@ -18,14 +18,15 @@ from swtstudy.mechanics.control.coordinate import (
     unit_half_load,
 )
 from swtstudy.mechanics.control.normal_map import DepthOfForce, ForceOfDepth, NormalMap, TabledMap
-from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
+from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
+from swtstudy.mechanics.indenter.profile_table import AnyProfile
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, between, filled_rows
 from swtstudy.mechanics.numerics.roots import Brackets, Function, monotone_roots, sign_changes
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Shape
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.parameters import Control
 
@@ -168,18 +169,14 @@ class MappedLoad(Load):
         return math.ceil(count + COUNT_PER_WAVE * self.waves)
 
 
-def largest_depth(
-    control: Control, name: str | TabulatedProfile, shape: dict[str, FloatArray], largest_normal: FloatArray
-) -> FloatArray:
+def largest_depth(control: Control, name: AnyProfile, shape: Shape, largest_normal: FloatArray) -> FloatArray:
     """Largest indentation depth over δ0 at the largest normal load, as it is prescribed; shape (n,)."""
     if not control.normal_force:
         return largest_normal
     return profile_up_to_force(name, shape, largest_normal)[0].largest_depth
 
 
-def diagram(
-    control: Control, name: str | TabulatedProfile, shape: dict[str, FloatArray], load: Load
-) -> tuple[Load, Coordinate]:
+def diagram(control: Control, name: AnyProfile, shape: Shape, load: Load) -> tuple[Load, Coordinate]:
     """The load in the coordinate of its memory diagram, and that coordinate.
 
     The coordinate is that of the tangential load, into which the normal load is mapped where the two differ.

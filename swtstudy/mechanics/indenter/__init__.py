@@ -9,10 +9,10 @@ from swtstudy.mechanics.indenter.base import Primitives, Profile
 from swtstudy.mechanics.indenter.paraboloid import Paraboloid, RoundedPunch, TruncatedParaboloid
 from swtstudy.mechanics.indenter.plane import Cylinder, RoundedFlat
 from swtstudy.mechanics.indenter.power_law import PowerLaw, PowerLawCylinder
-from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+from swtstudy.mechanics.indenter.profile_table import AnyProfile, TabulatedProfile
 from swtstudy.mechanics.indenter.tabulated import Tabulated, TabulatedPlane
 from swtstudy.mechanics.indenter.wavy import WavyCylinder, WavyParaboloid
-from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Shape
 
 PROFILES: dict[str, type[Profile]] = {
     "paraboloid": Paraboloid,
@@ -27,9 +27,7 @@ PROFILES: dict[str, type[Profile]] = {
 }
 
 
-def _class_of(
-    profile: str | TabulatedProfile, shape: Mapping[str, Any]
-) -> tuple[type[Profile], dict[str, Any]]:
+def _class_of(profile: AnyProfile, shape: Mapping[str, Any]) -> tuple[type[Profile], dict[str, Any]]:
     """The class of a family or of tables, and its shape: the table is that of all n profiles."""
     if isinstance(profile, str):
         return PROFILES[profile], dict(shape)
@@ -37,9 +35,7 @@ def _class_of(
     return of_table, {"table": profile}
 
 
-def make_profile(
-    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
-) -> Profile:
+def make_profile(profile: AnyProfile, shape: Shape, largest_depth: FloatArray) -> Profile:
     """n profiles of a family with shape parameters (n,), or of one table, in contact up to a depth (n,).
 
     What cannot be resolved is left out, see `resolved_shape`.
@@ -49,45 +45,37 @@ def make_profile(
     return own(largest_depth, **resolved)
 
 
-def roughness(
-    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
-) -> IntArray:
+def roughness(profile: AnyProfile, shape: Shape, largest_depth: FloatArray) -> IntArray:
     """Levels of `Profile.roughness` of n profiles."""
     own, given = _class_of(profile, shape)
     return own.roughness(largest_depth, **given)
 
 
-def resolved_shape(
-    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
-) -> tuple[dict[str, FloatArray], FloatArray]:
+def resolved_shape(profile: AnyProfile, shape: Shape, largest_depth: FloatArray) -> tuple[Shape, FloatArray]:
     """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
     own, given = _class_of(profile, shape)
     return own.resolved(largest_depth, **given)
 
 
-def compact_shapes(
-    profile: str | TabulatedProfile, shape: dict[str, FloatArray], largest_depth: FloatArray
-) -> BoolArray:
+def compact_shapes(profile: AnyProfile, shape: Shape, largest_depth: FloatArray) -> BoolArray:
     """True where `check_shape` accepts a shape up to a depth, each of shape (n,)."""
     own, given = _class_of(profile, shape)
     return own.compact(largest_depth, **given)
 
 
-def check_shape(profile: str | TabulatedProfile, shape: dict[str, float], largest_depth: float) -> str | None:
+def check_shape(profile: AnyProfile, shape: dict[str, float], largest_depth: float) -> str | None:
     """Why a profile cannot be used up to a depth, or None."""
     own, given = _class_of(profile, shape)
     return own.check(largest_depth, **given)
 
 
-def length_law(profile: str | TabulatedProfile, shape: Mapping[str, float]) -> tuple[float, float]:
+def length_law(profile: AnyProfile, shape: Mapping[str, float]) -> tuple[float, float]:
     """Coefficient c and power p in a_H = R (δ0/(c R))ᵖ."""
     own, given = _class_of(profile, shape)
     return own.length_law(**given)
 
 
-def too_small(
-    profile: str | TabulatedProfile, shape: dict[str, float], largest_depth: float
-) -> tuple[str, float] | None:
+def too_small(profile: AnyProfile, shape: dict[str, float], largest_depth: float) -> tuple[str, float] | None:
     """The shape parameter that no full disc up to a depth can have, and its least value, or None."""
     own, given = _class_of(profile, shape)
     return own.too_small(largest_depth, **given)

@@ -16,7 +16,7 @@ import numpy as np
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, align
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows, Shape
 
 
 class Primitives(ABC):
@@ -93,9 +93,7 @@ class Profile(Rows, ABC):
         return np.zeros(len(largest_depth), dtype=np.int64)
 
     @classmethod
-    def resolved(
-        cls, largest_depth: FloatArray, **shape: FloatArray
-    ) -> tuple[dict[str, FloatArray], FloatArray]:
+    def resolved(cls, largest_depth: FloatArray, **shape: FloatArray) -> tuple[Shape, FloatArray]:
         """Shape parameters that can be resolved, and the relative error of s by what was left out, (n,)."""
         return shape, np.zeros(len(largest_depth))
 

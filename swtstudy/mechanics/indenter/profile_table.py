@@ -194,6 +194,10 @@ class TabulatedProfile(Definition):
         return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())
 
 
+#: The name of a family, or a table.
+AnyProfile = str | TabulatedProfile
+
+
 def _wrong_geometry(name: object, geometry: object) -> Iterator[Mistake]:
     if geometry not in GEOMETRIES:
         yield Mistake(f"{name}.geometry", literal(geometry), f"one of {', '.join(GEOMETRIES)}")

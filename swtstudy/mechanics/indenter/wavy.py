@@ -13,7 +13,7 @@ from swtstudy.mechanics.indenter.base import Primitives, Profile, TablePrimitive
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlaneProfile, StripTablePrimitives
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.numerics.arrays import SAME, RowTable, align
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Shape
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
 #: Half of the first: 4e-6 at rtol 1e-5, no faster; twice: 2e-10. Of the second: 6e-8; no third one: 3e-8.
@@ -65,9 +65,7 @@ class WavyParaboloid(Profile):
         return np.ceil(level).astype(np.int64)
 
     @classmethod
-    def resolved(
-        cls, largest_depth: FloatArray, **shape: FloatArray
-    ) -> tuple[dict[str, FloatArray], FloatArray]:
+    def resolved(cls, largest_depth: FloatArray, **shape: FloatArray) -> tuple[Shape, FloatArray]:
         # Waves too short to follow are left out. They change the slope f′ by h k sin kx, and s, which is
         # quadratic in the stress, by twice that; as much again for what they do to the contact.
         amplitude = shape["waviness_amplitude"]
