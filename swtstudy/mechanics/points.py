@@ -72,6 +72,8 @@ def _joined(several: list[Any]) -> Any:
 
 
 FloatArray = NDArray[np.float64]
+#: One number for all, or one for each.
+Floats = FloatArray | float
 IntArray = NDArray[np.int64]
 BoolArray = NDArray[np.bool_]
 #: Numbers of rows, columns and the like.

@@ -16,7 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Floats
 
 #: Distances and inclinations at which the change along the arcs is seen.
 SIDE = 4
@@ -146,7 +146,7 @@ class HalfSpheres:
     def _radius(self, distance: FloatArray, inclination: FloatArray) -> FloatArray:
         return np.maximum(self.centre + distance * np.cos(inclination), 0.0)
 
-    def _arc(self, distance: FloatArray, radius: FloatArray, size: float | FloatArray) -> FloatArray:
+    def _arc(self, distance: FloatArray, radius: FloatArray, size: Floats) -> FloatArray:
         """Half of the angle of an arc within a sphere."""
         chord = np.sqrt((size - distance) * (size + distance))
         across = np.maximum(2.0 * np.sqrt(self.centre * radius), 1e-150)

@@ -16,7 +16,7 @@ import numpy as np
 from swtstudy.mechanics.numerics import chebyshev
 from swtstudy.mechanics.numerics.arrays import SAME, TINY, align
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Rows, Shape
+from swtstudy.mechanics.points import BoolArray, FloatArray, Floats, IndexArray, IntArray, Rows, Shape
 
 
 class Primitives(ABC):
@@ -98,7 +98,7 @@ class Profile(Rows, ABC):
         return shape, np.zeros(len(largest_depth))
 
     @classmethod
-    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> BoolArray:
+    def compact(cls, largest_depth: Floats, **shape: FloatArray) -> BoolArray:
         """True where the contact is a full disc up to ``largest_depth``, (n,) or one, for shapes (n,)."""
         return np.ones(np.broadcast_shapes(*map(np.shape, shape.values())), bool)
 
@@ -235,7 +235,7 @@ class InnerTable:
         self.flat = profile.flat_radius[:, None]
         self.gap = np.maximum(position**2 - self.flat**2, 0.0)
         #: Largest α.
-        self.span: FloatArray | float = 0.5 * np.pi
+        self.span: Floats = 0.5 * np.pi
         outside = position > largest[:, None]
         if np.any(outside):
             share = (largest[:, None] ** 2 - self.flat**2) / np.maximum(self.gap, TINY)

@@ -13,7 +13,7 @@ from swtstudy.mechanics.indenter.base import Primitives, Profile, TablePrimitive
 from swtstudy.mechanics.indenter.plane import MEAN_LOAD, PlaneProfile, StripTablePrimitives
 from swtstudy.mechanics.indenter.struve import struve_functions
 from swtstudy.mechanics.numerics.arrays import SAME, RowTable, align
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Shape
+from swtstudy.mechanics.points import BoolArray, FloatArray, Floats, IndexArray, IntArray, Shape
 
 #: Chebyshev nodes of the tables for each digit, and so many more per rad of kξ, and of that for each digit.
 #: Half of the first: 4e-6 at rtol 1e-5, no faster; twice: 2e-10. Of the second: 6e-8; no third one: 3e-8.
@@ -76,7 +76,7 @@ class WavyParaboloid(Profile):
         )
 
     @classmethod
-    def compact(cls, largest_depth: FloatArray | float, **shape: FloatArray) -> BoolArray:
+    def compact(cls, largest_depth: Floats, **shape: FloatArray) -> BoolArray:
         h, wavelength = shape["waviness_amplitude"], shape["wavelength"]
         return (h == 0.0) | (wavelength >= cls.smallest_wavelength(largest_depth, h, wavelength))
 
@@ -88,9 +88,7 @@ class WavyParaboloid(Profile):
         return "wavelength", float(cls.smallest_wavelength(largest_depth, h, wavelength))
 
     @classmethod
-    def smallest_wavelength(
-        cls, largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
-    ) -> FloatArray:
+    def smallest_wavelength(cls, largest_depth: Floats, h: FloatArray, wavelength: FloatArray) -> FloatArray:
         """Smallest λ/√(hR) with a compact contact up to a depth, over the phases that waves λ have there."""
         phase = largest_phase(largest_depth, h, wavelength)
         # g′ ∝ 2z + (π/2) (4π² hR/λ²) A(z) with z = kξ and A = H₀ + z (2/π − H₁).
@@ -194,9 +192,7 @@ class WavyParaboloid(Profile):
         return TablePrimitives(self, position, nodes, nodes, largest)
 
 
-def largest_phase(
-    largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
-) -> FloatArray | float:
+def largest_phase(largest_depth: Floats, h: FloatArray, wavelength: FloatArray) -> Floats:
     """Phase kξ of waves that is reached up to a depth, and half a wave more."""
     with np.errstate(divide="ignore", over="ignore"):  # too short for a float: all phases are reached
         return 2.0 * np.pi * np.sqrt(largest_depth) / (wavelength * np.sqrt(h)) + np.pi
@@ -251,9 +247,7 @@ class WavyCylinder(PlaneProfile, WavyParaboloid):
         return 0.5 * radius * radius + 2.0 * h * (1.0 - j0(k * radius))
 
     @classmethod
-    def smallest_wavelength(
-        cls, largest_depth: FloatArray | float, h: FloatArray, wavelength: FloatArray
-    ) -> FloatArray:
+    def smallest_wavelength(cls, largest_depth: Floats, h: FloatArray, wavelength: FloatArray) -> FloatArray:
         phase = largest_phase(largest_depth, h, wavelength)
         # N′ ∝ 1 + (4π² hR/λ²) J₀(z).
         return 2.0 * np.pi * np.sqrt(np.maximum(np.interp(phase, *_deepest_troughs()), 0.0))

@@ -21,7 +21,7 @@ from swtstudy.mechanics.planes.weights import (
     strain_history,
     tangent_basis,
 )
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Floats
 
 #: Lines in the plane of which a look at many planes takes the one with the largest swing, and from which the
 #: largest chord is looked for: 2 and 0.5 % of it may be missed.
@@ -43,9 +43,7 @@ class Swing(ABC):
         """A, B, C from those of σ_n, shape (3, …), and σ_yy, (…); a strain is by E = (1 − ν²) E*."""
 
     @abstractmethod
-    def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
-    ) -> FloatArray:
+    def tensor(self, stress: FloatArray, poisson_ratio: Floats, young_modulus: Floats = 1.0) -> FloatArray:
         """The tensor of which it is made, from the stress, both of shape (…, 6)."""
 
     @abstractmethod
@@ -107,9 +105,7 @@ class NormalStrain(Swing):
         strain[0] -= (ν / (1.0 - ν * ν)) * (2.0 * tension[0] + yy)
         return strain
 
-    def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
-    ) -> FloatArray:
+    def tensor(self, stress: FloatArray, poisson_ratio: Floats, young_modulus: Floats = 1.0) -> FloatArray:
         return strain_history(stress, poisson_ratio, young_modulus)
 
     def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:
@@ -144,9 +140,7 @@ class ShearStress(Swing):
         _, b, c = tension
         return np.stack([np.zeros_like(b), c, -b])
 
-    def tensor(
-        self, stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
-    ) -> FloatArray:
+    def tensor(self, stress: FloatArray, poisson_ratio: Floats, young_modulus: Floats = 1.0) -> FloatArray:
         return stress
 
     def on_plane(self, tensor: FloatArray, normal: FloatArray) -> FloatArray:

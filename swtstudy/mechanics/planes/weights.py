@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import FloatArray, Floats
 
 
-def strain_history(
-    stress: FloatArray, poisson_ratio: float | FloatArray, young_modulus: float | FloatArray = 1.0
-) -> FloatArray:
+def strain_history(stress: FloatArray, poisson_ratio: Floats, young_modulus: Floats = 1.0) -> FloatArray:
     """Hooke's law, ε = ((1 + ν) σ − ν tr σ)/E, with tensor shear components (half the engineering ones).
 
     Parameters

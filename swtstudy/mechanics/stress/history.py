@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray, Rows
+from swtstudy.mechanics.points import FloatArray, Floats, Rows
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class History(Rows):
     traction: FloatArray
     bulk: FloatArray | None = None
 
-    def with_tangential_sign(self, sign: float | FloatArray) -> History:
+    def with_tangential_sign(self, sign: Floats) -> History:
         """The same with the tangential load times ±1."""
         third = None if self.tangential_3 is None else sign * self.tangential_3
         return replace(
@@ -67,7 +67,7 @@ class History(Rows):
 
 
 def stresses(
-    history: History, poisson_ratio: FloatArray, friction: FloatArray, side: float | FloatArray
+    history: History, poisson_ratio: FloatArray, friction: FloatArray, side: Floats
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """σ_xx, σ_yy, σ_zz, σ_xz in E* √(δ0/R), tension positive.
 
@@ -95,7 +95,7 @@ def stresses(
 
 
 def _plane_stresses(
-    history: History, nu: FloatArray, mu: FloatArray, side: float | FloatArray
+    history: History, nu: FloatArray, mu: FloatArray, side: Floats
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """`stresses` of a plane contact: plane strain, of the bulk stress, too."""
     sigma_xx = side * mu * history.tangential_1 - history.pressure

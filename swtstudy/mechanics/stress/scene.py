@@ -12,7 +12,7 @@ from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.bimodal import load_of
 from swtstudy.mechanics.planes.criterion import SWT, Criterion, criterion_of
 from swtstudy.mechanics.planes.through_y import PlaneHistory
-from swtstudy.mechanics.points import FloatArray, Points, Rows
+from swtstudy.mechanics.points import FloatArray, Floats, Points, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
 from swtstudy.mechanics.stress.history import History, stresses
 
@@ -93,7 +93,7 @@ class Scene(Rows):
         """True if half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
 
-    def planes(self, history: History, side: FloatArray | float) -> PlaneHistory:
+    def planes(self, history: History, side: Floats) -> PlaneHistory:
         """σ_n and the swing of the criterion on the planes through y, on the given side of the contact."""
         sigma = stresses(history, self.poisson_ratio, self.friction, side)
         return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.criterion)
