@@ -8,7 +8,7 @@ from scenes import PROFILE_NAMES, points, random_points, take
 from scipy.integrate import simpson
 
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body import nonlocal_swt
+from swtstudy.mechanics.body import local_swt, nonlocal_swt
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
 from swtstudy.mechanics.body.histories import Histories, SpringCells
@@ -409,3 +409,8 @@ def test_tension_between_the_coarse_planes_is_found() -> None:
     # σ_max Δε/2 over E* = E/(1 − ν²) = 1, with ε = (σ_zz + 2ν)/E.
     assert swt[0] == pytest.approx(pull * 0.5 * (pull + 2.0 * ν) / (1.0 - ν**2), rel=1e-6)
     assert abs(normal[0, 2]) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_place_without_instants_of_its_own_keeps_one() -> None:
+    instants, kept = np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([[False, True], [False, False]])
+    np.testing.assert_array_equal(local_swt._packed(instants, kept), [[2.0], [3.0]])

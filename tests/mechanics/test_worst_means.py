@@ -189,6 +189,19 @@ def test_values_are_about_local_maxima_not_about_flanks(given: dict[str, object]
         assert value[2] >= (1.0 - 1e-3) * value.max()
 
 
+def test_on_a_flank_values_may_be_larger() -> None:
+    """Where swt falls off as slowly inwards as along the line, half the distance beneath a flank has more."""
+    given = {"normal_amplitude": 0.31, "tangential_amplitude": 0.25, "poisson_ratio": 0.33, "friction": 0.5}
+    batch = points(**given)
+    ((_, scene),) = scenes(batch)
+    found = swtstudy.solve(critical_distance=0.05, **given)
+    flank = nonlocal_swt(scene, np.array([0.9152]), np.array([0.0]), np.array([0.05])).point[0, 0, 0]
+    swt_0 = float(found.s) / float(solve_points(batch).s[0])
+    assert 1.3 < flank * swt_0 / float(found.s_point.sel(direction="depth")) < 1.4
+    # It is no maximum: swt falls from there outwards.
+    assert (np.diff(on_planes(np.array([0.9, 0.91, 0.92, 0.93]), given)) < 0.0).all()
+
+
 def on_planes(x: np.ndarray, given: dict[str, object]) -> np.ndarray:
     """The criterion on the planes through y, half a degree apart, by the body's stress."""
     field = swtstudy.stress_field(x, 0.0, 0.0, **given)

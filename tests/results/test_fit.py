@@ -220,6 +220,7 @@ def test_a_threshold_of_other_units_is_warned_of():
     ("young", "line", "words"),
     [
         ("73.1", "", r"material.strength 927 over young_modulus 73.1 is 12.7, of metals 0.0002 to 0.05: are"),
+        ("[72, 73.1]", "", r"material.strength 927 over young_modulus 72 is 12.9"),
         ("73.1e9", "", "material.strength 927 over young_modulus 7.31e.10 is 1.27e-08, .* both in MPa"),
         ("73.1e3", "yield_strength = 0.35", "material.yield_strength 0.35 over young_modulus 73100 is"),
     ],

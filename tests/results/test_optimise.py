@@ -91,6 +91,7 @@ def test_how_it_was_found(found):
     assert best.s <= best.searched == best.progress.min()
     assert worst.s >= worst.searched == worst.progress.max()
     assert (found.evaluations > 200).all()
+    assert found.evaluations.long_name == "number of points solved"
 
 
 def test_each_case_has_its_own_numbers(found):

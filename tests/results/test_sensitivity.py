@@ -11,6 +11,7 @@ from swtstudy.cli import main
 from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.statements.parameters import SAYS, table
+from swtstudy.results.sensitivity import _design
 
 STUDY = """
 title = "Ishigami"
@@ -244,3 +245,10 @@ def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
 def open_indices(folder):
     with xr.open_dataset(folder / "mine_indices.nc") as file:
         return file.load()
+
+
+def test_one_parameter_has_no_share():
+    design = {"design": "saltelli", "parameters": "friction", "size": 2}
+    dataset = xr.Dataset(coords={"sample": ("sample", np.arange(6), design)})
+    with pytest.raises(StudyError, match=r"^sample\.ranges: found friction; allowed: at least two par"):
+        _design(dataset)
