@@ -234,7 +234,7 @@ def test_a_modulus_of_another_unit_is_warned_of(young, line, words):
 
 def test_the_moduli_of_both_bodies_are_looked_at():
     text = with_material().replace("young_modulus = 73.1e3", "young_modulus = [72, 73.1]")
-    with pytest.warns(UserWarning) as warned:
+    with pytest.warns(UserWarning, match="over young_modulus") as warned:
         Study.from_text(text)
     said = " ".join(str(each.message) for each in warned)
     assert "over young_modulus 72 is 12.9" in said
