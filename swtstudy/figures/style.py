@@ -126,6 +126,9 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
             except OSError:
                 allowed = f"{nearest(str(style), matplotlib.style.available, {})}; or a .mplstyle file"
                 raise StudyError([Mistake("style", literal(style), allowed)]) from None
+            except (KeyError, ValueError):
+                allowed = "rcParams of matplotlib and their values"
+                raise StudyError([Mistake("style", literal(style), allowed)]) from None
         yield
 
 

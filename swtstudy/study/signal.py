@@ -329,6 +329,8 @@ def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
         report("recorded_cycles, period", "both", "one of the two: the other follows")
     report.refuse()
     time, values = _table(path, given)
+    if len(values) < 2:
+        raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
     return _whole(name, time, values, given)
 
 
@@ -359,8 +361,6 @@ def _table(path: Path, given: Mapping[str, object]) -> tuple[FloatArray, FloatAr
 
 def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, object]) -> Signal:
     """The signal with its period and number of cycles."""
-    if len(values) < 2:
-        raise StudyError([Mistake("", f"{len(values)} samples", "2 at least")])
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
     if given.get("period") is not None:

@@ -193,6 +193,9 @@ def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
     assert {line.get_linestyle() for line in lines} == {"-"}
     with pytest.raises(StudyError, match="style: found 'gray_scale'; allowed: did you mean grayscale"):
         draw(one_panel, style="gray_scale")
+    for wrong in ({"nix": 3}, {"lines.linewidth": "thick"}):
+        with pytest.raises(ValueError, match=r"style: found \{.*allowed: rcParams of matplotlib"):
+            draw(one_panel, style=wrong)
     for name in ("one", "two"):
         save_figure(draw(one_panel), tmp_path / f"{name}.svg")
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()

@@ -318,3 +318,9 @@ def test_kept_cycles_have_no_harmonics(tmp_path: Path) -> None:
     table = '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 2\nharmonics = 2\n'
     (found,) = mistakes_of(f"{RIG}{table}keep_cycles = true\n", tmp_path)
     assert "loads.rig: found keep_cycles and harmonics; allowed: one of the two" in found
+
+
+def test_a_file_with_next_to_no_samples_is_named(tmp_path: Path) -> None:
+    write(tmp_path / "one.csv", np.array([[200.0, 0.0]]), "normal,tangential")
+    with pytest.raises(StudyError, match=r"one\.csv: found 1 samples; allowed: 2 at least"):
+        read_signal(tmp_path / "one.csv")
