@@ -5,8 +5,8 @@ leaves out. The strain of the body that carries an oscillating bulk stress drags
 body. For a Hertz contact of similar materials a stick circle off centre makes a uniform strain, which
 cancels that of the bulk stress along x if the shift is e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E*
 δ0/a_H. Of a loop B_A is half the range of the bulk stress, as of an oscillation. For a cylinder, in plane
-strain, e = B_A/(2μ). Both are those of equal moduli: with others it is the specimen's strain, (1 − ν²)/E in
-plane strain, over the mean of both bodies, 1/(2E*), that counts besides.
+strain, e = B_A/(2μ). Both are those of equal moduli; with others the shift goes with the strain of the body
+that carries the bulk stress over the mean strain of both, under equal tractions.
 """
 
 from __future__ import annotations

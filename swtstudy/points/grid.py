@@ -148,6 +148,11 @@ class Grid:
         """a_H/R of each point, NaN where no length is known; shape (size,)."""
         return np.full(self.size, np.nan)
 
+    @property
+    def strain_shares(self) -> FloatArray:
+        """Strain of each point's body over the mean of both bodies, under equal tractions; shape (size,)."""
+        return np.ones(self.size)
+
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """Results as users see them, with units if the grid has some."""
         return dataset

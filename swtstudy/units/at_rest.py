@@ -75,6 +75,18 @@ class Moduli:
         """
         return (1.0 - self.poisson[body] ** 2) * self.normal / self.young[body]
 
+    def strain_share(self, body: int, plane: bool) -> float:
+        """Strain of a body's surface along a traction, over the mean of both: 1 of equal bodies.
+
+        That within a disc under a traction along x, like √(1 − r²/a²), goes with (4 − 3ν)/G (Mindlin), that
+        of a strip with (1 − ν)/G.
+        """
+        of_both = [
+            ((1.0 - ν) if plane else (4.0 - 3.0 * ν)) / g
+            for g, ν in zip(self.shear, self.poisson, strict=True)
+        ]
+        return 2.0 * of_both[body] / sum(of_both)
+
 
 #: Radii at which the largest pressure is looked for, and its digits.
 _RADII, _DIGITS = 4001, 9.0

@@ -237,7 +237,22 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def curvatures(self) -> FloatArray:
         """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
-        over = self.at_rest.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+        return self._of_points(
+            self.at_rest.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+        )
+
+    @property
+    def strain_shares(self) -> FloatArray:
+        """See `Grid.strain_shares`."""
+
+        def of(body: int) -> xr.DataArray:
+            return self.at_rest.each(lambda contact: contact.moduli.strain_share(body, self.plane))
+
+        return self._of_points(of(0).where(self.bodies == 0, of(1)))
+
+    def _of_points(self, over: xr.DataArray) -> FloatArray:
+        """Values over some of the dimensions for each point, shape (size,)."""
+        over = over.transpose(*(dim for dim in self.dims if dim in over.dims))
         shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]
         return np.broadcast_to(over.values.reshape(shape), self.shape).ravel()
 

@@ -298,3 +298,28 @@ def test_a_force_that_is_too_large_is_told_in_its_own_unit():
     found = physical(**given, normal_force=200.0, tangential_force_amplitude=101.0, body=1).solve()
     (line,) = found.swt.validity()
     assert line == "no equilibrium: tangential_force_amplitude 101 exceeds μ F_N = 100"
+
+
+@pytest.mark.parametrize("profile", ["paraboloid", "cylinder"])
+@pytest.mark.parametrize(("young", "poisson"), [((70e3, 200e3), (0.45, 0.45)), ((200e3, 70e3), (0.44, 0.45))])
+def test_a_softer_specimen_shifts_the_stick_zone_further(profile, young, poisson):
+    """The strain of the bulk stress over that of both surfaces by the shifted traction, in closed form."""
+    given = {"radius": 50.0, "normal_force": 200.0, "friction": 0.5, "similar": 0.2}
+    moduli = {"young_modulus": young, "poisson_ratio": poisson}
+    contact = physical(
+        **given, **moduli, tangential_force_amplitude=60.0, bulk_stress_amplitude=10.0, profile=profile
+    )
+    found = contact.solve(rtol=1e-2)
+    compliances = [(1.0 - ν**2) / e for e, ν in zip(young, poisson, strict=True)]
+    if profile == "cylinder":
+        a = np.sqrt(4.0 * 200.0 * 50.0 / np.pi * sum(compliances))
+        p0 = 2.0 * 200.0 / (np.pi * a)
+        # Of tractions ±q √(1 − x²/a²) one shifted by e leaves the strain 2 q e/a² · (1 − ν²)/E.
+        shift = 10.0 * compliances[0] / (2.0 * 0.5 * p0 * sum(compliances)) * a
+    else:
+        a = (0.75 * 200.0 * 50.0 * sum(compliances)) ** (1.0 / 3.0)
+        p0 = 1.5 * 200.0 / (np.pi * a**2)
+        # Mindlin: u_x falls with x by π q (4 − 3ν) x²/(32 G a).
+        bends = [np.pi * (4.0 - 3.0 * ν) * (1.0 + ν) / (8.0 * e) for e, ν in zip(young, poisson, strict=True)]
+        shift = 10.0 / young[0] / (0.5 * p0 * sum(bends)) * a
+    assert found.bulk_shift.values == pytest.approx([shift, 0.0], rel=1e-6)
