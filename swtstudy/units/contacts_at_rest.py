@@ -16,7 +16,7 @@ from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.mechanics.load.load import Loop
 from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.rules import AMPLITUDES, check_largest
+from swtstudy.points.rules import AMPLITUDES
 from swtstudy.points.shapes import largest_depths, largest_reach
 from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
@@ -155,7 +155,6 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             report.of(mistake.key, f"{mistake.found}{unit} at {there}{more}", mistake.allowed)
         return
     if all([_in_range(grid, column, report) for column in grid.numbers]):
-        check_largest(grid, {n: float(values.max()) for n, values in grid.numbers.items()}, report)
         for profile in dict.fromkeys(grid.values("profile")):
             _check_shapes(grid, profile, report)
 
