@@ -207,6 +207,7 @@ def _look_around(scene: Scene, positions: Positions, climb: Climb, accuracy: Acc
     c = np.where(corner & (centre < 0.0), np.minimum(c, 0.0), c)
     start = np.repeat(climb.angle[:, None], c.shape[1], axis=1)
     chosen = scene.take(climb.point)
+    # The closer look where climbs end is at the whole cycle.
     chosen = replace(chosen, cycle=chosen.cycle.only(climb.intervals))
     values, angles = refine(chosen, brackets.around(c), climb.side, start, accuracy.search)
     # Equal values, as beyond the last position, count for the centre.
