@@ -136,6 +136,7 @@ def test_s_grows_like_a_logarithm_towards_slip_of_the_innermost_spring() -> None
     assert found.s[3] - found.s[2] > found.s[2] - found.s[1] > 0.0
 
 
+@pytest.mark.slow
 def test_s_is_continuous_where_the_search_changes_hands() -> None:
     for friction in (0.8, 0.9, 0.94, 0.95):
         found = sound(truncated(friction + np.array([-1e-9, 0.0, 1e-9]), 0.75, 2.0, 0.7, 1.0))

@@ -142,6 +142,7 @@ def test_many_tangential_oscillations_within_one_touch_down(p: int) -> None:
     close(found.s, sound(batch, 1e-5).s, 1e-3)
 
 
+@pytest.mark.slow
 def test_the_longest_common_periods() -> None:
     # Up to some seconds a value.
     for p, q in ((1, 64), (63, 64)):

@@ -203,7 +203,9 @@ def test_a_ridge_is_followed_farther_than_the_first_steps_go():
     assert solve_points(point).s_surface[0] == pytest.approx(0.189634188, rel=1e-4)
 
 
-@pytest.mark.parametrize(("friction", "mean"), [(0.15, -0.075), (0.05, -0.1)])
+@pytest.mark.parametrize(
+    ("friction", "mean"), [(0.15, -0.075), pytest.param(0.05, -0.1, marks=pytest.mark.slow)]
+)
 def test_where_a_bulk_stress_presses_the_smallest_contact_has_tension_at_its_side(friction, mean):
     """On the line s is a fourth of it, or 0."""
     point = {

@@ -91,6 +91,7 @@ def as_in_table_1(poisson_ratio, friction):
     return swt(poisson_ratio, friction, normal_amplitude=0.75 * depth, tangential_amplitude=slip)
 
 
+@pytest.mark.slow
 def test_poisson_ratio():
     plain = falls(lambda ν, μ: float(swtstudy.solve(poisson_ratio=ν, friction=μ, rtol=1e-5).s))
     says("falls by {}, {} and {} % at μ = {}, {} and {}.", *plain, 0.5, 0.3, 0.1)

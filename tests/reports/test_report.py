@@ -402,6 +402,7 @@ def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) 
     assert not [each for each in tied if each.count("<span") > 1]
 
 
+@pytest.mark.slow
 def test_the_figure_of_a_sample_is_over_its_parameters(without_points: None) -> None:
     text = page(swtstudy.open_results(RESULTS / "sensitivity.nc"), "sensitivity")
     (caption,) = re.findall("<figcaption>(.*?)</figcaption>", text.partition('id="figure"')[2])[:1]

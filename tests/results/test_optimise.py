@@ -124,6 +124,7 @@ def test_the_lowest_point_of_planes_is_where_they_meet(distance):
     np.testing.assert_allclose((first - centre) / distance, lowest, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_to_the_bit(monkeypatch):
     monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)
     over = {"phase": (0, 4), "friction": (0.1, 0.2)}

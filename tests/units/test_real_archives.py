@@ -67,6 +67,7 @@ class _StopsAfter:
         return solve_points(points, rtol)
 
 
+@pytest.mark.slow
 def test_archives_are_merged(tmp_path):
     parts = [SHORT.replace("[150, 200]", "[150]"), SHORT.replace("[150, 200]", "[200]")]
     for index, text in enumerate(parts):

@@ -185,6 +185,7 @@ def test_a_study_with_units_in_words(tmp_path):
     np.testing.assert_allclose(ratio.sel(normal_force=150), archive.s[0] / archive.s[1])
 
 
+@pytest.mark.slow
 def test_figures_have_the_units(solved):
     figure = solved.swt.figure()
     assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [r"$\psi$ (rad)"] * 2

@@ -219,6 +219,7 @@ hue = "criterion"
 """
 
 
+@pytest.mark.slow
 def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     """Study file, archive, info, figure and page; and the study that the archive keeps."""
     text = FIXED.replace("tangential_force_amplitude = 60.0\n", "")
