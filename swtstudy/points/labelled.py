@@ -240,7 +240,8 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
         return {}
     every = Margins.joined([Margins.of(batch) for batch in points.batches])
     radius, width, shift, ratio = vars(every.take(points.index)).values()
-    shift = shift * grid.strain_shares
+    if "bulk_shift" in names:
+        shift = shift * grid.strain_shares
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
             "bulk_shift": np.where(shift <= width, shift, np.nan),

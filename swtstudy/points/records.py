@@ -258,14 +258,17 @@ def completed(chosen: Records, others: Records) -> Records:
         rows, found = lacks[found >= 0], found[found >= 0]
         more[rows, number] = True
         for column in columns_of([item]) if rows.size else ():
-            values = chosen.quantity(column) if column not in known else known[column].copy()
-            values[rows] = others.quantity(column)[found]
-            known[column] = values
-    runs, run = list(chosen.runs), chosen.run.copy()
+            known[column] = chosen.quantity(column).copy()
+            known[column][rows] = others.quantity(column)[found]
     changed = np.flatnonzero(more.any(axis=1))
-    kinds, kind = np.unique(np.column_stack([run[changed], more[changed]]), axis=0, return_inverse=True)
-    for number, (own, *added) in enumerate(kinds):
-        names = {*runs[own].quantities, *(item for item, has in zip(items, added, strict=True) if has)}
-        runs.append(replace(runs[own], quantities=tuple(sorted(names)), seconds=0.0))
-        run[changed[kind.ravel() == number]] = len(runs) - 1
-    return replace(chosen, runs=tuple(runs), run=run, quantities=known)
+    kinds, kind = np.unique(
+        np.column_stack([chosen.run[changed], more[changed]]), axis=0, return_inverse=True
+    )
+    made = []
+    for own, *added in kinds:
+        before = chosen.runs[own]
+        names = {*before.quantities, *(item for item, has in zip(items, added, strict=True) if has)}
+        made.append(replace(before, quantities=tuple(sorted(names)), seconds=0.0))
+    (runs, index), run = _with_runs(chosen.runs, tuple(made)), chosen.run.copy()
+    run[changed] = index[kind.ravel()]
+    return replace(chosen, runs=runs, run=run, quantities=known)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import amplitudes_of, values_taken
@@ -11,6 +11,9 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, is_pl
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
+
+if TYPE_CHECKING:
+    from swtstudy.mechanics.load.load import Loop
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -128,12 +131,18 @@ def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
         report.of("load", found, allowed)
 
 
+def sizes_of(load: Loop) -> dict[str, float]:
+    """Largest size of the values of a loop, by the amplitude that multiplies them."""
+    bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
+    ends = zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True)
+    return {name: max(map(abs, each)) for name, each in ends}
+
+
 def check_largest(grid: Grid, amplitudes: Mapping[str, float], report: Report) -> None:
     """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
     for load in grid.loops:
-        bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
-        for name, ends in zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True):
-            size = amplitudes.get(name, 0.0) * max(map(abs, ends))
+        for name, largest in sizes_of(load).items():
+            size = amplitudes.get(name, 0.0) * largest
             if not size <= LARGEST_LOAD:
                 found = (
                     f"{literal(load.name)} with a {name.rpartition('_')[0].replace('_', ' ')} of {size:.3g}"

@@ -382,17 +382,17 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         found = f"{highest} with {samples * count:.0f} samples"
         allowed = "less than half as many as samples at different phases of the cycle"
         raise StudyError([Mistake("harmonics", found, allowed)])
-    _warn_of_time(name, time, values, signal)
+    _warn_of_time(signal)
     if signal.is_folded_apart:
         found = f"{name}: its {count} cycles differ by more than their mean moves"
         warnings.warn(f"{found}; is {key} right?", stacklevel=2)
     return signal
 
 
-def _warn_of_time(name: str, time: FloatArray, values: FloatArray, signal: Signal) -> None:
+def _warn_of_time(signal: Signal) -> None:
     """Warn of a gap between samples, and of a closed record, whose last sample is its first again."""
-    steps = np.diff(time)
-    gap, most, at = float(steps.max()), float(np.median(steps)), time[steps.argmax()]
+    name, values, steps = signal.name, signal.values, np.diff(signal.time)
+    gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
     if gap > max(0.25 * signal.period, 3.0 * most):
         found = f"a gap of {gap:.4g} in the time, at {at:.4g}, where most steps are {most:.4g}"
         warnings.warn(f"{name}: {found}: the loads there are unknown", stacklevel=3)

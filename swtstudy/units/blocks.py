@@ -122,6 +122,9 @@ def miner(
     return found
 
 
+_NO_CRACK = "no crack"
+
+
 def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     """Say how often a sequence is repeated to a crack, and which load does most of the damage.
 
@@ -134,18 +137,18 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
         _to_a_crack(dataset[f"{start}{REPETITIONS}"], dataset[f"{start}{SHARE}"], by)
         for start, by in known.items()
     ]
-    # Each begins with what joins it to the rounds.
-    words = "; ".join([*several[:1], *(each.lstrip(":, ") for each in several[1:])])
-    return f"{rounds}{words}" if words and rounds else ""
+    if not several or not rounds:
+        return ""
+    return f"{rounds}{':' if several[0].startswith(_NO_CRACK) else ','} {'; '.join(several)}"
 
 
 def _to_a_crack(times: xr.DataArray, shares: xr.DataArray, by: str) -> str:
     """One life in `sequence_words`."""
     known = times.values[np.isfinite(times.values)]
     if not known.size:
-        return f": no crack{by}"
+        return f"{_NO_CRACK}{by}"
     ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
-    words = f", repeated {' to '.join(ends)} times to a crack{by}"
+    words = f"repeated {' to '.join(ends)} times to a crack{by}"
     share = shares.isel(index_at(times, int(np.nanargmin(times.values))))
     if not share.ndim:
         return words

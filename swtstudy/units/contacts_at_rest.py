@@ -16,7 +16,7 @@ from swtstudy.mechanics.indenter import check_shape, compact_shapes
 from swtstudy.mechanics.load.load import Loop
 from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.rules import AMPLITUDES
+from swtstudy.points.rules import AMPLITUDES, sizes_of
 from swtstudy.points.shapes import largest_depths, largest_reach
 from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
@@ -176,7 +176,8 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     row, values = PARAMETERS[column], grid.numbers[column]
     if column in AMPLITUDES:
         # Of a loop, by which its vertices are multiplied, the largest load counts.
-        values = values * max(_reach(load, column) for load in grid.values("load"))
+        loads = grid.values("load")
+        values = values * max(sizes_of(load)[column] if isinstance(load, Loop) else 1.0 for load in loads)
     source = grid.control.given_for(column)
     if column == "bulk_stress_mean" and grid.values("bulk_stress_ratio"):
         source = "bulk_stress_ratio"
@@ -207,15 +208,6 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     most = f"{'at most' if high[first] else 'at least'} {bound * own / number:.4g} {unit}".strip()
     report.of(source, f"{found} at {words}, {number:.4g} {scale}{more}", f"{most}, {bound:g} {scale}")
     return False
-
-
-def _reach(load: Value, column: str) -> float:
-    """Largest size of a loop's values in the column of an amplitude; 1 of a harmonic load."""
-    if not isinstance(load, Loop):
-        return 1.0
-    of_bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
-    ends = dict(zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, of_bulk), strict=True))
-    return max(map(abs, ends[column]))
 
 
 def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from asking import study
+from brute_shear import value_of
 from numpy.testing import assert_allclose
 from scenes import points
 
@@ -206,17 +207,16 @@ def on_planes(x: np.ndarray, given: dict[str, object]) -> np.ndarray:
     """The criterion on the planes through y, half a degree apart, by the body's stress."""
     field = swtstudy.stress_field(x, 0.0, 0.0, **given)
     xx, yy, zz, xz = (
-        field[f"sigma_{name}"].transpose("x", "instant").values[..., None]
-        for name in ("xx", "yy", "zz", "xz")
+        field[f"sigma_{name}"].transpose("x", "instant").values[:, None] for name in ("xx", "yy", "zz", "xz")
     )
-    angle = np.radians(np.arange(-90.0, 90.0, 0.5))
+    angle = np.radians(np.arange(-90.0, 90.0, 0.5))[:, None]
     cosine, sine = np.cos(angle), np.sin(angle)
     tension = xx * cosine**2 + zz * sine**2 + 2.0 * xz * sine * cosine
-    if given.get("criterion") == "findley":
+    if "criterion" in given:
         shear = (zz - xx) * sine * cosine + xz * (cosine**2 - sine**2)
-        values = 0.5 * np.ptp(shear, axis=1) + given["normal_sensitivity"] * tension.max(axis=1)
+        values = value_of(given["criterion"], given["normal_sensitivity"], tension, shear)
     else:
         ν = given["poisson_ratio"]
         strain = ((1.0 + ν) * tension - ν * (xx + yy + zz)) / (1.0 - ν**2)
-        values = np.maximum(tension.max(axis=1), 0.0) * 0.5 * np.ptp(strain, axis=1)
-    return values.max(axis=1)
+        values = np.maximum(tension.max(axis=-1), 0.0) * 0.5 * np.ptp(strain, axis=-1)
+    return values.max(axis=-1)

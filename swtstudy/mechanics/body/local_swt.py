@@ -17,7 +17,7 @@ from swtstudy.mechanics.body.histories import PLACES, Histories, SpringCells
 from swtstudy.mechanics.body.quick_planes import Peaks, climb_from, on_planes, planes_like, rival_planes
 from swtstudy.mechanics.events.stretches import front_passes
 from swtstudy.mechanics.load.load import PERIOD
-from swtstudy.mechanics.numerics.arrays import SAME, TINY, gather, packed
+from swtstudy.mechanics.numerics.arrays import SAME, TINY, gather, packed, with_neighbours
 from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
 from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
@@ -214,7 +214,7 @@ class LocalSwt:
         order = np.argsort(instant, axis=1)
         curve = self._curves(stress[row], normal)
         high = gather(np.logical_or.reduce(near_maximum(curve, HIGH)), order)
-        (kept,) = packed(high | np.roll(high, 1, axis=1) | np.roll(high, -1, axis=1), order)
+        (kept,) = packed(with_neighbours(high), order)
         return gather(instant, kept), stress[row[:, None], kept]
 
     def _closer(

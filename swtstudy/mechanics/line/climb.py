@@ -10,7 +10,7 @@ from swtstudy.mechanics.line.first_look import SHARE, Seen, high_positions
 from swtstudy.mechanics.line.look import Look, Resolution
 from swtstudy.mechanics.line.positions import Positions
 from swtstudy.mechanics.line.refine import beside, summits
-from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows
+from swtstudy.mechanics.numerics.arrays import SAME, largest_of_rows, with_neighbours
 from swtstudy.mechanics.numerics.roots import near_maximum
 from swtstudy.mechanics.planes.through_y import PlaneHistory, on_planes
 from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
@@ -145,7 +145,7 @@ def _high_intervals(
     # What positions, instants and planes may leave unseen.
     high = np.logical_or.reduce([near_maximum(curve, 3.0 * SHARE) for curve in curves])
     # An extreme is between its neighbours, which may be in other intervals.
-    high |= np.roll(high, 1, axis=-1) | np.roll(high, -1, axis=-1)
+    high = with_neighbours(high)
     result = np.zeros((len(interval), count), dtype=bool)
     place, instant = np.nonzero(high)
     result[place, interval[place, instant]] = True

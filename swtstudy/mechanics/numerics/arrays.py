@@ -212,6 +212,11 @@ def between(low: FloatArray, high: FloatArray, angle: FloatArray) -> FloatArray:
     return low + (high - low) * (0.5 - 0.5 * np.cos(angle))
 
 
+def with_neighbours(chosen: BoolArray) -> BoolArray:
+    """The chosen places of a closed row, along the last axis, and those beside them."""
+    return np.asarray(chosen | np.roll(chosen, 1, axis=-1) | np.roll(chosen, -1, axis=-1))
+
+
 def layer_share(thickness: FloatArray, length: FloatArray) -> FloatArray:
     """Share of the angle α of `between` that a thin layer at an end takes: α² grows like the distance."""
     return np.asarray(2.0 / np.pi * np.sqrt(thickness / length))
