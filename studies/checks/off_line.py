@@ -5,17 +5,18 @@ those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_
 bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
 over 0.01–0.2 a_H, held against the same with many more places and instants, and where these differ, against
 the plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
-what is found of each kind, so that ``--kinds mean`` looks at the means alone. ``--points`` draws fewer of
-each scene, ``--quick`` next to none.
+what is found of each kind and scene as soon as it is, so that ``--kinds mean`` looks at the means alone, and
+``--scenes`` at some scenes. ``--points`` draws fewer of each scene, ``--quick`` next to none.
 """
 
 from __future__ import annotations
 
 import argparse
 import csv
+import itertools
 import sys
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from pathlib import Path
 
@@ -229,16 +230,16 @@ def lines(found: list[tuple[str, str, Array]]) -> Iterator[str]:
                 yield f"| {name} | {known.size} | {many} | {most:.1e} |"
 
 
-def keep(file: Path, found: list[tuple[str, str, Array]]) -> list[tuple[str, str, Array]]:
-    """Put what is found in the place of what was known of its kinds, and return all, in their order."""
-    new = {kind for _, kind, _ in found}
-    rows: dict[tuple[str, str], list[float]] = {}
+def keep(file: Path, name: str, kind: str, low: Array) -> list[tuple[str, str, Array]]:
+    """Put what is found in the place of what was known of its scene and kind, and return all, in order."""
+    rows = {(name, kind): low.tolist()}
     if file.exists():
         with file.open(encoding="utf-8") as known:
             for row in csv.DictReader(known):
-                if row["kind"] not in new:
-                    rows.setdefault((row["scene"], row["kind"]), []).append(float(row["low"]))
-    every = [*found, *((name, kind, np.array(low)) for (name, kind), low in rows.items())]
+                key = row["scene"], row["kind"]
+                if key != (name, kind):
+                    rows.setdefault(key, []).append(float(row["low"]))
+    every = [(*key, np.array(rows[key])) for key in itertools.product(COUNTS, KINDS) if key in rows]
     with file.open("w", encoding="utf-8", newline="") as all_rows:
         table = csv.writer(all_rows, lineterminator="\n")
         table.writerow(["scene", "kind", "low"])
@@ -253,21 +254,21 @@ def main() -> None:
     arguments.add_argument(
         "--kinds", nargs="+", choices=KINDS, default=[*KINDS], help="others stay as they are"
     )
+    arguments.add_argument("--scenes", nargs="+", choices=COUNTS, default=[*COUNTS], help="likewise")
+    arguments.add_argument("--processes", type=int, default=2, help="at a time")
     arguments.add_argument("--quick", action="store_true", help="a point of one scene, to see that it runs")
     given = arguments.parse_args()
     most = 1 if given.quick else given.points or 10**6
     tasks = [
-        (name, min(counts[k], most), kind)
+        (name, min(COUNTS[name][k], most), kind)
         for k, kind in enumerate(KINDS)
         if kind in given.kinds
-        for name, counts in list(COUNTS.items())[: 1 if given.quick else None]
+        for name in given.scenes[: 1 if given.quick else None]
     ]
-    if given.quick:
-        found = list(map(shortfalls, tasks))
-    else:
-        with ProcessPoolExecutor(2) as pool:
-            found = list(pool.map(shortfalls, tasks))
-    text = "\n".join(lines(keep(given.results / "off_line.csv", found))) + "\n"
+    with ProcessPoolExecutor(given.processes) as pool:
+        for done in as_completed([pool.submit(shortfalls, task) for task in tasks]):
+            every = keep(given.results / "off_line.csv", *done.result())
+    text = "\n".join(lines(every)) + "\n"
     (given.results / "off_line.md").write_text(text, encoding="utf-8")
     print(text)
 
