@@ -201,11 +201,11 @@ def test_results_of_solve():
     [
         "import swtstudy, xarray",
         "import xarray, swtstudy",
-        "import swtstudy.accessor",
-        "from swtstudy import Study; import dask.array, xarray.core.dataset",
         *(
             pytest.param(each, marks=pytest.mark.slow)
             for each in (
+                "import swtstudy.accessor",
+                "from swtstudy import Study; import dask.array, xarray.core.dataset",
                 "from swtstudy.archive.archive import open_results; import xarray",
                 "from swtstudy.solving import solve",
                 "import swtstudy.points.labelled",

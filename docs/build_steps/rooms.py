@@ -8,6 +8,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 from build_steps.markdown import table
@@ -87,7 +88,8 @@ def module_of(path: Path) -> str:
 MODULES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
-def imported(path: Path, types: bool = False) -> set[str]:
+@cache
+def imported(path: Path, types: bool = False) -> frozenset[str]:
     """Modules of the package that a file imports when it runs, anywhere in it; or also for its types."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     for node in ast.walk(tree):
@@ -104,7 +106,7 @@ def imported(path: Path, types: bool = False) -> set[str]:
             found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
         elif isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
-    return (found & MODULES.keys()) - {module_of(path)}
+    return frozenset(found & MODULES.keys()) - {module_of(path)}
 
 
 def rooms(house: House) -> str:

@@ -75,7 +75,7 @@ def test_damaged_values_are_named(tmp_path):
     dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
     content = path.read_bytes()
     damaged = set()
-    for position in range(0, len(content), 397):
+    for position in range(0, len(content), 797):
         changed = bytearray(content)
         changed[position] ^= 0xFF
         path.write_bytes(changed)

@@ -75,7 +75,7 @@ def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
         assert words.replace("$", r"\$").replace("_", " ") in drawn(draw(found))
 
 
-@pytest.mark.parametrize("unit", ["$$", "$x"])
+@pytest.mark.parametrize("unit", ["$$", pytest.param("$x", marks=pytest.mark.slow)])
 def test_units_are_written_as_they_are(tmp_path: Path, unit: str) -> None:
     study = Study.from_text(
         f"""

@@ -88,7 +88,7 @@ def frictionless_s(nu: float, amplitude: float, bulk: tuple[float, float, float]
     return best
 
 
-@pytest.mark.parametrize("exponent", [0.3, 0.5, 0.8])
+@pytest.mark.parametrize("exponent", [0.5, pytest.param(0.3, marks=pytest.mark.slow), 0.8])
 @pytest.mark.parametrize(
     ("nu", "amplitude", "bulk"),
     [
@@ -228,7 +228,10 @@ def mirrored(found: Solution) -> tuple[Array, Array, Array]:
     return found.s, -found.critical_x, -found.critical_angle
 
 
-@pytest.mark.parametrize(("p", "q"), [(1, 1), (2, 1), (1, 2), (3, 2), (1, 3)])
+@pytest.mark.parametrize(
+    ("p", "q"),
+    [(1, 1), (2, 1), (1, 2), *(pytest.param(*each, marks=pytest.mark.slow) for each in ((3, 2), (1, 3)))],
+)
 def test_symmetries_of_an_oscillating_bulk_stress(p: int, q: int) -> None:
     phase, own = np.array([0.4, 2.0]), {"amplitude": 0.1, "mean": 0.03, "phase": np.array([1.0, 5.0])}
     batch = with_bulk(points(phase=phase, p=p, q=q), **own)

@@ -166,7 +166,7 @@ def test_a_place_with_the_largest_sum_of_swt_is_among_them() -> None:
     assert found.max() > 0.99 * upright
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_the_damage_is_never_less_than_that_of_one_cycle(seed: int) -> None:
     _, share, number = cycles_of(random_points(seed, 5), 1e-3)
     known = np.isfinite(share[:, 0, 0])

@@ -177,11 +177,11 @@ def stress_history(point: Points, x: float, instants: Array) -> Stress:
 
 @pytest.mark.parametrize("profile", PROFILE_NAMES)
 def test_no_plane_of_any_orientation_beats_the_critical_one(profile: str) -> None:
-    batch = random_points(4, 5, profile, largest_term=3)
+    batch = random_points(4, 2, profile, largest_term=3)
     solution = solve_points(batch)
-    directions = np.random.default_rng(0).normal(size=(400, 3))
+    directions = np.random.default_rng(0).normal(size=(200, 3))
     directions /= np.linalg.norm(directions, axis=1, keepdims=True)
-    for k in range(5):
+    for k in range(2):
         if np.isnan(solution.s[k]):
             continue  # no finite swt next to the truncated paraboloid's edge
         point = take(batch, k)

@@ -111,7 +111,7 @@ def test_poisson_ratio_at_its_ends(profile: str) -> None:
 
 @every_profile
 def test_phase_at_points_of_symmetry(profile: str) -> None:
-    for p, q in ((1, 1), (1, 2), (2, 1)):
+    for p, q in ((1, 2), (2, 1)):
         # On the symmetry point and a rounding error beside it, u and δ turn together.
         phase = np.pi * np.array([0.0, 0.5, 1.0, 1.5, 2.0])
         batch = points(profile, phase=np.concatenate([phase, phase + 1e-13]), p=p, q=q, **SHAPES[profile])

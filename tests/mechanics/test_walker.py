@@ -82,7 +82,12 @@ def test_where_the_critical_point_jumps_s_does_not() -> None:
 
 
 @pytest.mark.parametrize(
-    ("profile", "exponent"), [("paraboloid", 0.3), *((profile, 0.8) for profile in PROFILE_NAMES)]
+    ("profile", "exponent"),
+    [
+        ("paraboloid", 0.3),
+        ("rounded_punch", 0.8),
+        *(pytest.param(p, 0.8, marks=pytest.mark.slow) for p in PROFILE_NAMES if p != "rounded_punch"),
+    ],
 )
 def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> None:
     point = with_exponent(random_points(3, 1, profile, largest_term=3), exponent)

@@ -102,7 +102,7 @@ def test_they_are_the_largest_of_those_about_every_local_maximum() -> None:
                 assert_allclose(getattr(found, f"{kind}_x")[row], place, rtol=1e-4)
 
 
-@pytest.mark.parametrize("phase", [0.0, 1.2])
+@pytest.mark.parametrize("phase", [pytest.param(0.0, marks=pytest.mark.slow), 1.2])
 def test_candidates_are_the_local_maxima_of_a_dense_look(phase: float) -> None:
     batch = points(normal_amplitude=0.6, tangential_amplitude=0.7, phase=phase, p=2)
     ((_, scene),) = scenes(batch)
@@ -169,8 +169,11 @@ def test_with_units_places_are_lengths() -> None:
     [
         {"poisson_ratio": 0.2533, "friction": 0.6096, "normal_amplitude": 0.1695, "phase": 1.8705}
         | {"tangential_amplitude": 0.8437},
-        {"poisson_ratio": 0.1656, "friction": 0.5721, "normal_amplitude": 0.1804, "phase": 1.2093}
-        | {"tangential_amplitude": 0.4424},
+        pytest.param(
+            {"poisson_ratio": 0.1656, "friction": 0.5721, "normal_amplitude": 0.1804, "phase": 1.2093}
+            | {"tangential_amplitude": 0.4424},
+            marks=pytest.mark.slow,
+        ),
         {
             "criterion": "findley",
             "normal_sensitivity": 0.3,

@@ -73,7 +73,7 @@ def test_nonlocal_values():
     ("criterion", "value"),
     [
         ("findley", "Findley stress"),
-        ("fatemi_socie", "Fatemi-Socie parameter"),
+        pytest.param("fatemi_socie", "Fatemi-Socie parameter", marks=pytest.mark.slow),
         (["findley", "swt"], "criterion"),
     ],
 )

@@ -394,7 +394,9 @@ def test_the_page_of_a_figure_of_the_paper_holds_it_against_the_paper(without_po
     assert {*paper.holds} == {"yes"}
 
 
-@pytest.mark.parametrize("name", ["figure4", "sensitivity", "life"])
+@pytest.mark.parametrize(
+    "name", ["life", *(pytest.param(name, marks=pytest.mark.slow) for name in ("figure4", "sensitivity"))]
+)
 def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) -> None:
     text = page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)
     tied = re.findall(r'<span class="tied">.*?</span>', text)

@@ -243,7 +243,7 @@ class Highest(Objective):
         return values
 
 
-@pytest.mark.parametrize("dimensions", [1, 2, 3])
+@pytest.mark.parametrize("dimensions", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
 def test_kinks_are_followed_to_their_lowest_point(dimensions):
     rng = np.random.default_rng(7)
     for _ in range(3):

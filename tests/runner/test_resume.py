@@ -290,7 +290,9 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, tmp_path, monkeypat
     assert counting.points == 0
 
 
-@pytest.mark.parametrize("signals", [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM,)])
+@pytest.mark.parametrize(
+    "signals", [(signal.SIGINT, signal.SIGINT), pytest.param((signal.SIGTERM,), marks=pytest.mark.slow)]
+)
 def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
     first, *later = signals
     with told_run(tmp_path, LONG, up_to=1.0) as process:

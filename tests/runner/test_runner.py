@@ -210,7 +210,7 @@ def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, 
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
-@pytest.mark.parametrize("closing", ["2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closing", [pytest.param("2>&-", marks=pytest.mark.slow), "<&- >&- 2>&-"])
 def test_the_command_does_without_closed_streams(tmp_path, closing):
     (tmp_path / "one.toml").write_text('title = "t"\nrtol = 1e-2\n')
     command = f'exec "{sys.executable}" -m swtstudy run one.toml {closing}'

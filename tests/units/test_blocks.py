@@ -42,12 +42,13 @@ def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) 
     blocks = block("start-up", 10) + block("running", 1e3) + block("start-up", 5.5)
     study = Study.from_text(WITH_MEANS + START + RUNNING + blocks)
     found = run(study, tmp_path / "blocks.nc")
+    own = []
+    for name, load in (("start-up", START), ("running", RUNNING)):
+        text = WITH_MEANS.replace("[fixed]", f'[fixed]\nload = "{name}"') + load
+        own.append(run(Study.from_text(text), tmp_path / f"{name}.nc"))
     for end in ("", "_volume", "_point", "_line"):
-        lives = []
-        for name, load in (("start-up", START), ("running", RUNNING)):
-            own = WITH_MEANS.replace("[fixed]", f'[fixed]\nload = "{name}"')
-            lives.append(run(Study.from_text(own + load), tmp_path / f"{name}.nc")[f"cycles{end}"])
-        damage = 15.5 / lives[0], 1e3 / lives[1]
+        starting, running = (each[f"cycles{end}"] for each in own)
+        damage = 15.5 / starting, 1e3 / running
         np.testing.assert_allclose(found[f"repetitions{end}"], 1.0 / sum(damage), rtol=1e-9)
         share = found[f"damage_share{end}"]
         np.testing.assert_allclose(share.sel(load="running"), damage[1] / sum(damage), rtol=1e-9)

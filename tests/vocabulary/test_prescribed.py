@@ -42,7 +42,7 @@ def test_a_constant_normal_load_gives_the_same_s_for_a_force_and_its_displacemen
     own = {"profile": profile, **SHAPES[profile], "normal_amplitude": 0.0}
     shape = {name: np.array([value]) for name, value in SHAPES[profile].items()}
     one = make_profile(profile, shape, np.ones(1))
-    for u in (0.2, 0.6, 0.95):
+    for u in (0.2, 0.95):
         stick = one.radius(np.array([[1.0 - u]]))
         q = 1.0 - float(one.half_load(stick)[0, 0] / unit_half_load(profile, shape, 1)[0])
         force = swtstudy.solve(**own, tangential_force_amplitude=q, rtol=1e-6)
