@@ -121,11 +121,12 @@ def dense_body(scene: Scene, x: float) -> float:
     cusps = scene.coordinate.radius(np.unique(start[np.isfinite(start)])[None])[0]
     radii = np.concatenate([[abs(x)], cusps[cusps > 0.02 * largest], largest * RADII])
     angles, depths = np.linspace(0.0, np.pi, 9), largest * DEPTHS
-    tops = sorted((_highest(scene, r, angles, depths, 5) for r in np.unique(radii)), reverse=True)
+    of_radii = [_highest(scene, r, angles, depths, 5) for r in np.unique(radii)]
+    swt = np.pad([top for top, *_ in of_radii], 1)
+    is_peak = (swt[1:-1] >= swt[:-2]) & (swt[1:-1] >= swt[2:]) & (swt[1:-1] >= 0.8 * swt.max())
+    tops = sorted((of_radii[k] for k in np.flatnonzero(is_peak)), reverse=True)
     highest = 0.0
     for top, r, angle, depth in tops[:3]:
-        if top < 0.8 * tops[0][0]:
-            break
         steps = np.array([largest * STEPS[0], STEPS[1], max(0.5 * depth, largest * STEPS[2])])
         for _ in range(5):
             grids = [
