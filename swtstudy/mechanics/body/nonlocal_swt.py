@@ -33,8 +33,9 @@ from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
-#: Places in the half spheres at most, and on a line.
-MOST, LINE_MOST = 1000, 80
+#: Places in the half spheres at most, or four times as many where that leaves such a share of a mean in doubt;
+#: and on a line.
+MOST, IN_DOUBT, LINE_MOST = 1000, 1e-2, 80
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells). Of
 #: 1,080 random means 3 are off more than is claimed.
@@ -174,12 +175,13 @@ class Around:
         allowed = np.maximum(allowed - (found.of_places - both), 0.5 * allowed)
         blame = (of_axes / allowed)[:, both > allowed].max(axis=1, initial=0.0)
         before = self.spheres
+        in_doubt = bool((found.error > IN_DOUBT * found.value).any())
         worse = int(blame.argmax())
         # The other one only if it alone would be too much.
         for axis in (worse, 1 - worse):
             finer = self.spheres.finer(axis)
             wanted = blame[axis] > (0.0 if axis == worse else 1.0)
-            if wanted and finer.distances * finer.inclinations <= MOST:
+            if wanted and finer.distances * finer.inclinations <= (4 * MOST if in_doubt else MOST):
                 self.spheres, self.grid = finer, _spread(self.grid, axis)
         return self.spheres is not before
 

@@ -21,11 +21,6 @@ from swtstudy.mechanics.numerics.arrays import highest_of_rows
 from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
-#: Local maxima below these shares of the largest are not followed further, after each round. The last one at
-#: once: 7e-6 at 1 of 56 points, 5e-3 at some of 600 (tests/mechanics/test_narrow_maxima.py); 0.9 throughout:
-#: no gain.
-SHARES = 0.97, 0.995, 0.999
-
 
 @dataclass(frozen=True)
 class Maximum(Rows):
@@ -86,7 +81,7 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
 
 def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accuracy) -> Maximum:
     """The maxima of the points to which climbs belong, in their order."""
-    found = tops(split, positions, climb, accuracy, SHARES)
+    found = tops(split, positions, climb, accuracy, only_highest=True)
     best = found.take(highest_of_rows(found.climb.point, found.value))
     # A climb that is not over may change by all that its last round has changed, once more.
     climb = best.climb

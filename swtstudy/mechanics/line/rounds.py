@@ -7,12 +7,11 @@ their own.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, LEAST_ROUND_COUNT, SHRINKING, Climb
 from swtstudy.mechanics.line.first_look import SHARE
 from swtstudy.mechanics.line.look import SETTLED, Accuracy
 from swtstudy.mechanics.line.positions import Positions
@@ -29,11 +28,9 @@ POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
 #: How the width grows while the best position is the outermost one: the search was narrowed too early. 2/3,
 #: by which it may never get there: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at every rtol.
 WALKING = 2.0
-#: Rounds from which on a climb may leave a corner: a maximum next to it shows only once the search is narrow.
-LEAST_ROUND_COUNT = 2
-#: Share of the last round's change that further ones make at most, and beside a corner, where swt may begin
-#: like a root. The first ten times: 8e-6 at rtol 1e-4; the second 0.03: 9e-7 at 1e-5; the same time.
-CHANGE_SHARE, CORNER_CHANGE_SHARE = 0.03, SHRINKING**0.5
+#: Share of the last round's change that further ones make at most: a parabola is off by the square of the
+#: width and more, but beside a corner swt may begin like a root.
+CHANGE_SHARE, CORNER_CHANGE_SHARE = SHRINKING**2, SHRINKING**0.5
 #: Error of the maximum of a polynomial through all values, as a share of its distance from a parabola's.
 #: A tenth: 4e-6 at rtol 1e-5, no faster.
 POLYNOMIAL_SHARE = 0.3
@@ -109,16 +106,9 @@ class _Vertex:
 
 
 def climb_to_tops(
-    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float] = ()
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, only_highest: bool = False
 ) -> Climb:
-    """Climb until all have settled, or long enough.
-
-    Parameters
-    ----------
-    shares
-        Local maxima below these shares of the largest of their point are not followed further, after each
-        round; the last one is that of all further rounds. Without them all are.
-    """
+    """Climb until all, or only those that may be the highest of their point, have settled, or long enough."""
     for turn in range(LARGEST_ROUND_COUNT):
         going = np.flatnonzero(~climb.settled)
         if not going.size:
@@ -130,8 +120,8 @@ def climb_to_tops(
         before = np.concatenate([climb.place[climb.settled], climb.place[going]])
         others = [other for _, other in rounds]
         climb = Climb.joined([moved.without_followers(moved.place != before), *others])
-        if shares:
-            climb = climb.leading(climb.top, shares[min(turn, len(shares) - 1)])
+        if only_highest:
+            climb = climb.leading(climb.top, turn)
     return climb
 
 
@@ -154,30 +144,30 @@ class Tops(Rows):
 
 
 def tops(
-    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float] = ()
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, only_highest: bool = False
 ) -> Tops:
     """Climb, and look once more; from where that is higher, on instants or a plane unseen so far, climb on.
 
-    For ``shares`` see `climb_to_tops`.
+    For ``only_highest`` see `climb_to_tops`.
     """
-    found = _looked_at_once_more(scene, positions, climb, accuracy, shares)
+    found = _looked_at_once_more(scene, positions, climb, accuracy, only_highest)
     higher = found.value > (1.0 + accuracy.tolerance) * found.climb.top
     if not higher.any():
         return found
     some = found.take(higher)
     again = found.climb.twins(np.flatnonzero(higher), some.climb.centre, some.value, some.angle)
     again = replace(again, intervals=np.ones_like(again.intervals))
-    more = _looked_at_once_more(scene, positions, again, accuracy, shares)
+    more = _looked_at_once_more(scene, positions, again, accuracy, only_highest)
     return Tops.joined([found.take(~higher), more])
 
 
 def _looked_at_once_more(
-    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, shares: Sequence[float]
+    scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, only_highest: bool
 ) -> Tops:
-    climb = climb_to_tops(scene, positions, climb, accuracy, shares)
-    if shares:
+    climb = climb_to_tops(scene, positions, climb, accuracy, only_highest)
+    if only_highest:
         # What is still on its way counts for what was seen of it.
-        climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), shares[-1])
+        climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), LEAST_ROUND_COUNT)
     r = positions.take(climb.place).around(climb.centre[:, None])[:, 0]
     swt, angle = refine_beside(scene.take(climb.point), r, climb.side, climb.angle, accuracy.check)
     return Tops(climb, climb.side * r, swt, angle)
