@@ -19,7 +19,8 @@ from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene
 
 #: A smooth maximum may be higher than the best instant by this share of the bend there: a parabola through
-#: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33. 1/8: no change at 128 points.
+#: its neighbours says 1/8 at most, four steps to a stretch have shown 0.33. 0.3: 7e-4 low at a point of
+#: tests/mechanics/test_overlooked.py.
 REACH = 0.4
 #: A curve falls at once where twice its first slope is at least this share of the fall over a step: 2 on a
 #: line. 0: 3e-4 at a point with a bulk stress; 1.5: as without graded samples.
