@@ -438,3 +438,10 @@ def test_the_search_of_the_body_leaves_the_contact_and_knows_the_far_field() -> 
         assert body.position.tolist() == [np.inf, 0.0, 0.0]
         assert body.normal.tolist() == [1.0, 0.0, 0.0]
     assert float(at_line.swt) == body.swt
+
+
+def test_where_it_presses_tension_within_rounding_is_claimed() -> None:
+    load = {"normal_amplitude": 0.0239, "tangential_amplitude": 0.3104, "phase": 5.497, "q": 2}
+    pressed = with_bulk(points(**load, poisson_ratio=0.0622, friction=0.0752), 0.0567, -0.3527, 1.7071)
+    found = solve_points(pressed, 1e-6)
+    assert found.s[0] == 0.0 < found.s_error[0] < 1e-9

@@ -71,7 +71,8 @@ def maximum(scene: Scene, accuracy: Accuracy) -> Maximum:
             again.swt >= found.swt[doubtful] - found.error[doubtful]
         )
         found = found.put(doubtful[better], again.take(better))
-    rows = np.flatnonzero(found.swt > 0.0)
+    # Where a bulk stress presses, tension may be within rounding of none.
+    rows = np.flatnonzero((found.swt > 0.0) | scene.critical_everywhere)
     if rows.size:
         critical = found.position[rows], found.double_angle[rows]
         rounding = of_rounding(scene.take(rows), found.swt[rows], *critical, accuracy)
