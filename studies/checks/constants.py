@@ -39,7 +39,6 @@ OTHERS = {
     "paraboloid.APPROACH_COUNT": ("5",),
     "growth.NODES_PER_OSCILLATION": ("v / 2",),
     "look.REACH": ("0.125",),
-    "maximum.SHARES": ("v[2:]", "(0.9,)"),
     "positions.INNERMOST": ("10 * v",),
     "roots.LAST_STEP": ("100 * v",),
     "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),

@@ -182,7 +182,9 @@ def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray)
     axes.plot(phase, margin, **stroke("C3"))
     axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
     axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
-    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}", loc="left")
+    # Loads without units are over μ F0 and F0, whatever μ is.
+    which = f" at $\\mu$ = {_slope(study):g}" if any(_units(study)) else ""
+    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}{which}", loc="left")
 
 
 def _slope(study: Study) -> float:

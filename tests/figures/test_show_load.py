@@ -129,7 +129,7 @@ load = "a"
 def test_friction_limits_the_load_on_bodies_of_two_moduli(modulus: str) -> None:
     loop = "[loads.a]\nabsolute = true\nvertices = [[300, -80], [320, 80]]\n"
     figure = draw_load(Study.from_text(f"{IN_UNITS}young_modulus = {modulus}\n{loop}"), "a")
-    assert figure.axes[2].get_title(loc="left") == "friction, at most 0.67"  # 80/(0.4 · 300)
+    assert figure.axes[2].get_title(loc="left") == r"friction, at most 0.67 at $\mu$ = 0.4"  # 80/(0.4 · 300)
 
 
 def test_a_normal_force_at_rest_is_drawn_as_what_it_is() -> None:
@@ -139,4 +139,4 @@ def test_a_normal_force_at_rest_is_drawn_as_what_it_is() -> None:
     course, path, margin = figure.axes
     assert path.get_xlabel() == "normal load (N)"
     np.testing.assert_allclose(course.lines[0].get_ydata(), 200.0)
-    assert margin.get_title(loc="left") == "friction, at most 0.75"  # 60/(0.4 · 200)
+    assert margin.get_title(loc="left") == r"friction, at most 0.75 at $\mu$ = 0.4"  # 60/(0.4 · 200)

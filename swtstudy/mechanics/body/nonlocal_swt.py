@@ -33,8 +33,8 @@ from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
-#: Places in the half spheres at most, or four times as many where that leaves such a share of a mean in doubt;
-#: and on a line.
+#: Places in the half spheres at most, or four times as many where such a share of a mean is in doubt (none:
+#: 6e-3 off at a point of tests/mechanics/test_nonlocal.py); and on a line.
 MOST, IN_DOUBT, LINE_MOST = 1000, 1e-2, 80
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells). Of

@@ -171,12 +171,19 @@ class TabulatedProfile(Definition):
         if falls.size:
             return (
                 f"{self.name} has no full {disc} of contact at the {at} {depth:g}: {slope} < 0 at the "
-                f"{place} {radius[falls[0]]:.4g}; if its heights are noisy, ask for smoothing"
+                f"{place} {radius[falls[0]]:.4g}; {self._advice}"
             )
         return (
             f"the {at} {depth:g} is beyond the table of {self.name}, which ends at the {place} "
             f"{radius[-1]:.4g}: the contact is as large as that at the {at} {self.deepest:.4g}"
         )
+
+    @property
+    def _advice(self) -> str:
+        """What helps where g falls."""
+        if self.smoothing == 0.0:
+            return "if its heights are noisy, ask for smoothing"
+        return f"its smoothing is {self.smoothing:g}: more takes noise away, less leaves its shape as it is"
 
     @cached_property
     def _sampled(self) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -20,9 +20,6 @@ from swtstudy.mechanics.stress.scene import Scene
 #: shrinks from round to round. Twice the first: 1e-4 at 1 of 128 points; half: 3e-7.
 #: Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
-#: Rounds from which on what they show of a maximum is trusted: one next to a corner shows only once the search
-#: is narrow.
-LEAST_ROUND_COUNT = 2
 #: Planes on which swt is looked at where climbs may start.
 PLANES = 48
 
@@ -96,11 +93,11 @@ class Climb(Rows):
         rounds, settled = zero.astype(np.intp), zero > 0.0
         return cls(point, x_sign[row], place[row], intervals, angle, *heights, rounds, settled)
 
-    def leading(self, height: FloatArray, turn: int) -> Climb:
-        """Keep the climbs whose height after some rounds, shape (m,), may be the largest of their point."""
+    def leading(self, turn: int) -> Climb:
+        """Keep the climbs that may be the highest of their point after a round, the first one being 0."""
         # What the first look left unseen shrinks with the width of the rounds.
         unseen = SHARE * FIRST_WIDTH * SHRINKING**turn
-        return self.take(height >= (1.0 - unseen) * largest_of_rows(self.point, height)[self.point])
+        return self.take(self.top >= (1.0 - unseen) * largest_of_rows(self.point, self.top)[self.point])
 
     def without_followers(self, moved: BoolArray) -> Climb:
         """Without those that have just moved to a position around which another one searches no lower.

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.line.climb import FIRST_WIDTH, LEAST_ROUND_COUNT, SHRINKING, Climb
+from swtstudy.mechanics.line.climb import FIRST_WIDTH, SHRINKING, Climb
 from swtstudy.mechanics.line.first_look import SHARE
 from swtstudy.mechanics.line.look import SETTLED, Accuracy
 from swtstudy.mechanics.line.positions import Positions
@@ -28,6 +28,8 @@ POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
 #: How the width grows while the best position is the outermost one: the search was narrowed too early. 2/3,
 #: by which it may never get there: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at every rtol.
 WALKING = 2.0
+#: Rounds from which on a climb may leave a corner: a maximum next to it shows only once the search is narrow.
+LEAST_ROUND_COUNT = 2
 #: Share of the last round's change that further ones make at most: a parabola is off by the square of the
 #: width and more, but beside a corner swt may begin like a root.
 CHANGE_SHARE, CORNER_CHANGE_SHARE = SHRINKING**2, SHRINKING**0.5
@@ -121,7 +123,7 @@ def climb_to_tops(
         others = [other for _, other in rounds]
         climb = Climb.joined([moved.without_followers(moved.place != before), *others])
         if only_highest:
-            climb = climb.leading(climb.top, turn)
+            climb = climb.leading(turn)
     return climb
 
 
@@ -165,9 +167,6 @@ def _looked_at_once_more(
     scene: Scene, positions: Positions, climb: Climb, accuracy: Accuracy, only_highest: bool
 ) -> Tops:
     climb = climb_to_tops(scene, positions, climb, accuracy, only_highest)
-    if only_highest:
-        # What is still on its way counts for what was seen of it.
-        climb = climb.leading(np.where(climb.settled, climb.top, climb.seen), LEAST_ROUND_COUNT)
     r = positions.take(climb.place).around(climb.centre[:, None])[:, 0]
     swt, angle = refine_beside(scene.take(climb.point), r, climb.side, climb.angle, accuracy.check)
     return Tops(climb, climb.side * r, swt, angle)
