@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from accuracy import points_at_ends, random_points
 from nonlocal_means import worn
+from overlooked import CHUNK, drawn
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import body_maximum
@@ -34,6 +35,16 @@ def at_ends(profile: str, p: int, q: int) -> Callable[[int], Points]:
 
 def _with_ratio(points: Points, p: int, q: int) -> Points:
     return replace(points, p=np.full_like(points.p, p), q=np.full_like(points.q, q))
+
+
+def of_law(scene: str) -> Callable[[int], Points]:
+    """Points of a scene of ``overlooked.py``: small motions among them, which make narrow rings."""
+
+    def first(count: int) -> Points:
+        chunks = [drawn(scene, SEED, chunk) for chunk in range(-(-count // CHUNK))]
+        return Points.joined(chunks).take(np.arange(count))
+
+    return first
 
 
 def sliding_at_edge(count: int) -> Points:
@@ -131,9 +142,11 @@ def _quantities(points: Points, rtol: float, items: list[str]) -> Values:
 KINDS: dict[str, tuple[list[Callable[[int], Points]], Callable[[Points, float], Values]]] = {
     "line": (
         [
-            random("paraboloid", 1, 2),
-            random("rounded_punch", 4, 3),
-            random("truncated_paraboloid", 2, 1),
+            of_law("displacements"),
+            of_law("forces"),
+            of_law("truncated paraboloid"),
+            of_law("next to no bulk stress"),
+            of_law("phases next to 0 and π"),
             at_ends("paraboloid", 1, 1),
         ],
         on_line,
