@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from matplotlib.figure import Figure
+from matplotlib.ticker import ScalarFormatter
 from oracles import profiles as oracle
 
 import swtstudy
@@ -95,6 +96,29 @@ def test_a_profile_of_a_real_contact_has_its_lengths():
         numbers, at = shown(axis)
         np.testing.assert_allclose(numbers, δ0 * at, rtol=1e-4)
     assert pressures.get_ylim() == springs.get_ylim()
+
+
+def test_a_plane_profile_of_a_real_contact_has_lengths_and_pressures_but_line_loads_over_the_mean():
+    """Hertz: p0 = 2P/(πa), the line load P per thickness."""
+    contact = swtstudy.physical(
+        profile="cylinder",
+        young_modulus=73.1e3,
+        poisson_ratio=0.33,
+        friction=0.5,
+        radius=50.0,
+        normal_force=300.0,
+        tangential_force_amplitude=10.0,
+    )
+    _, springs, pressures = contact.draw_profile().axes
+    half_width, at = shown(springs.xaxis)
+    np.testing.assert_allclose(half_width, contact.contact_radius * at, rtol=1e-5)
+    # N is over that of the mean line load whatever the units are.
+    assert isinstance(springs.yaxis.get_major_formatter(), ScalarFormatter)
+    assert springs.lines[0].get_label() == "$N/P_0$"
+    (p,) = [line for line in springs.lines if line.get_label() == "$p$"]
+    numbers, at = shown(pressures.yaxis)
+    largest = 2.0 * 300.0 / (np.pi * contact.contact_radius)
+    np.testing.assert_allclose(numbers, at * largest / p.get_ydata().max(), rtol=1e-4)
 
 
 STUDY = """
