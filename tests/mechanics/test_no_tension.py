@@ -60,7 +60,7 @@ def test_statements_on_critical_points_leave_out_where_there_is_none() -> None:
 
 
 @pytest.mark.parametrize("profile", ["paraboloid", "rounded_punch", "wavy_paraboloid"])
-@pytest.mark.parametrize("rest", [1e-4, 1e-6])
+@pytest.mark.parametrize("rest", [1e-4, pytest.param(1e-6, marks=pytest.mark.slow)])
 def test_hardly_any_tension_is_not_drowned_in_rounding(profile: str, rest: float) -> None:
     # Without friction σ_xx = (1/2 − ν) P/(π r²) − p: at the edge only the first term is left, of which the
     # swing of strain, too, is made but for orders above: s goes with the square of 1/2 − ν.

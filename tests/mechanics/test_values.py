@@ -86,7 +86,7 @@ def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
 def test_a_point_does_not_depend_on_its_batch(profile: str) -> None:
     batch = random_points(2, 6, profile, largest_term=2)
     together, backwards = solve_points(batch), solve_points(take(batch, np.arange(6)[::-1]))
-    for k in (0, 3, 5):
+    for k in (0, 5):
         alone = solve_points(take(batch, k))
         for name in ("s", "critical_x", "critical_angle", "regime"):
             value = getattr(alone, name)[0]

@@ -180,7 +180,7 @@ class TabulatedProfile(Definition):
 
     @property
     def _advice(self) -> str:
-        """What helps where g falls."""
+        """Advice for a table whose g falls."""
         if self.smoothing == 0.0:
             return "if its heights are noisy, ask for smoothing"
         return f"its smoothing is {self.smoothing:g}: more takes noise away, less leaves its shape as it is"
