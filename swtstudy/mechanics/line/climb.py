@@ -17,8 +17,8 @@ from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Rows
 from swtstudy.mechanics.stress.scene import Scene
 
 #: Half the distance between the positions of a climb's first round, in gaps of the first look, and how it
-#: shrinks from round to round. Twice the first: 1e-4 at 1 of 128 points; half: 3e-7.
-#: Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
+#: shrinks from round to round. Twice or half the first: 3e-4 and 6e-4 low at points of
+#: tests/mechanics/test_overlooked.py. Shrinking to a tenth: 3e-6 at rtol 1e-5; to 0.4: 3e-5 at 2 of 128.
 FIRST_WIDTH, SHRINKING = 0.25, 0.2
 #: Planes on which swt is looked at where climbs may start.
 PLANES = 48

@@ -23,7 +23,8 @@ from swtstudy.mechanics.stress.scene import Scene
 #: tests/mechanics/test_overlooked.py.
 REACH = 0.4
 #: A curve falls at once where twice its first slope is at least this share of the fall over a step: 2 on a
-#: line. 0: 3e-4 at a point with a bulk stress; 1.5: as without graded samples.
+#: line. 0: 3e-4 at a point with a bulk stress; 1.5: 6e-4 low at a point of
+#: tests/mechanics/test_narrow_maxima.py.
 AT_ONCE = 0.9
 
 
