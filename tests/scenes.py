@@ -7,6 +7,7 @@ from dataclasses import replace
 from math import gcd
 
 import numpy as np
+import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points
@@ -21,6 +22,13 @@ from swtstudy.vocabulary.parameters import Control
 #: Those of discs, which all that is prescribed goes with, and those of strips.
 PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))
 PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
+#: The profiles as values of a parameter of costly tests: the quick ones are those that are least alike.
+EACH_PROFILE = [
+    name
+    if name in ("truncated_paraboloid", "wavy_paraboloid")
+    else pytest.param(name, marks=pytest.mark.slow)
+    for name in PROFILE_NAMES
+]
 
 
 def points(
