@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from math import gcd
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,13 +23,15 @@ from swtstudy.vocabulary.parameters import Control
 #: Those of discs, which all that is prescribed goes with, and those of strips.
 PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))
 PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
-#: The profiles as values of a parameter of costly tests: the quick ones are those that are least alike.
-EACH_PROFILE = [
-    name
-    if name in ("truncated_paraboloid", "wavy_paraboloid")
-    else pytest.param(name, marks=pytest.mark.slow)
-    for name in PROFILE_NAMES
-]
+
+
+def each_profile(*quick: str) -> list[Any]:
+    """The profiles as values of a parameter of costly tests, all but the quick ones marked as slow."""
+    return [pytest.param(name, marks=() if name in quick else pytest.mark.slow) for name in PROFILE_NAMES]
+
+
+#: Quick are those that are least alike.
+EACH_PROFILE = each_profile("truncated_paraboloid", "wavy_paraboloid")
 
 
 def points(

@@ -177,13 +177,14 @@ def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool, units:
 
 def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray) -> None:
     """|Q|/(μP) over the cycle."""
+    slope = _slope(study)
     with np.errstate(divide="ignore", invalid="ignore"):
-        margin = np.abs(loads[:, 1]) / (_slope(study) * loads[:, 0])
+        margin = np.abs(loads[:, 1]) / (slope * loads[:, 0])
     axes.plot(phase, margin, **stroke("C3"))
     axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
     axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
     # Loads without units are over μ F0 and F0, whatever μ is.
-    which = f" at $\\mu$ = {_slope(study):g}" if any(_units(study)) else ""
+    which = f" at $\\mu$ = {slope:g}" if any(_units(study)) else ""
     axes.set_title(f"friction, at most {np.nanmax(margin):.2f}{which}", loc="left")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from numpy.typing import NDArray
-from scenes import EACH_PROFILE, PROFILE_NAMES, points, random_points, take
+from scenes import EACH_PROFILE, PROFILE_NAMES, each_profile, points, random_points, take
 from scipy.spatial.transform import Rotation
 from test_critical_plane_3d import rotated
 from test_values import ALIGNED
@@ -311,9 +311,7 @@ def test_s_is_continuous_where_the_bulk_stress_ends(profile: str) -> None:
         np.testing.assert_allclose(solve_points(small, 1e-6).s, plain, rtol=3e-6)
 
 
-@pytest.mark.parametrize(
-    "profile", ["paraboloid", *(pytest.param(name, marks=pytest.mark.slow) for name in PROFILE_NAMES[1:])]
-)
+@pytest.mark.parametrize("profile", each_profile("paraboloid"))
 def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     batch = random_bulk(7, random_points(7, 8, profile, largest_term=3))
     coarse, fine = (solve_points(batch, rtol) for rtol in (1e-4, 1e-7))

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scenes import EACH_PROFILE, PROFILE_NAMES, points, random_points, take
+from scenes import EACH_PROFILE, each_profile, points, random_points, take
 
 from swtstudy.mechanics import solve_points
 from swtstudy.paper.reference import textbook_s
@@ -72,10 +72,7 @@ def test_s_leaves_constant_depth_with_a_square_root_cusp() -> None:
     assert abs(exponent[1] - 0.5) < 1e-3
 
 
-@pytest.mark.parametrize(
-    "profile",
-    [pytest.param(name, marks=[pytest.mark.slow] * (name != "paraboloid")) for name in PROFILE_NAMES],
-)
+@pytest.mark.parametrize("profile", each_profile("paraboloid"))
 def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     batch = random_points(1, 6, profile)
     coarse, fine = (solve_points(batch, rtol).s for rtol in (1e-4, 1e-7))

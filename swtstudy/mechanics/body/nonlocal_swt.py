@@ -175,13 +175,13 @@ class Around:
         allowed = np.maximum(allowed - (found.of_places - both), 0.5 * allowed)
         blame = (of_axes / allowed)[:, both > allowed].max(axis=1, initial=0.0)
         before = self.spheres
-        in_doubt = bool((found.error > IN_DOUBT * found.value).any())
+        most = 4 * MOST if (found.error > IN_DOUBT * found.value).any() else MOST
         worse = int(blame.argmax())
         # The other one only if it alone would be too much.
         for axis in (worse, 1 - worse):
             finer = self.spheres.finer(axis)
             wanted = blame[axis] > (0.0 if axis == worse else 1.0)
-            if wanted and finer.distances * finer.inclinations <= (4 * MOST if in_doubt else MOST):
+            if wanted and finer.distances * finer.inclinations <= most:
                 self.spheres, self.grid = finer, _spread(self.grid, axis)
         return self.spheres is not before
 
