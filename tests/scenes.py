@@ -8,7 +8,6 @@ from math import gcd
 from typing import Any
 
 import numpy as np
-import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.mechanics import Points
@@ -26,12 +25,14 @@ PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
 
 
 def each_profile(*quick: str) -> list[Any]:
-    """The profiles as values of a parameter of costly tests, all but the quick ones marked as slow."""
-    return [pytest.param(name, marks=() if name in quick else pytest.mark.slow) for name in PROFILE_NAMES]
+    """The profiles as values of a parameter of costly tests, all but some marked as slow.
 
+    Quick are those that are least alike, if nothing else is said.
+    """
+    import pytest  # scripts that draw points do without
 
-#: Quick are those that are least alike.
-EACH_PROFILE = each_profile("truncated_paraboloid", "wavy_paraboloid")
+    some = quick or ("truncated_paraboloid", "wavy_paraboloid")
+    return [pytest.param(name, marks=() if name in some else pytest.mark.slow) for name in PROFILE_NAMES]
 
 
 def points(

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
-from scenes import EACH_PROFILE, random_points
+from scenes import each_profile, random_points
 from scenes import points as batch
 from scipy.integrate import simpson
 
@@ -62,7 +62,7 @@ def swt_of(field, poisson_ratio=0.3):
     return swtstudy.swt_of_history(stress, poisson_ratio, 1.0 - poisson_ratio**2).swt
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_the_instants_of_a_position_make_its_swt(profile):
     batch = random_points(11, 2, profile, 3)
     for k in range(2):

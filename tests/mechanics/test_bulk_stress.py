@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from numpy.typing import NDArray
-from scenes import EACH_PROFILE, PROFILE_NAMES, each_profile, points, random_points, take
+from scenes import PROFILE_NAMES, each_profile, points, random_points, take
 from scipy.spatial.transform import Rotation
 from test_critical_plane_3d import rotated
 from test_values import ALIGNED
@@ -130,7 +130,7 @@ def test_no_s_is_below_the_far_field() -> None:
         assert np.all(solve_points(batch, 1e-3).s >= far)
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_the_aligned_textbook_method_agrees(profile: str) -> None:
     batch = random_bulk(5, random_points(5, 2, profile, largest_term=2))
     point = take(batch, 1)
@@ -303,7 +303,7 @@ def test_points_without_bulk_stress_do_not_change_beside_others() -> None:
     assert np.all(mixed.s[~without] != plain.s[~without])
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_s_is_continuous_where_the_bulk_stress_ends(profile: str) -> None:
     batch = random_points(6, 2, profile, largest_term=2)
     plain = solve_points(batch, 1e-6).s

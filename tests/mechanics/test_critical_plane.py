@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scenes import EACH_PROFILE, random_points, take
+from scenes import each_profile, random_points, take
 
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.contact.cycle import solve_cycle
@@ -175,7 +175,7 @@ def stress_history(point: Points, x: float, instants: Array) -> Stress:
     return tuple(v[:, 0] for v in sigma)  # type: ignore[return-value]
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_no_plane_of_any_orientation_beats_the_critical_one(profile: str) -> None:
     batch = random_points(4, 2, profile, largest_term=3)
     solution = solve_points(batch)

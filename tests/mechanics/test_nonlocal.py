@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import EACH_PROFILE, PROFILE_NAMES, points, random_points, take
+from scenes import PROFILE_NAMES, each_profile, points, random_points, take
 from scipy.integrate import simpson
 
 from swtstudy.mechanics import solve_points
@@ -19,7 +19,7 @@ from swtstudy.mechanics.planes.criterion import SWT
 from swtstudy.mechanics.stress.scene import scene_of
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_histories_at_instants_of_each_place(profile):
     """The stress of each place at its own instants is that of the field at common ones."""
     batch = random_points(3, 3, profile)

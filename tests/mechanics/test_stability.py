@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scenes import EACH_PROFILE, points, take
+from scenes import each_profile, points, take
 from soundness import RTOL, SHAPES, close, regime_names, sound
 
 from swtstudy.mechanics import solve_points
@@ -15,7 +15,7 @@ from swtstudy.mechanics.line import first_look
 from swtstudy.mechanics.solver import BATCH_SIZE, scenes
 
 TINY = 5e-324
-every_profile = pytest.mark.parametrize("profile", EACH_PROFILE)
+every_profile = pytest.mark.parametrize("profile", each_profile())
 
 
 # One parameter at a time to its end, and to the limit beside it.

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scenes import EACH_PROFILE, each_profile, points, random_points, take
+from scenes import each_profile, points, random_points, take
 
 from swtstudy.mechanics import solve_points
 from swtstudy.paper.reference import textbook_s
@@ -79,7 +79,7 @@ def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     np.testing.assert_allclose(coarse, fine, rtol=1e-4)
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_a_point_does_not_depend_on_its_batch(profile: str) -> None:
     batch = random_points(2, 6, profile, largest_term=2)
     together, backwards = solve_points(batch), solve_points(take(batch, np.arange(6)[::-1]))
@@ -103,7 +103,7 @@ def test_the_aligned_textbook_method_agrees(name: str) -> None:
     assert textbook_s(point, **ALIGNED).s == pytest.approx(solve_points(point).s[0], rel=7e-4)
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_the_aligned_textbook_method_agrees_at_random_points(profile: str) -> None:
     point = random_points(3, 1, profile, largest_term=3)
     ratio = textbook_s(point, **{**ALIGNED, "positions": 200}).s / solve_points(point).s[0]

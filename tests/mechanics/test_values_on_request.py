@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from asking import EVERY, VARIABLES
-from scenes import EACH_PROFILE, random_points
+from scenes import each_profile, random_points
 from scenes import points as batch
 
 import swtstudy
@@ -111,7 +111,7 @@ def marched(points, index: int, springs: int = 3000, steps: int = 6000) -> tuple
     return float(done), float(ratio[steps:].max()), largest
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_they_are_those_of_marched_springs(profile: str) -> None:
     points = random_points(41, 2, profile, largest_term=3)
     found = computed(points, EVERY)
@@ -122,7 +122,7 @@ def test_they_are_those_of_marched_springs(profile: str) -> None:
         assert found["contact_radius"][index] == pytest.approx(largest, rel=1e-12)
 
 
-@pytest.mark.parametrize("profile", EACH_PROFILE)
+@pytest.mark.parametrize("profile", each_profile())
 def test_errors_are_honest(profile: str, monkeypatch: pytest.MonkeyPatch) -> None:
     points = random_points(42, 10, profile)
     found = computed(points, ["dissipation", "force_ratio"])
