@@ -43,7 +43,6 @@ OTHERS = {
     "roots.LAST_STEP": ("100 * v",),
     "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
     "rounds.CORNER_CHANGE_SHARE": ("0.03",),
-    "rounds.LEAST_ROUND_COUNT": ("1",),
     "rounds.OFFSETS": ("v / 1.5",),
     "rounds.POLYNOMIAL_SHARE": ("v / 10",),
     "rounds.TIE": ("0.0",),

@@ -233,8 +233,6 @@ def _rise_beside_end(curve: FloatArray, inside: BoolArray, at: tuple[IndexArray,
 DIGITS_PER_ZOOM = 3.2
 #: Error left to the search over x, as a share of the tolerance. All of it: 9e-7 at rtol 1e-5, no faster.
 SETTLED = 0.3
-#: Digits more for points that miss the tolerance: pressure alone may make stresses far above all tension.
-MORE_DIGITS = 2.0
 
 
 @dataclass(frozen=True)
@@ -268,9 +266,6 @@ class Accuracy:
         return cls(Resolution(4, zooms, digits + 1.0), Resolution(6, zooms + 1, digits + 2.5), rtol)
 
     def finer(self) -> Accuracy:
-        """The same with twice the instants, closer looks at the extremes, more digits and more rounds."""
-        search, check = (
-            replace(r, nodes=2 * r.nodes, zooms=r.zooms + 1, digits=r.digits + MORE_DIGITS)
-            for r in (self.search, self.check)
-        )
+        """The same with twice the instants, closer looks at the extremes, and more rounds."""
+        search, check = (replace(r, nodes=2 * r.nodes, zooms=r.zooms + 1) for r in (self.search, self.check))
         return replace(self, search=search, check=check, hasty=False)

@@ -28,8 +28,6 @@ POWERS = powers_from_values(FIRST_WIDTH * OFFSETS)
 #: How the width grows while the best position is the outermost one: the search was narrowed too early. 2/3,
 #: by which it may never get there: 2e-6 low at a point of tests/mechanics/test_overlooked.py, at every rtol.
 WALKING = 2.0
-#: Rounds from which on a climb may leave a corner: a maximum next to it shows only once the search is narrow.
-LEAST_ROUND_COUNT = 2
 #: Share of the last round's change that further ones make at most: a parabola is off by the square of the
 #: width and more, but beside a corner swt may begin like a root.
 CHANGE_SHARE, CORNER_CHANGE_SHARE = SHRINKING**2, SHRINKING**0.5
@@ -228,7 +226,7 @@ def _moved(positions: Positions, climb: Climb, seen: _Seen, vertex: _Vertex, tol
     """The climbs at their new places, narrower where the maximum lies between what was looked at."""
     rise = vertex.top - seen.largest
     flat = rise <= CHANGE_SHARE * tolerance * vertex.top
-    stays = seen.brackets.is_corner & (seen.place == 0.0) & (flat | (climb.rounds < LEAST_ROUND_COUNT))
+    stays = seen.brackets.is_corner & (seen.place == 0.0) & (flat | (climb.rounds == 0))
     # The maximum may lie outside of what was looked at: up to the neighbour, or beyond it.
     neighbour = np.clip(climb.place + seen.place.astype(np.intp), 0, positions.r.size - 1)
     beyond = (np.abs(seen.place) == 1.0) & (neighbour != climb.place)
