@@ -11,7 +11,8 @@ pytestmark = pytest.mark.pages
 
 def plain(formula):
     """Without the indentation, and with a mark for each thin space."""
-    found = re.sub(r">\s+<", "><", formulae.mathml(formula)).replace('<mspace width="0.1667em"></mspace>', "~")
+    found = re.sub(r">\s+<", "><", formulae.mathml(formula))
+    found = found.replace('<mspace width="0.1667em"></mspace>', "~")
     found = found.replace(' lspace="0" rspace="0"', "").replace("<mo>&ApplyFunction;</mo>", "")
     return re.sub(r"</?(?:math|mrow)[^>]*>", "", found)
 
