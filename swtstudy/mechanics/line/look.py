@@ -195,35 +195,35 @@ class _Crests(NamedTuple):
 
 
 def _crests(curve: FloatArray, inside: BoolArray) -> _Crests:
-    is_crest = np.zeros(curve.shape, dtype=bool)
-    np.logical_and(_peaks(curve), inside[..., 1:-1], out=is_crest[..., 1:-1])
-    at, flat = np.flatnonzero(is_crest), curve.ravel()
+    at, flat = _peaks(curve, inside), curve.ravel()
     return _Crests(at, flat[at - 1], flat[at], flat[at + 1])
 
 
-def _peaks(curve: FloatArray) -> BoolArray:
-    middle = curve[..., 1:-1]
-    return np.asarray((middle >= curve[..., :-2]) & (middle >= curve[..., 2:]))
+def _peaks(curve: FloatArray, where: BoolArray) -> IndexArray:
+    """Where the local maxima of curves between their first and last instant are in the flattened curves."""
+    is_peak, middle = np.zeros(curve.shape, dtype=bool), curve[..., 1:-1]
+    higher = (middle >= curve[..., :-2]) & (middle >= curve[..., 2:])
+    np.logical_and(higher, where[..., 1:-1], out=is_peak[..., 1:-1])
+    return np.flatnonzero(is_peak)
 
 
 def _reach(heights: FloatArray, crests: _Crests, curve: FloatArray, inside: BoolArray) -> None:
     """Put the local maxima of a curve as high as they may really be, also beside ends of stretches."""
     bend = 2.0 * crests.centre - crests.left - crests.right
     heights.ravel()[crests.at] = crests.centre + REACH * bend
-    ends = np.nonzero(_peaks(curve) & ~inside[..., 1:-1])
-    heights[..., 1:-1][ends] += _rise_beside_end(curve, inside[..., 1:-1], ends)
+    ends = _peaks(curve, ~inside)
+    heights.ravel()[ends] += _rise_beside_end(curve, inside, ends)
 
 
-def _rise_beside_end(curve: FloatArray, inside: BoolArray, at: tuple[IndexArray, ...]) -> FloatArray:
+def _rise_beside_end(curve: FloatArray, inside: BoolArray, at: IndexArray) -> FloatArray:
     """Rise of the parabolas through an end ``at`` and two instants of a stretch above that end, (m,)."""
-    inside = np.broadcast_to(inside, (*curve.shape[:-1], inside.shape[-1]))
-    *where, place = at
-    rise = np.zeros(place.size)
-    for step in (-1, 1):
-        next_one = np.clip(place + step, 0, inside.shape[-1] - 1)
-        end, first, second = (curve[(*where, (place + 1 + k * step) % curve.shape[-1])] for k in range(3))
+    flat, inside = curve.ravel(), np.broadcast_to(inside, curve.shape).ravel()
+    count = curve.shape[-1]
+    end, place, rise = flat[at], at % count, np.zeros(at.size)
+    for step, last in ((-1, 1), (1, count - 2)):
+        first, second = (flat.take(at + k * step, mode="clip") for k in (1, 2))
         slope, bend = 4.0 * first - 3.0 * end - second, 2.0 * first - end - second
-        beside = inside[(*where, next_one)] & (next_one != place) & (slope > 0.0) & (bend > 0.0)
+        beside = (place != last) & inside[at + step] & (slope > 0.0) & (bend > 0.0)
         more = np.divide(slope * slope, 8.0 * bend, out=np.zeros_like(end), where=beside)
         rise = np.maximum(rise, more)
     return rise

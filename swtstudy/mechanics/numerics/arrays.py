@@ -40,9 +40,9 @@ def gather(values: NDArray[T], index: IndexArray) -> NDArray[T]:
     index
         Shape (…, m) or (s, …, m), 0 ≤ index < k.
     """
-    lead = values.shape[:-1]
-    rows = np.arange(math.prod(lead), dtype=np.intp).reshape(*lead, 1)
-    return np.ascontiguousarray(values).reshape(-1).take(rows * values.shape[-1] + index)
+    lead, k = values.shape[:-1], max(values.shape[-1], 1)
+    first = np.arange(0, math.prod(lead) * k, k, dtype=np.intp).reshape(*lead, 1)
+    return values.ravel().take(first + index)
 
 
 def pick(values: NDArray[T], index: IndexArray) -> NDArray[T]:
