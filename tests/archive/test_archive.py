@@ -125,6 +125,7 @@ def told_apart(points: Points, rtol: float) -> Solution:
     return Solution(number, rtol * number, -number, -80 * points.phase, regime, 1.5 * number)
 
 
+@pytest.mark.slow
 def test_an_archive_opens_while_xarray_has_it_open(small, tmp_path):
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     code = (

@@ -96,6 +96,7 @@ def index_of(content: bytes) -> list[int]:
     return places
 
 
+@pytest.mark.slow
 def test_a_flip_in_the_index_of_the_chunks_opens_with_no_other_value(tmp_path):
     """HDF5 itself has no check sum of it."""
     path = tmp_path / "small.nc"

@@ -149,6 +149,7 @@ def test_axes_that_differ_by_more_are_two(tmp_path):
     assert merge([one, other]).friction.values.tolist() == [0.2, 0.2 * (1 + 1e-11)]
 
 
+@pytest.mark.slow
 def test_contacts_that_share_a_point_keep_their_own_distances(tmp_path):
     """In different sizes of one non-dimensional contact a length is several distances."""
     head = (

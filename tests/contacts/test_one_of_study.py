@@ -107,6 +107,7 @@ def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(
     assert len(drawn[0].axes) < len(drawn[1].axes)
 
 
+@pytest.mark.slow
 def test_each_axis_of_a_study_has_an_option(tmp_path: Path) -> None:
     """Those of contacts with units, too: the one that the message advises."""
     names = {*AXES} - {DISTANCE, "direction"}

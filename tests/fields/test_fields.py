@@ -283,6 +283,7 @@ def test_distances_of_a_slip_map_are_checked(r):
         swtstudy.slip_map(r)
 
 
+@pytest.mark.slow
 def test_nonlocal_values_are_nan_where_s_is_not_finite():
     edge = {"profile": "truncated_paraboloid", "flat_radius": 0.5, "friction": 1.5}
     dataset = swtstudy.solve(
@@ -359,6 +360,7 @@ def test_maximum_of_the_body():
     assert found.swt > 1.005 * float(solved.s)
 
 
+@pytest.mark.slow
 def test_maximum_of_the_body_off_the_line_close_to_the_edge_of_a_flat_face():
     """Nearer to the edge than the search comes elsewhere: on the circle through the line's own maximum."""
     point = batch(

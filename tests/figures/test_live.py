@@ -70,6 +70,7 @@ def test_where_s_is_not_finite_there_is_a_picture_all_the_same():
     assert live.png().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_a_slider_may_stop_at_a_phase_of_the_curve_but_for_rounding():
     live = LiveFigure()
     for phase in (phases(1)[2] * (1 + 1e-15), phases(1)[3] * (1 - 4e-16), 2.0 * np.pi, 2.0 * np.pi + 1e-15):
@@ -160,6 +161,7 @@ def test_the_notebook(monkeypatch):
     assert float(notebook.cells[-1].outputs[0]["text"]) == pytest.approx(float(s), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_fine_curve_misses_little_of_the_least_value():
     given = {"phase": 1.0, "normal_amplitude": 0.85}
     live = LiveFigure()
@@ -173,6 +175,7 @@ def test_a_fine_curve_misses_little_of_the_least_value():
     assert least(True) < 1.01 * float(dense.min())
 
 
+@pytest.mark.slow
 def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
     pytest.importorskip("ipywidgets")
     from PIL import Image

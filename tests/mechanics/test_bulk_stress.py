@@ -122,6 +122,7 @@ def test_where_the_far_field_is_all_there_is_no_point_is_critical(exponent: floa
     np.testing.assert_array_equal(found.s_surface, found.s)
 
 
+@pytest.mark.slow
 def test_no_s_is_below_the_far_field() -> None:
     for profile in PROFILE_NAMES:
         batch = random_bulk(1, random_points(1, 3, profile, largest_term=2))
@@ -160,7 +161,7 @@ def test_where_the_bulk_stress_presses_the_circle_is_higher_than_the_line() -> N
     assert found.s_surface[0] == pytest.approx(body.swt, rel=5e-3)
 
 
-@pytest.mark.parametrize(("nu", "friction"), [(0.38, 0.05), (0.2, 0.0)])
+@pytest.mark.parametrize(("nu", "friction"), [pytest.param(0.38, 0.05, marks=pytest.mark.slow), (0.2, 0.0)])
 def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, friction: float) -> None:
     """The pressure's own tension is radial: across the bulk stress it is what it was."""
     pressed = with_bulk(points("paraboloid", nu, friction, 0.2, 0.9, 1.3), 0.0, -0.3, 0.0, 0.65)
@@ -418,6 +419,7 @@ def test_a_loop_has_no_frequency_for_it() -> None:
     assert float(raised[1]) > 1.1 * float(raised[0])
 
 
+@pytest.mark.slow
 def test_the_search_of_the_body_leaves_the_contact_and_knows_the_far_field() -> None:
     """Wherever it starts: from inside of the contact, or from no place at all."""
     at = points("paraboloid", 0.4354, 0.1805, 0.3087, 1.0453, 3.6127, 2, 1)

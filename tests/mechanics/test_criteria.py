@@ -214,6 +214,7 @@ def test_uniaxial_history_and_bulk_stress_far_away(name: str) -> None:
         assert there[0] == pytest.approx(expected, rel=1e-8)
 
 
+@pytest.mark.slow
 def test_the_body_says_the_same_as_the_line_where_friction_rules() -> None:
     batch = points(poisson_ratio=0.29, friction=0.5, normal_amplitude=0.3, tangential_amplitude=0.9)
     for name in SHEAR:
@@ -340,6 +341,7 @@ def test_the_circle_knows_planes_that_do_not_hold_the_y_axis() -> None:
 STEEL = {"young_modulus": 210e3, "poisson_ratio": 0.3, "radius": 50.0, "normal_force": 200.0, "friction": 0.5}
 
 
+@pytest.mark.slow
 def test_criteria_with_units() -> None:
     """Findley's is a stress; Fatemi's and Socie's a strain, whose k is over the yield strength."""
     own = STEEL | {"tangential_force_amplitude": [30.0, 60.0]}
@@ -434,6 +436,7 @@ def test_means_of_criteria_of_shear(name: str) -> None:
     assert float(found.s_volume) < 0.8 * float(found.s)
 
 
+@pytest.mark.slow
 def test_means_of_shear_with_units() -> None:
     """Each is the same multiple of its s as the value at the worst place, and has its own life."""
     own = STEEL | {"tangential_force_amplitude": 60.0, "normal_sensitivity": 0.3, "yield_strength": 400.0}
@@ -480,6 +483,7 @@ hue = "criterion"
 """
 
 
+@pytest.mark.slow
 def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Study file, archive, info, figure and page, in units."""
     (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")

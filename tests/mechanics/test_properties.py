@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import gcd
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
@@ -98,6 +99,7 @@ def test_s_rises_with_friction(point: Points) -> None:
     assert np.all(np.diff(found.s) >= -2 * RTOL * found.s[1:])
 
 
+@pytest.mark.slow
 @few
 @given(single_points(("paraboloid", "rounded_punch")), between(0.01, 1.0))
 def test_s_rises_with_the_tangential_amplitude(point: Points, friction: float) -> None:

@@ -257,6 +257,7 @@ def test_a_safe_ratio_is_not_looked_at(monkeypatch):
     np.testing.assert_array_equal(solved.s_surface, solved.s)
 
 
+@pytest.mark.slow
 def test_a_loop_and_its_mirror_image_have_the_same_where_the_line_has_none():
     """A bulk stress presses, so that s is 0 and no side of the circle is the critical point's."""
     vertices = [(0.064, 0.602, 0.293), (0.651, 0.631, -0.852), (0.334, -0.394, 0.320), (0.227, 0.516, -0.109)]

@@ -68,12 +68,9 @@ def test_g_is_abels_transform_of_the_spline(face: float) -> None:
     assert f(f.x[0]) == rate(f.x[0]) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::scipy.integrate.IntegrationWarning")
-@pytest.mark.parametrize(
-    "one",
-    [table("wavy_paraboloid", 60), pytest.param(worn(), marks=pytest.mark.slow)],
-    ids=lambda one: one.name,
-)
+@pytest.mark.parametrize("one", [table("wavy_paraboloid", 60), worn()], ids=lambda one: one.name)
 def test_integrals_of_the_pieces(one: TabulatedProfile) -> None:
     """Pressure, tractions and load of the pieces as they are, over all of them and within one."""
     profile = make_profile(one, {}, np.array([1.5]))

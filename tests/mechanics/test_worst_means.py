@@ -126,6 +126,7 @@ def test_candidates_are_the_local_maxima_of_a_dense_look(phase: float) -> None:
             assert np.abs(own - r[at]).min() < 4e-3
 
 
+@pytest.mark.slow
 def test_places_go_with_their_points_and_archives_of_before_open(tmp_path: Path) -> None:
     own = study(
         "[fixed]\ncritical_distance = 0.1\n", "phase = [1.55, 4.6915926535897932]\nnormal_amplitude = [0.3]"
@@ -174,13 +175,11 @@ def test_with_units_places_are_lengths() -> None:
             | {"tangential_amplitude": 0.4424},
             marks=pytest.mark.slow,
         ),
-        {
-            "criterion": "findley",
-            "normal_sensitivity": 0.3,
-            "friction": 0.6,
-            "normal_amplitude": 0.3,
-            "phase": 1.0,
-        },
+        pytest.param(
+            {"criterion": "findley", "normal_sensitivity": 0.3, "friction": 0.6}
+            | {"normal_amplitude": 0.3, "phase": 1.0},
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_values_are_about_local_maxima_not_about_flanks(given: dict[str, object]) -> None:

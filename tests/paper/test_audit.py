@@ -119,6 +119,7 @@ def test_report():
     assert "at 1 points: 1 of the 1" in text
 
 
+@pytest.mark.slow
 def test_command_goes_on_where_it_was(tmp_path):
     study = tmp_path / "two.toml"
     study.write_text(STUDY)
@@ -158,6 +159,7 @@ profile = ["pad", "rounded_flat"]
 """
 
 
+@pytest.mark.slow
 def test_command_on_plane_contacts(tmp_path):
     """In the section: the body has s on the line, by the other route, and the dense look nothing more."""
     study = tmp_path / "plane.toml"

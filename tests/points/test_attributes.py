@@ -74,7 +74,7 @@ def test_nonlocal_values():
     [
         ("findley", "Findley stress"),
         pytest.param("fatemi_socie", "Fatemi-Socie parameter", marks=pytest.mark.slow),
-        (["findley", "swt"], "criterion"),
+        pytest.param(["findley", "swt"], "criterion", marks=pytest.mark.slow),
     ],
 )
 def test_nonlocal_values_are_of_the_criterion(criterion, value):

@@ -353,6 +353,7 @@ def swt_at(x: Array, y: Array, z: Array, **own: Any) -> Array:
     return swt_of_history(stress, 0.3, 1.0 - 0.3**2).swt
 
 
+@pytest.mark.slow
 def test_nonlocal_means_hold_it() -> None:
     """Against the field at the places of Gauss's rule in spherical coordinates about the worst place."""
     own = {"bulk_stress_amplitude": 0.25, "bulk_stress_mean": 0.05}

@@ -375,6 +375,7 @@ def test_a_mangled_definition_is_refused(tmp_path: Path, definitions: str) -> No
         open_results(path)
 
 
+@pytest.mark.slow
 def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
     study = Study.from_text(STUDY.replace("[0.3, 0.5]", "[0.4]") + f"vertices = {SQUARE}")
     found = swtstudy.audit_study(study, tmp_path / "audit.nc", points=1, workers=1)

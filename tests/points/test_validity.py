@@ -277,6 +277,7 @@ def test_what_is_meant_is_not(phase):
         Study.from_text(f'title = "t"\n[fixed]\nphase = {phase}')
 
 
+@pytest.mark.slow
 def test_lives_of_each_distance_count():
     rig = {"young_modulus": 115e3, "poisson_ratio": 0.32, "radius": 40.0, "friction": 0.7, "body": 1}
     contact = physical(**rig, normal_force=[900.0, 1000.0], tangential_force_amplitude=500.0)

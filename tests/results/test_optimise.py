@@ -144,6 +144,7 @@ def test_another_quantity():
     assert found.critical_x.sel(case="worst") >= grid.critical_x.max() - 1e-6
 
 
+@pytest.mark.slow
 def test_a_quantity_beside_s(monkeypatch):
     # The work is that of the mechanics.
     monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)

@@ -52,6 +52,7 @@ def test_workers_give_what_one_process_gives(wide, tmp_path):
         np.testing.assert_array_equal(here[name], there[name])
 
 
+@pytest.mark.slow
 def test_work_is_shared_by_workers_with_one_thread_each(wide, tmp_path):
     dataset = run(wide, tmp_path / "wide.nc", solver=stand_in.process)
     processes = set(np.abs(dataset.critical_x.values).ravel())
@@ -91,6 +92,7 @@ def test_a_lost_worker_is_replaced(wide, tmp_path):
     assert sorted(done) == list(range(len(table)))
 
 
+@pytest.mark.slow
 def test_only_what_was_in_hand_is_tried_alone(wide, tmp_path, monkeypatch):
     alone, on_its_own = [], engine._Waves._alone
     monkeypatch.setattr(
@@ -209,8 +211,9 @@ def test_a_run_does_without_a_stream_that_is_gone(small, tmp_path, monkeypatch, 
     assert np.isfinite(dataset.s).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
-@pytest.mark.parametrize("closing", [pytest.param("2>&-", marks=pytest.mark.slow), "<&- >&- 2>&-"])
+@pytest.mark.parametrize("closing", ["2>&-", "<&- >&- 2>&-"])
 def test_the_command_does_without_closed_streams(tmp_path, closing):
     (tmp_path / "one.toml").write_text('title = "t"\nrtol = 1e-2\n')
     command = f'exec "{sys.executable}" -m swtstudy run one.toml {closing}'
@@ -218,6 +221,7 @@ def test_the_command_does_without_closed_streams(tmp_path, closing):
     assert np.isfinite(swtstudy.open_results(tmp_path / "results" / "one.nc").s)
 
 
+@pytest.mark.slow
 def test_a_script_without_a_guard_is_run_once(tmp_path):
     script = tmp_path / "script.py"
     script.write_text(
@@ -367,6 +371,7 @@ def test_long_cycles_weigh_more():
     assert sorted(weights(table).tolist()) == [2, 5, 7]
 
 
+@pytest.mark.slow
 def test_studies_share_their_workers_and_finish_one_after_the_other(tmp_path):
     studies = [
         Study.from_text(f'title = "{n}"\naxes.friction = {{ start = 0.1, stop = 0.{n}, num = 150 }}\n')

@@ -104,6 +104,7 @@ def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_
     np.testing.assert_allclose(contact.solve(rtol=1e-3).SWT, found.SWT, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_each_load_of_an_axis_has_its_own_mean(tmp_path: Path) -> None:
     text = RIG.replace('load = "rig"\n', "") + '[axes]\nload = ["low", "high"]\n'
     for name, factor in (("low", 1.0), ("high", 1.5)):

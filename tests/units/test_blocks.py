@@ -37,6 +37,7 @@ def block(load: str, rounds: object) -> str:
     return f'[[blocks]]\nload = "{load}"\nrounds = {rounds}\n'
 
 
+@pytest.mark.slow
 def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) -> None:
     """Both loads with a mean of their own, one of them in two blocks; lives of each in studies of its own."""
     blocks = block("start-up", 10) + block("running", 1e3) + block("start-up", 5.5)

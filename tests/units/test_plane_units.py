@@ -77,6 +77,7 @@ def test_forces_of_a_length_are_line_loads() -> None:
     assert line.work_scale == pytest.approx((MU * P) * MU * 4.0 * P / (np.pi * MODULUS), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_power_law_and_a_table_in_lengths() -> None:
     """f = |x|ⁿ/(n Rⁿ⁻¹): at n = 2 the cylinder; a table of the same in millimetres."""
     load = {"tangential_force_amplitude": 100.0}

@@ -118,6 +118,7 @@ def test_usage_is_the_stress_over_the_limit_of_the_body(tmp_path):
     assert "findley_usage_error" not in found
 
 
+@pytest.mark.slow
 def test_properties_of_shear_of_a_contact_in_python():
     """As of a study, with means over a critical distance."""
     shear = swtstudy.ShearConstants(80e3, 530.0, -0.09, 0.8, -0.55)
