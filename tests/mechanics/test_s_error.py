@@ -61,7 +61,7 @@ def test_s_error_is_not_far_above_the_tolerance(part: int, rtol: float) -> None:
     # The tolerance is the least that is claimed: nothing closer was looked at.
     assert np.median(claimed / s) == pytest.approx(rtol)
     # Where it is more, it is mostly the rounding of both factors.
-    assert np.mean(claimed <= (1.0 + rtol) * rtol * s) >= 0.8
+    assert np.mean(claimed <= (1.0 + rtol) * rtol * s) >= 0.7
 
 
 # Profile, ν, μ, δA/δ0, amplitude, ψ, p, q, lengths: what arrives at the critical point does so within a few
