@@ -358,6 +358,21 @@ CASES = [
         "1",
         0.42548626366,
     ),
+    (
+        # Of two planes the higher one has an extreme between the instants.
+        {
+            "normal_amplitude": 0.02503155,
+            "tangential_amplitude": 0.88897429,
+            "phase": 1.69655564,
+            "poisson_ratio": 0.3051555,
+            "friction": 0.86674045,
+            "bulk_stress_amplitude": 3.12768917e-15,
+            "bulk_stress_mean": -2.88953523e-14,
+            "bulk_stress_phase": 0.77733048,
+        },
+        "1/2",
+        0.930391303,
+    ),
 ]
 
 

@@ -27,12 +27,12 @@ from swtstudy.mechanics.control.coordinate import Coordinate, DepthCoordinate, F
 from swtstudy.mechanics.events.stretches import PER_INTERVAL
 from swtstudy.mechanics.indenter.base import Primitives
 from swtstudy.mechanics.indenter.paraboloid import SMALLEST_FACE, TruncatedParaboloid
-from swtstudy.mechanics.line.look import SETTLED, Accuracy, Look, lifted
+from swtstudy.mechanics.line.look import SETTLED, Accuracy, Look
 from swtstudy.mechanics.line.maximum import Maximum
+from swtstudy.mechanics.line.refine import climb_over_planes
 from swtstudy.mechanics.line.rounding import reach_of_edge
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.numerics.arrays import SAME, align
-from swtstudy.mechanics.planes.through_y import climb_over_planes
 from swtstudy.mechanics.points import BoolArray, FloatArray
 from swtstudy.mechanics.stress.scene import Scene
 
@@ -42,9 +42,8 @@ LEAST_FRICTION = 0.8
 #: Values of L of the first look and of each closer one, and how many of these there are. Half of them: 6e-7,
 #: 4e-4 at 6 of 32 and 2e-4 at 6, at rtol 1e-5; 20–35 % faster.
 FIRST_COUNT, NEXT_COUNT, ROUND_COUNT = 24, 9, 5
-#: Steps of each smooth stretch of the cycle, and how often the plane is improved. Half the steps: 1e-6, 40 %
-#: faster.
-STEPS_PER_DIGIT, ANGLE_ROUND_COUNT = 3, 4
+#: Steps of each smooth stretch of the cycle. Half: 1e-6, 40 % faster.
+STEPS_PER_DIGIT = 3
 #: So many times the steps check the value, one after the other until it changes little enough. The first
 #: alone: 9e-6 at rtol 1e-5; from the second on: 3e-7, the same time.
 FINER = 2, 4, 8, 16
@@ -188,9 +187,7 @@ def _swt(
     sticks &= np.roll(sticks, 1, axis=-1) & np.roll(sticks, -1, axis=-1)
     inside = look.inside & (look.placed.stretch % PER_INTERVAL == 0) & sticks
     planes = scene.planes(look.history, side)
-    angle = climb_over_planes(planes, np.full(distance.shape, start), ANGLE_ROUND_COUNT)
-    of_swt = planes.criterion.curves(*planes.on_plane(angle))
-    return planes.criterion.of_maxima(*(lifted(curve, inside).max(axis=-1) for curve in of_swt)), angle
+    return climb_over_planes(planes, inside, np.full(distance.shape, start))
 
 
 class _SeenFromEdge(TruncatedParaboloid):

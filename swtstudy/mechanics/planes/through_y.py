@@ -7,6 +7,7 @@ functions, for swt their product, whose maximum Newton's method finds.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -101,7 +102,7 @@ def coarse_swt(history: PlaneHistory, count: int) -> tuple[FloatArray, FloatArra
     # Two maxima may lie between the same planes.
     starts = np.stack([best[at], np.where(left > right, best[at] - 1, best[at] + 1)]) * step
     some = history.take(*at)
-    starts = climb_over_planes(some, starts, 1)
+    starts = turned(some, starts, some.criterion.curves(*some.on_plane(starts)))
     tops = (curve.max(axis=-1) for curve in some.criterion.curves(*some.on_plane(starts)))
     found = some.criterion.of_maxima(*tops)
     swt[at], angle[at] = found.max(axis=0), np.where(found[1] > found[0], starts[1], starts[0])
@@ -125,8 +126,8 @@ def on_planes(history: PlaneHistory, count: int) -> FloatArray:
     return table
 
 
-def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: int) -> FloatArray:
-    """Planes of locally largest swt, by looking up the instants of the extremes so many times.
+def turned(history: PlaneHistory, double_angle: FloatArray, curves: Iterable[FloatArray]) -> FloatArray:
+    """Planes of locally largest swt near some, by the instants at which the curves are highest there.
 
     Parameters
     ----------
@@ -134,21 +135,15 @@ def climb_over_planes(history: PlaneHistory, double_angle: FloatArray, rounds: i
         At points (…).
     double_angle
         2θ to start from, shape (s, …) or (…), rad.
-    rounds
-        Number of times.
+    curves
+        The three curves of the criterion on these planes, each with the T instants as its last axis.
     """
-    for _ in range(rounds):
-        stress, swing = history.on_plane(double_angle)
-        peak, high, low = (
-            np.stack([pick(part, at) for part in parts])
-            for parts, at in (
-                (history.stress, stress.argmax(axis=-1)),
-                (history.swing, swing.argmax(axis=-1)),
-                (history.swing, swing.argmin(axis=-1)),
-            )
-        )
-        double_angle = best_angle(peak, 0.5 * (high - low), double_angle, history.criterion)
-    return double_angle
+    parts = history.stress, history.swing, history.swing
+    instants = (curve.argmax(axis=-1) for curve in curves)
+    peak, high, low = (
+        np.stack([pick(part, at) for part in own]) for own, at in zip(parts, instants, strict=True)
+    )
+    return best_angle(peak, 0.5 * (high - low), double_angle, history.criterion)
 
 
 def best_angle(
