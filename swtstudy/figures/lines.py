@@ -178,6 +178,8 @@ def draw_lines(
         ends = np.concatenate([gaps - 1, gaps])
         dots = (curve[ends], x[ends]) if layout.kind == "life" else (x[ends], curve[ends])
         _mark_jumps(axes, *dots, line.get_color())
+        if len(alone := _alone(broken)):
+            axes.plot(across[alone], up[alone], linestyle="none", marker="o", color=line.get_color())
         if layout.validity:
             out, words = np.insert(part.outside.values, gaps, False), part.outside.attrs["long_name"]
             mark_along(axes, across, up, out, words, line.get_drawstyle())
@@ -187,6 +189,8 @@ def draw_lines(
             axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
         if layout.regimes:
             mark_regimes(axes, x, curve, _names(part.regime))
+    if not np.isfinite(whole).any():
+        axes.text(0.5, 0.5, "no value", ha="center", va="center", color="0.3", transform=axes.transAxes)
     if layout.kind == "life":
         _scale_upright(axes, x, whole, layout.x)
         return
@@ -232,6 +236,12 @@ def _mark_jumps(axes: Axes, across: NDArray[Any], up: NDArray[Any], colour: Any)
         axes.plot(across, up, color=colour, markerfacecolor="white", **look)
 
 
+def _alone(curve: NDArray[Any]) -> IndexArray:
+    """Indices of the values with none beside them, which no line shows."""
+    known = np.pad(np.isfinite(curve), 1)
+    return np.flatnonzero(known[1:-1] & ~known[:-2] & ~known[2:])
+
+
 def _names(regime: xr.DataArray) -> list[str | None]:
     """Regimes by name; None where unknown."""
     names = regime.attrs["flag_meanings"].split()
@@ -239,8 +249,10 @@ def _names(regime: xr.DataArray) -> list[str | None]:
 
 
 def _ends(x: NDArray[Any]) -> tuple[float, float]:
-    """Limits of the axis of x, also of a single value."""
-    return float(x.min()), float(x.max()) if x.max() > x.min() else float(x.min()) + 1
+    """Limits of the axis of x; a single value is in its middle."""
+    low, high = float(x.min()), float(x.max())
+    margin = 0.0 if high > low else 0.1 * abs(low) or 1.0
+    return low - margin, high + margin
 
 
 def _scale_upright(axes: Axes, x: NDArray[Any], values: xr.DataArray, name: str) -> None:

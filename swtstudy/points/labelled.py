@@ -76,7 +76,8 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
     },
     "radius_ratio": {
         "long_name": "contact radius over R",
-        "comment": "largest contact radius of a cycle, half the width in plane contacts, over the radius R",
+        "comment": "largest contact radius of a cycle, half the width in plane contacts, over the radius R; "
+        "of a table over that of the paraboloid with its contact radius and depth at rest",
         "units": "1",
         "symbol": r"a_\mathrm{max}/R",
     },

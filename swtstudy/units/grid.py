@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -232,13 +231,17 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def margins(self) -> tuple[str, ...]:
         """See `Grid.margins`."""
-        return (*super().margins, *("radius_ratio",) * bool(self.values("radius")))
+        return (*super().margins, "radius_ratio")
 
     @property
     def curvatures(self) -> FloatArray:
-        """a_H/R of each point, NaN for tables, which have no R; shape (size,)."""
+        """a_H/R of each point; tables have the R of the paraboloid with their a and δ0. Shape (size,)."""
         return self._of_points(
-            self.at_rest.each(lambda contact: contact.length_scale / (contact.radius or math.nan))
+            self.at_rest.each(
+                lambda contact: (
+                    contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
+                )
+            )
         )
 
     @property

@@ -183,6 +183,18 @@ def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
     assert band[:, 1].max() == pytest.approx(1.05 * float(s.max()))
 
 
+def test_a_value_without_neighbours_is_a_dot_and_without_any_that_is_said(small, tmp_path):
+    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth).isel(normal_amplitude=0)
+    one = dataset.isel(phase=[1])
+    (axes,) = draw(one, FigureLayout(x="phase", y=("s",))).axes
+    _, dot = axes.get_lines()
+    assert dot.get_marker() == "o"
+    np.testing.assert_array_equal(dot.get_ydata(), one.s.values.ravel())
+    assert np.mean(axes.get_xlim()) == pytest.approx(float(one.phase[0]))
+    (axes,) = draw(dataset.assign(s=np.nan * dataset.s), FigureLayout(x="phase", y=("s",))).axes
+    assert [text.get_text() for text in axes.texts] == ["no value"]
+
+
 def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
     import matplotlib
 

@@ -40,7 +40,7 @@ def rig(tmp_path_factory):
 def test_contact_radius_over_r(rig):
     radius = (0.75 * 200.0 * 50.0 / E_STAR) ** (1 / 3)
     np.testing.assert_allclose(rig.radius_ratio, radius / 50.0, rtol=1e-9)
-    # Of a cycle the largest; a table has no R.
+    # Of a cycle the largest; a table has the R of the paraboloid that is as wide and as deep.
     own = {"young_modulus": 73.1e3, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
     more = physical(**own, normal_force=200.0, normal_force_amplitude=150.0, tangential_force_amplitude=1.0)
     expected = (0.75 * 350.0 * 50.0 / E_STAR) ** (1 / 3) / 50.0
@@ -48,7 +48,11 @@ def test_contact_radius_over_r(rig):
     cap = np.linspace(0.0, 3.0, 40)
     table = swtstudy.TabulatedProfile("cap", cap, cap**2 / 100.0)
     flat = physical(**{**own, "radius": None, "profile": table}, depth=0.01, tangential_amplitude=1e-3)
-    assert "radius_ratio" not in flat.solve(1e-2)
+    np.testing.assert_allclose(flat.solve(1e-2).radius_ratio, np.sqrt(0.01 / 50.0), rtol=1e-6)
+    # Heights in µm beside radii in mm.
+    wrong = swtstudy.TabulatedProfile("cap", cap, 10.0 * cap**2)
+    own |= {"radius": None, "profile": wrong, "normal_force": 200.0, "tangential_force_amplitude": 1.0}
+    assert "contact too large for half-spaces" in physical(**own).solve(1e-2).swt.validity()[0]
 
 
 def test_the_yield_ratio_is_that_of_the_table(rig):
