@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -40,7 +40,8 @@ if TYPE_CHECKING:
 
 #: The column of a table of tests with the lives that were observed, in rounds of the load.
 LIFE = "life"
-#: Critical distances tried, over the smallest contact radius: lives between them are interpolated.
+#: Critical distances tried, over the smallest contact radius, as far as all lives are finite; lives between
+#: them are interpolated.
 DISTANCES = np.geomspace(0.004, 1.2, 17)
 #: Relative accuracy of s: means are known to 1e-3.
 RTOL = 1e-3
@@ -98,7 +99,7 @@ def fit(
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
     grid, observed = _read(study, tests, 2 if friction else 1)
-    model = _Model(grid, np.log10(observed), y, friction)
+    model = _Model.of(grid, np.log10(observed), y, friction)
     start = model.start()
     low, high = model.bounds()
     found = least_squares(
@@ -125,6 +126,8 @@ class _Model:
         The data variable.
     with_friction
         Whether friction is a parameter besides.
+    distances
+        Critical distances at which lives are computed.
     known
         log10 of the lives at all distances, by friction.
     """
@@ -133,12 +136,22 @@ class _Model:
     observed: FloatArray
     y: str
     with_friction: bool
-    known: dict[float | None, FloatArray] = field(default_factory=dict)
+    distances: FloatArray
+    known: dict[float | None, FloatArray]
 
-    @property
-    def distances(self) -> FloatArray:
-        """Critical distances at which lives are computed."""
-        return DISTANCES * float(self.grid.at_rest.each(lambda contact: contact.contact_radius).min())
+    @classmethod
+    def of(cls, grid: PhysicalGrid, observed: FloatArray, y: str, with_friction: bool) -> _Model:
+        """Distances are those up to the first at which a test has no finite life at the study's friction.
+
+        Deep beneath the surface there may be no tension.
+        """
+        distances = DISTANCES * float(grid.at_rest.each(lambda contact: contact.contact_radius).min())
+        lives = _lives(grid, y, distances, None)
+        # A spline takes four.
+        many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
+        own = float(np.exp(np.log(float(grid.values("friction")[0])))) if with_friction else None  # type: ignore[arg-type]
+        known = {own: _finite(lives[:, :many])}
+        return cls(grid, observed, y, with_friction, distances[:many], known)
 
     def start(self) -> FloatArray:
         """Logarithms of the parameters at the best distance that is computed."""
@@ -162,7 +175,7 @@ class _Model:
 
         friction = float(np.exp(logarithms[1])) if self.with_friction else None
         if friction not in self.known:
-            self.known[friction] = _lives(self.grid, self.y, self.distances, friction)
+            self.known[friction] = _finite(_lives(self.grid, self.y, self.distances, friction))
         return CubicSpline(np.log(self.distances), self.known[friction], axis=1)
 
     def residuals(self, logarithms: FloatArray) -> FloatArray:
@@ -179,6 +192,17 @@ class _Model:
         return np.stack(columns, axis=1)
 
 
+def _finite(lives: FloatArray) -> FloatArray:
+    """The lives, shape (n, k), if all are finite."""
+    wrong = ~np.isfinite(lives).all(axis=1)
+    if wrong.any():
+        numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
+        raise StudyError(
+            [Mistake("tests", f"no finite life of test {numbers}", "tests with equilibrium and tension")]
+        )
+    return lives
+
+
 def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | None) -> FloatArray:
     """log10 of the lives of n tests at k critical distances, shape (n, k): of both bodies the shorter one."""
     if friction is not None:
@@ -188,14 +212,7 @@ def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | 
     if "direction" in found.dims:
         found = found.sel(direction=DIRECTIONS[0])
     others = [dim for dim in found.dims if dim not in (SAMPLE, DISTANCE)]
-    lives = found.min(others).transpose(SAMPLE, DISTANCE).values
-    wrong = ~np.isfinite(lives).all(axis=1)
-    if wrong.any():
-        numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
-        raise StudyError(
-            [Mistake("tests", f"no finite life of test {numbers}", "tests with equilibrium and tension")]
-        )
-    return np.asarray(np.log10(lives))
+    return np.asarray(np.log10(found.min(others).transpose(SAMPLE, DISTANCE).values))
 
 
 def _intervals(slopes: FloatArray, residuals: FloatArray, confidence: float) -> FloatArray:

@@ -97,6 +97,25 @@ def test_noise_has_the_interval_of_linear_regression(rig, monkeypatch):
     assert float(found.scatter) == pytest.approx(noise.std(ddof=1), rel=1e-6)
 
 
+def test_distances_without_a_life_are_not_tried(rig, monkeypatch):
+    """Deep beneath the surface there may be no tension; where there is none at all, that is said."""
+    forces, end = np.linspace(30.0, 80.0, 8), [0.2]
+    law = Law(forces)
+    observed = 10.0 ** law(None, "", np.array([0.05]), None)[:, 0]
+    tests = {"tangential_force_amplitude": forces, "life": observed}
+
+    def ending(grid, y, distances, friction):
+        lives = law(grid, y, distances, friction)
+        lives[4, distances > end[0]] = np.inf
+        return lives
+
+    monkeypatch.setattr(fitting, "_lives", ending)
+    assert float(swtstudy.fit(rig[0], tests).critical_distance) == pytest.approx(0.05, rel=1e-3)
+    end[0] = 0.0
+    with pytest.raises(StudyError, match="no finite life of test 5; allowed"):
+        swtstudy.fit(rig[0], tests)
+
+
 def test_friction_is_fitted_beside_it(rig, monkeypatch):
     forces = np.linspace(30.0, 80.0, 8)
     law = Law(forces)
@@ -107,7 +126,7 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
     assert float(found.friction) == pytest.approx(0.7, rel=1e-2)
     assert float(found.critical_distance) == pytest.approx(0.05, rel=2e-2)
     # Friction bears the tangential forces: 80 N at 200 N.
-    model = fitting._Model(*fitting._read(rig[0], tests, 2), "cycles_volume", True)
+    model = fitting._Model.of(*fitting._read(rig[0], tests, 2), "cycles_volume", True)
     assert np.exp(model.bounds()[0][1]) == pytest.approx(0.4, rel=2e-3)
 
 
