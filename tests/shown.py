@@ -133,7 +133,8 @@ def script_of(command: str) -> Path:
 def _check_installer(command: str) -> None:
     """An installer's command is one of the CI's, up to options and a choice of the extras."""
     words = _essential(command)
-    ci = [_essential(each) for each in commands_of((ROOT / ".ci" / "run").read_text(encoding="utf-8"))]
+    files = [ROOT / ".ci" / name for name in ("run", "slow")]
+    ci = [_essential(each) for file in files for each in commands_of(file.read_text(encoding="utf-8"))]
     if words[0] == "pip":
         *words, target = words
         folder, _, extras = target.rstrip("]").partition("[")
@@ -141,7 +142,7 @@ def _check_installer(command: str) -> None:
         assert folder == ".", f"{command}: not of this folder"
         assert set(filter(None, extras.split(","))) <= set(known), command
         ci = [each[:-1] for each in ci]
-    assert words in ci, f"{command}: not in .ci/run"
+    assert words in ci, f"{command}: not in .ci"
 
 
 def _essential(command: str) -> list[str]:

@@ -83,7 +83,7 @@ _POINTS = 72.0
 
 
 def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] = _NO_LOOPS) -> None:
-    """Add one legend for all panels, lines before markers; no entry is cut off.
+    """Add one legend for all panels, lines before bands beneath them and markers; no entry is cut off.
 
     Parameters
     ----------
@@ -95,15 +95,19 @@ def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] = _
     loops
         What lines are about, by their labels, if loops: drawn beside their samples.
     """
-    handles: dict[str, Any] = {}
+    handles: dict[str, Line2D] = {}
     for one in axes.flat:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    labels = sorted(handles, key=lambda label: handles[label].get_linestyle() == "None")
+    labels = sorted(handles, key=lambda label: _rank(handles[label]))
     if not labels:
         return
     look: dict[str, Any] = {"handler_map": {Line2D: LoopHandler(loops)}, **HANDLE} if loops else {}
     place_legend(figure, [handles[label] for label in labels], labels, look)
+
+
+def _rank(handle: Line2D) -> tuple[bool, bool]:
+    return handle.get_linestyle() == "None", handle.get_zorder() < Line2D.zorder
 
 
 def place_legend(

@@ -13,7 +13,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, Request
+from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -281,7 +281,7 @@ def wrong_formula(text: str) -> str | None:
 
 
 def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
-    known = (*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked)))
+    known = [*dict.fromkeys((*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked))))]
     try:
         place = reference(y)
     except ValueError as error:
@@ -289,12 +289,15 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         return
     if place is None:
         name = y.strip()
+        base, _, kind = name.rpartition("_")
         if name in COUNTED:
             found = f"{literal(y)}, which has several values at a point"
             report("figure.y", found, "cycles, which is made of it")
         elif name in EVERY_VARIABLE and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
+        elif name not in known and base in known and f"s_{kind}" in NONLOCAL:
+            report("figure.y", literal(y), f"in a study with a {DISTANCE} alone")
         elif name not in known:
             report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
         return

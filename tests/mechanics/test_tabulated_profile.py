@@ -220,6 +220,7 @@ R = np.linspace(0.0, 2.0, 20)
             "pad.height: found no one-dimensional array of finite numbers",
         ),
         (R, 0.0 * R, 0.0, "found a flat face alone"),
+        (R, -R * R, 0.0, "found heights that fall from the axis; allowed: heights with the other sign"),
         (R, np.maximum(R - R[-6], 0.0), 0.0, "allowed: at least 6 points beside it"),
         (R, R**2, -1.0, "pad.smoothing: found -1.0; allowed: a number ≥ 0"),
         ("no", R**2, 0.0, "pad.radius: found no one-dimensional"),

@@ -111,6 +111,11 @@ MISTAKES = [
         "at most 5.157 mm, 10 a_H",
     ),
     (
+        "critical_distance = 0.05",
+        "",
+        "figure.y: found 'SWT_volume'; allowed: in a study with a critical_distance alone",
+    ),
+    (
         'y = ["SWT", "cycles"',
         'y = ["SWTs", "cycles"',
         "figure.y: found 'SWTs' (not a quantity); allowed: did you mean SWT?",

@@ -254,7 +254,9 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"
         allowed = f"ascending radii, by {LEAST_STEP:g} of the largest at least"
         yield Mistake(f"{name}.radius", found, allowed)
-    if not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
+    if np.any(height < 0.0) and not np.any(height > 0.0):
+        yield Mistake(f"{name}.height", "heights that fall from the axis", "heights with the other sign")
+    elif not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
         yield Mistake(f"{name}.height", "a flat face alone", f"at least {FEWEST - 2} points beside it")
     if not 0.0 <= plain_number(smoothing) < np.inf:
         yield Mistake(f"{name}.smoothing", literal(smoothing), "a number ≥ 0")
