@@ -359,6 +359,20 @@ CASES = [
         0.42548626366,
     ),
     (
+        # Two planes are 16° apart.
+        {
+            "profile": "rounded_punch",
+            "flat_radius": 0.06465627,
+            "normal_amplitude": 0.3723981,
+            "tangential_amplitude": 0.14626776,
+            "phase": 2.08440061,
+            "poisson_ratio": 0.38295264,
+            "friction": 0.48212373,
+        },
+        "1/2",
+        0.07754914,
+    ),
+    (
         # Of two planes the higher one has an extreme between the instants.
         {
             "normal_amplitude": 0.02503155,
