@@ -16,6 +16,7 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, scatter
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,
@@ -28,86 +29,9 @@ from swtstudy.vocabulary.mistakes import (
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
-#: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
-#: count seven times as much.
-LEAST_EIGENVALUE = 0.01
-
-
-def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
-    """The first whole cycles of a record at even phases, as many as it has samples in a cycle.
-
-    Parameters
-    ----------
-    time
-        Shape (k,), ascending.
-    values
-        Shape (k, d).
-    period, count
-        Length of a cycle, and how many.
-
-    Returns
-    -------
-    array
-        Shape (count, m, d); straight lines between the samples.
-    """
-    step = (time[-1] - time[0]) / (len(time) - 1)
-    phases = max(2, round(period / step))
-    at = time[0] + period * (np.arange(count)[:, None] + np.arange(phases) / phases)
-    return np.stack([np.interp(at, time, column) for column in values.T], axis=-1)
-
-
-def scatter(cycles: FloatArray) -> FloatArray:
-    """Standard deviation of cycles (c, m, d) from their mean, root mean square over phases, shape (d,)."""
-    count = len(cycles)
-    if count < 2:
-        return np.full(cycles.shape[-1], np.nan)
-    variance = cycles.var(axis=0, ddof=1)
-    return np.asarray(np.sqrt(variance.mean(axis=0)))
-
-
-def mean_over(time: FloatArray, values: FloatArray, period: float) -> float:
-    """Mean of one closed cycle over the time, by straight lines; the samples need not be even."""
-    at, closed = np.append(time, time[0] + period), np.append(values, values[0])
-    return float(np.sum(np.diff(at) * 0.5 * (closed[1:] + closed[:-1])) / period)
-
-
-def harmonics(phase: FloatArray, values: FloatArray, highest: int) -> tuple[FloatArray, FloatArray]:
-    """The harmonics that fit a column best, in the sense of least squares, and the fit.
-
-    Parameters
-    ----------
-    phase
-        Shape (k,): φ of each sample, rad.
-    values
-        Shape (k,).
-    highest
-        The highest order.
-
-    Returns
-    -------
-    rows
-        Shape (highest + 1, 3): order, amplitude and phase of amplitude · sin(order · φ + phase).
-    fit
-        Shape (k,).
-    """
-    base = _waves(phase, highest)
-    found = np.linalg.lstsq(base, values, rcond=None)[0]
-    sine, cosine = found[1 : highest + 1], found[highest + 1 :]
-    rows = np.stack([np.arange(1, highest + 1), np.hypot(sine, cosine), np.arctan2(cosine, sine)], axis=1)
-    return np.concatenate([[[0.0, found[0], 0.5 * np.pi]], rows]), base @ found
-
-
-def determined(phase: FloatArray, highest: int) -> bool:
-    """Return whether samples tell harmonics apart: cycles sampled at the same phases count as one."""
-    base = _waves(phase, highest)
-    return bool(np.linalg.eigvalsh(base.T @ base / len(phase))[0] > LEAST_EIGENVALUE)
-
-
-def _waves(phase: FloatArray, highest: int) -> FloatArray:
-    """Shape (k, 2 · highest + 1): one, sines and cosines."""
-    waves = np.outer(phase, np.arange(1, highest + 1))
-    return np.concatenate([np.ones((len(phase), 1)), np.sin(waves), np.cos(waves)], axis=1)
-
+#: Drift of the cycles all over a record, over the period, with which a harmonic load loses a hundredth of its
+#: amplitude when they are folded, 1 − sin(πx)/πx.
+MOST_DRIFT = 0.08
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -386,6 +310,11 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
     if signal.is_folded_apart:
         found = f"{name}: its {count} cycles differ by more than their mean moves"
         warnings.warn(f"{found}; is {key} right?", stacklevel=2)
+    elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
+        late = "late" if shift > 0.0 else "early"
+        found = f"{name}: each of its {count} cycles comes {abs(shift):.1%} of a period {late}"
+        best = period * (1.0 + shift)
+        warnings.warn(f"{found}; is the period {best:.4g} and not {period:.4g}?", stacklevel=2)
     return signal
 
 

@@ -12,7 +12,7 @@ from real import UNITS
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
-from swtstudy.study.signal import harmonics, mean_over, scatter
+from swtstudy.study.cycles import drift, harmonics, mean_over, scatter
 from swtstudy.units.loads import mean_of_loads
 
 RIG = f"""
@@ -164,6 +164,27 @@ def test_cycles_that_are_no_cycles_are_told(tmp_path: Path, recorded_cycles: int
         read_signal(tmp_path / "rig.csv", recorded_cycles=recorded_cycles)
     words = f"its {recorded_cycles} cycles differ by more than their mean moves; is recorded_cycles right?"
     assert [str(each.message) for each in told] == [f"rig: {words}"] * is_told
+
+
+@pytest.mark.parametrize(("period", "shift"), [(400, 0.0), (402, 0.0), (416, -16 / 416), (388, 12 / 388)])
+def test_cycles_that_drift_are_told_with_the_period_that_fits(tmp_path: Path, period: int, shift) -> None:
+    """At a period that is a little wrong they are alike, and their mean has lost of its amplitude."""
+    noise = np.random.default_rng(1).normal(size=(4000, 3)) * [2.0, 0.6, 0.3]
+    signal = smooth(2.0 * np.pi * np.arange(4000) / 400) * [0.0, 1.0, 1.0] + noise
+    write(tmp_path / "rig.csv", signal, "normal,tangential,bulk")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = read_signal(tmp_path / "rig.csv", period=period)
+    if not shift:
+        assert told == []
+        return
+    assert drift(found.cycles) == pytest.approx(shift, rel=0.1)
+    assert re.fullmatch(
+        f"rig: each of its {found.count} cycles comes {abs(drift(found.cycles)):.1%} of a period "
+        f"{'late' if shift > 0.0 else 'early'}; is the period (.*) and not {period}[?]",
+        str(told[0].message),
+    )
+    assert float(str(told[0].message).split()[-4]) == pytest.approx(400.0, rel=5e-3)
 
 
 def test_harmonics_are_those_of_least_squares() -> None:
