@@ -305,6 +305,8 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
     if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
         allowed = "less than half as many as samples at different phases of the cycle"
+        if key == "period" and not given.get("time"):
+            allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
     _warn_of_time(signal)
     if signal.is_folded_apart:

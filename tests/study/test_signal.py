@@ -236,6 +236,10 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
             "recorded_cycles = 2\nharmonics = 2",
             "loads.rig.harmonics: found 2 with 6 samples; allowed: less than half as many as samples at diff",
         ),
+        (
+            "period = 3\nharmonics = 2",
+            r"loads.rig.harmonics: .* phases of the cycle; a period of 3 is one of samples, without the",
+        ),
         ("harmonics = 65", "loads.rig.harmonics: found 65; allowed: a whole number, 1 to 64"),
         ('columns = "Ft"', "loads.rig.columns: found 'Ft'; allowed: a table of headers, such as"),
         ('columns = { norml = "a" }', "loads.rig.columns.norml: found 'norml'; allowed: did you mean normal"),
