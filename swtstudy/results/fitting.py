@@ -149,6 +149,7 @@ class _Model:
         lives = _lives(grid, y, distances, None)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
+        # By the very number that `lives` makes of its logarithm.
         own = float(np.exp(np.log(float(grid.values("friction")[0])))) if with_friction else None  # type: ignore[arg-type]
         known = {own: _finite(lives[:, :many])}
         return cls(grid, observed, y, with_friction, distances[:many], known)
