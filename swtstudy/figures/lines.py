@@ -176,10 +176,10 @@ def draw_lines(
         across, up = (broken, at) if layout.kind == "life" else (at, broken)
         (line,) = axes.plot(across, up, **look)
         ends = np.concatenate([gaps - 1, gaps])
-        dots = (curve[ends], x[ends]) if layout.kind == "life" else (x[ends], curve[ends])
-        _mark_jumps(axes, *dots, line.get_color())
-        if len(alone := _alone(broken)):
-            axes.plot(across[alone], up[alone], linestyle="none", marker="o", color=line.get_color())
+        first, second = (curve, x) if layout.kind == "life" else (x, curve)
+        _mark_jumps(axes, first[ends], second[ends], line.get_color())
+        if len(alone := _alone(curve)):
+            axes.plot(first[alone], second[alone], linestyle="none", marker="o", color=line.get_color())
         if layout.validity:
             out, words = np.insert(part.outside.values, gaps, False), part.outside.attrs["long_name"]
             mark_along(axes, across, up, out, words, line.get_drawstyle())

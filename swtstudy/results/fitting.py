@@ -124,18 +124,18 @@ class _Model:
         Shape (n,): log10 of their lives.
     y
         The data variable.
-    with_friction
-        Whether friction is a parameter besides.
+    friction
+        Logarithm of the study's friction, where a fit of it begins; None if it is not fitted.
     distances
         Critical distances at which lives are computed.
     known
-        log10 of the lives at all distances, by friction.
+        log10 of the lives at all distances, by the logarithm of friction.
     """
 
     grid: PhysicalGrid
     observed: FloatArray
     y: str
-    with_friction: bool
+    friction: float | None
     distances: FloatArray
     known: dict[float | None, FloatArray]
 
@@ -149,24 +149,21 @@ class _Model:
         lives = _lives(grid, y, distances, None)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
-        # By the very number that `lives` makes of its logarithm.
-        own = float(np.exp(np.log(float(grid.values("friction")[0])))) if with_friction else None  # type: ignore[arg-type]
-        known = {own: _finite(lives[:, :many])}
-        return cls(grid, observed, y, with_friction, distances[:many], known)
+        own = math.log(float(grid.values("friction")[0])) if with_friction else None  # type: ignore[arg-type]
+        return cls(grid, observed, y, own, distances[:many], {own: _finite(lives[:, :many])})
 
     def start(self) -> FloatArray:
         """Logarithms of the parameters at the best distance that is computed."""
-        own = np.log([float(self.grid.values("friction")[0])] if self.with_friction else [])  # type: ignore[arg-type]
+        own = np.array([] if self.friction is None else [self.friction])
         tried = [np.append(logarithm, own) for logarithm in np.log(self.distances)]
         return min(tried, key=lambda each: float((self.residuals(each) ** 2).sum()))
 
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Least and greatest logarithms: friction must bear the tangential forces."""
         low, high = [self.distances[0]], [self.distances[-1]]
-        if self.with_friction:
+        if self.friction is not None:
             ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
-            own = float(self.grid.values("friction")[0])  # type: ignore[arg-type]
-            low.append(max(1.001 * float(np.max(ratios)) * own, 1e-3))
+            low.append(max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3))
             high.append(MOST_FRICTION)
         return np.log(np.array(low)), np.log(np.array(high))
 
@@ -174,10 +171,11 @@ class _Model:
         """log10 of the lives over the logarithm of the distance, at that of friction."""
         from scipy.interpolate import CubicSpline
 
-        friction = float(np.exp(logarithms[1])) if self.with_friction else None
-        if friction not in self.known:
-            self.known[friction] = _finite(_lives(self.grid, self.y, self.distances, friction))
-        return CubicSpline(np.log(self.distances), self.known[friction], axis=1)
+        own = None if self.friction is None else float(logarithms[1])
+        if own not in self.known:
+            friction = None if own is None else math.exp(own)
+            self.known[own] = _finite(_lives(self.grid, self.y, self.distances, friction))
+        return CubicSpline(np.log(self.distances), self.known[own], axis=1)
 
     def residuals(self, logarithms: FloatArray) -> FloatArray:
         """log10 of predicted over observed lives, shape (n,), at logarithms of the parameters."""
@@ -186,7 +184,7 @@ class _Model:
     def slopes(self, logarithms: FloatArray) -> FloatArray:
         """Their derivatives, shape (n, number of parameters)."""
         columns = [self.lives(logarithms)(logarithms[0], 1)]
-        if self.with_friction:
+        if self.friction is not None:
             columns.append(
                 (self.residuals(logarithms + np.array([0.0, STEP])) - self.residuals(logarithms)) / STEP
             )
