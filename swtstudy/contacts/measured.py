@@ -19,12 +19,13 @@ from swtstudy.units.at_rest import Contact
 from swtstudy.units.bodies import checked_body
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
+from swtstudy.units.loads import are_measured
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, rows
 from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import YIELD, Request
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
@@ -81,10 +82,17 @@ def headline(grid: PhysicalGrid, body: int, at_rest: bool) -> str:
 def _given(grid: PhysicalGrid) -> dict[str, tuple[Any, ...]]:
     """The values of what is given of contacts, but for what goes without saying."""
     values = {name: grid.pairs.get(name) or grid.values(name) for name in grid.rows if name != "body"}
+    unsaid, loads = [], grid.values("load")
+    if all(isinstance(load, Definition) for load in loads):
+        unsaid += ["frequency_ratio", "phase"]
+    if are_measured(loads):
+        # Its amplitudes are factors of what was measured.
+        factors = [name for name in values if grid.row(name).part in ("load", "bulk")]
+        unsaid += [name for name in factors if {*values[name]} == {LOOP_AMPLITUDE}]
     return {
         name: each
         for name, each in values.items()
-        if each and not all(map(grid.row(name).goes_without_saying, each))
+        if each and name not in unsaid and not all(map(grid.row(name).goes_without_saying, each))
     }
 
 

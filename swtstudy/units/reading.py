@@ -219,9 +219,9 @@ def _check_given(
             continue
         allowed = f"{own[name].allowed}; or {force}"
         if name in scaling:
-            column, unit = name.partition("_")[0], own[name].units
-            allowed = f"1 if the column {column} of the loop is in {unit}"
-            allowed += f"; or {force}, 1 if it is in {own[force].units}"
+            column = name.partition("_")[0]
+            length, unit = own[name].units or "lengths", own[force].units or "forces"
+            allowed = f"1 if the column {column} of the loop is in {length}; or {force}, 1 if it is in {unit}"
         report.of(name, "nothing", allowed)
 
 

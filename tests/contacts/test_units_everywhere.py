@@ -271,3 +271,22 @@ def test_the_command_shows_a_study(tmp_path, monkeypatch):
     assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
     done = CliRunner().invoke(main, ["show", "plane_contacts", "--profile", "paraboloid", "--body", "1"])
     assert "body: found '1'; allowed: no body in a study without units" in done.stderr
+
+
+def test_titles_leave_out_the_factors_of_a_measured_load():
+    """F_A = 1 N was said of forces of 60 N, and ψ and ω2/ω1 of a loop that has neither."""
+    load = swtstudy.LoadPath("rig", [[60.0, 200.0], [-60.0, 190.0]], mean_normal=200.0)
+    given = {name: value for name, value in RIG.items() if not name.endswith(("amplitude", "normal_force"))}
+    words = physical(**given, load=load)._headlines(1)[0]
+    assert "$F_0$ = 200" in words
+    assert "rig" in words
+    assert not any(symbol in words for symbol in ("F_A", "Q_A", "omega", "psi"))
+    twice = physical(**given, load=load, tangential_force_amplitude=2.0, normal_force_amplitude=1.0)
+    assert "$Q_A$ = 2" in twice._headlines(1)[0]
+    loop = swtstudy.LoadPath("loop", [[1.0, 0.0], [-1.0, 0.0]])
+    factors = {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0}
+    words = physical(**given, normal_force=200.0, load=loop, **factors)._headlines(1)[0]
+    assert "$Q_A$ = 1" in words
+    assert "psi" not in words
+    with pytest.raises(StudyError, match=r"normal_amplitude: .* in lengths; or .*, 1 if it is in forces"):
+        physical(**given, normal_force=200.0, load=loop, tangential_force_amplitude=1.0)
