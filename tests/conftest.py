@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
@@ -80,9 +81,13 @@ def signals_as_they_were() -> Iterator[None]:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Examples in docstrings have no place for a marker."""
+    """Mark as slow the later cases of tests of which the first are quick, and examples in docstrings."""
+    cases = Counter[str]()
     for item in items:
-        if item.name in LONG_EXAMPLES:
+        test = item.nodeid.partition("[")[0]
+        quick = item.get_closest_marker("quick")
+        cases[test] += 1
+        if item.name in LONG_EXAMPLES or (quick and cases[test] > quick.args[0]):
             item.add_marker(pytest.mark.slow)
 
 

@@ -197,6 +197,7 @@ def test_results_of_solve():
         dataset.swt.figure()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "imports",
     [

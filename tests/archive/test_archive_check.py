@@ -14,6 +14,7 @@ from swtstudy.cli import main
 from swtstudy.points.records import FAILED, MISSING
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
@@ -90,6 +91,7 @@ BAD_ATTRIBUTES = [
 ]
 
 
+@pytest.mark.quick(10)
 @pytest.mark.parametrize(("name", "value", "words"), BAD_ATTRIBUTES, ids=lambda value: str(value)[:25])
 def test_an_attribute_that_is_none_is_named_wherever_an_archive_is_read(
     small, small_text, tmp_path, name, value, words

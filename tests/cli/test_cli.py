@@ -83,6 +83,7 @@ def merged(tmp_path_factory):
     return tmp_path / "both.nc"
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "options",
     [

@@ -157,6 +157,7 @@ def test_a_body_that_is_not_known_is_asked_for(call, words):
         call(physical(**bodies, depth=0.01, tangential_amplitude=0.002))
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize(
     "parameters",
     [

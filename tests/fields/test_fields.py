@@ -104,6 +104,7 @@ def largest_memory(call):
     return peak
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_square_of_the_instants():
     """4,000 once took 2 GB at one point, the field at 7/8 half a GB."""
     swtstudy.stress_field(0.4, 0.0, 0.1, time=0.0)  # what is made once only

@@ -21,6 +21,7 @@ SCENES = {
 }
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
 def test_the_stress_cycle_makes_s(parameters):
     point = swtstudy.inspect_point(**parameters)
@@ -35,6 +36,7 @@ def test_the_stress_cycle_makes_s(parameters):
     assert (abs(point.force) <= point.compression + 1e-12).all()
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
 def test_springs_are_those_of_the_clip_rule(parameters):
     scene = read_scene(parameters)
@@ -49,6 +51,7 @@ def test_springs_are_those_of_the_clip_rule(parameters):
     np.testing.assert_allclose(found[1], tau[some], atol=1e-3)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
 def test_curves_are_those_of_the_stress_field(parameters):
     """Which comes from the springs by another way: the stress on the shown plane, the load on the surface."""

@@ -14,6 +14,7 @@ import swtstudy
 from swtstudy.figures.contour_labels import places_of_labels
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("width", [None, "column", pytest.param("page", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["contour", "bulk_stress", "fretting_map"])
 def test_labels_of_maps_are_whole_and_apart(name: str, width: str | None) -> None:

@@ -68,6 +68,7 @@ def test_lines_differ_in_colour_and_style(panels):
     assert len({str(line.get_linestyle()) + str(line._dash_pattern) for line in lines}) == len(lines)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]
 )
@@ -220,6 +221,7 @@ def test_lines_differ_in_greyscale():
     assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 
 
+@pytest.mark.slow
 def test_a_notebook_shows_a_figure_without_pyplot(one_panel):
     formatters = pytest.importorskip("IPython.core.formatters")
     # Of its own, a formatter knows nothing of matplotlib.

@@ -63,6 +63,7 @@ def drawn(figure: Figure) -> str:
     return " ".join(text.get_text() for text in figure.findobj(lambda each: hasattr(each, "get_text")))
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", NAMES)
 def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
     words = name.replace("\\\\", "\\")
@@ -75,6 +76,7 @@ def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
         assert words.replace("$", r"\$").replace("_", " ") in drawn(draw(found))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("unit", ["$$", pytest.param("$x", marks=pytest.mark.slow)])
 def test_units_are_written_as_they_are(tmp_path: Path, unit: str) -> None:
     study = Study.from_text(

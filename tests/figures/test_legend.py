@@ -38,6 +38,7 @@ def assert_whole(figure, entries):
     assert all(axes.bbox.width > 0.5 * 72 for axes in figure.axes)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("size", [5, 10, 24, 40])
 def test_no_entry_is_cut_in_any_size_of_letters(size):
     friction = np.arange(1, 8) / 10
@@ -81,6 +82,7 @@ def test_names_have_no_scale_however_many():
     assert hue_scale(xr.DataArray(np.arange(20.0))) is not None
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("width", [None, "column", "page"])
 def test_panels_stay_as_large_above_a_legend(width):
     dataset = lines_over([0.1, 0.2])

@@ -78,6 +78,7 @@ def test_a_slider_may_stop_at_a_phase_of_the_curve_but_for_rounding():
         assert float(live.redraw(phase=phase).s) == pytest.approx(float(alone.s), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_the_curve_has_each_period_of_s_alike():
     for ratio, periods in (("1/2", 1), (1, 2), ("3/2", 3), ("4/3", 8), (2, 4)):
         over = phases(ratio)
@@ -88,6 +89,7 @@ def test_the_curve_has_each_period_of_s_alike():
         assert len(over) == max(24, 12 * periods) + 1
 
 
+@pytest.mark.slow
 def test_a_slider_redraws():
     pytest.importorskip("ipywidgets")
     from swtstudy.figures.live import SLIDERS, Explorer
@@ -192,6 +194,7 @@ def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
         assert picture.size == pytest.approx(tuple(300.0 * inches), abs=1.0)
 
 
+@pytest.mark.slow
 def test_the_curve_is_fine_once_nothing_moves(monkeypatch):
     pytest.importorskip("ipywidgets")
     import asyncio

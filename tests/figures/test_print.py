@@ -79,6 +79,7 @@ def assert_printable(figure, width):
             assert not any(Bbox.intersection(a, b) for a, b in pairwise(visible))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("width", EACH_WIDTH)
 @pytest.mark.parametrize("name", FIGURES)
 def test_nothing_is_cut_and_nothing_covered(name, width):
@@ -140,6 +141,7 @@ def test_panels_with_an_axis_in_common_have_its_numbers_once(share, numbered):
     assert [one.yaxis.get_tick_params()["labelleft"] for one in panels] == numbered
 
 
+@pytest.mark.slow
 def test_letters_of_print_unless_the_user_wants_others():
     def size(**more):
         return drawn("lines", "column", **more).axes[0].xaxis.label.get_fontsize()
@@ -151,6 +153,7 @@ def test_letters_of_print_unless_the_user_wants_others():
     assert drawn("lines", None).axes[0].xaxis.label.get_fontsize() == 10.0
 
 
+@pytest.mark.slow
 def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
     from swtstudy.figures.style import save_figure
 

@@ -51,6 +51,7 @@ def swt(tension: Array, swing: Array, nu: Array | float, exponent: Array | float
     return high ** (2.0 - 2.0 * exponent) * swing ** (2.0 * exponent) / (1.0 - nu**2)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("exponent", [0.3, 0.5, 0.8])
 @pytest.mark.parametrize(("nu", "mean"), [(0.0, 0.0), (0.3, 0.15), (0.45, -0.04)])
 def test_at_rest_the_edge_has_a_closed_form(nu: float, mean: float, exponent: float) -> None:
@@ -88,6 +89,7 @@ def frictionless_s(nu: float, amplitude: float, bulk: tuple[float, float, float]
     return best
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("exponent", [0.5, pytest.param(0.3, marks=pytest.mark.slow), 0.8])
 @pytest.mark.parametrize(
     ("nu", "amplitude", "bulk"),
@@ -110,6 +112,7 @@ def test_without_friction_against_brute_force(
     assert frictionless_s(nu, amplitude, bulk, exponent) < found.s[0] * (1.0 + 1e-5)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("exponent", [0.3, 0.5, 0.8])
 def test_where_the_far_field_is_all_there_is_no_point_is_critical(exponent: float) -> None:
     """At ν = 1/2 a pressure makes no tension outside of the contact."""
@@ -131,6 +134,7 @@ def test_no_s_is_below_the_far_field() -> None:
         assert np.all(solve_points(batch, 1e-3).s >= far)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("profile", each_profile())
 def test_the_aligned_textbook_method_agrees(profile: str) -> None:
     batch = random_bulk(5, random_points(5, 2, profile, largest_term=2))
@@ -176,6 +180,7 @@ def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, f
         assert found.s_surface[0] == pytest.approx(float(plain.s[0]), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_the_body_says_the_same_as_the_line() -> None:
     batch = random_bulk(2, random_points(2, 3, largest_term=2))
     line = solve_points(batch, 1e-6)
@@ -229,6 +234,7 @@ def mirrored(found: Solution) -> tuple[Array, Array, Array]:
     return found.s, -found.critical_x, -found.critical_angle
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("p", "q"),
     [(1, 1), (2, 1), (1, 2), *(pytest.param(*each, marks=pytest.mark.slow) for each in ((3, 2), (1, 3)))],
@@ -440,6 +446,7 @@ def test_the_search_of_the_body_leaves_the_contact_and_knows_the_far_field() -> 
     assert float(at_line.swt) == body.swt
 
 
+@pytest.mark.slow
 def test_where_it_presses_tension_within_rounding_is_claimed() -> None:
     load = {"normal_amplitude": 0.0239, "tangential_amplitude": 0.3104, "phase": 5.497, "q": 2}
     pressed = with_bulk(points(**load, poisson_ratio=0.0622, friction=0.0752), 0.0567, -0.3527, 1.7071)

@@ -21,6 +21,7 @@ def random_load(rng: np.random.Generator) -> tuple[float, float, float]:
     return rng.uniform(0.0, 1.4), 10.0 ** rng.uniform(-2.0, 0.3), rng.uniform(0.0, 2.0 * np.pi)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("p", "q"), FREQUENCIES)
 def test_memory_diagram_is_the_clip_rule_in_its_second_and_any_later_period(p: int, q: int) -> None:
     rng = np.random.default_rng([p, q])
@@ -47,6 +48,7 @@ def test_no_spring_exceeds_coulombs_limit_and_the_edge_is_free(p: int, q: int) -
     assert np.all(np.abs(force) <= w + 1e-14)
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("p", "q"), FREQUENCIES)
 def test_something_slips_where_a_spring_in_contact_changes_its_offset(p: int, q: int) -> None:
     rng = np.random.default_rng([5, p, q])

@@ -103,6 +103,7 @@ def test_nothing_that_moves(name: str) -> None:
     assert solve_points(of_criterion(batch, name, 0.3)).s[0] == 0.0
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "profile"), [("fatemi_socie", "paraboloid"), ("findley", "rounded_flat")])
 def test_no_place_plane_or_instant_of_the_line_has_more(name: str, profile: str) -> None:
     """Plain loops; 48 points of six profiles were no more than 7e-8 above s, and 2e-3 below."""
@@ -592,6 +593,7 @@ def test_swt_has_no_sensitivity_to_tell_points_apart() -> None:
     assert len({*map(tuple, rows)}) == 3
 
 
+@pytest.mark.slow
 def test_on_the_line_a_plane_that_does_not_hold_the_y_axis_may_be_higher() -> None:
     own = random_points(3, 8, "paraboloid", largest_term=2)
     one = {"friction": 0.307, "poisson_ratio": 0.06, "normal_amplitude": 0.1, "tangential_amplitude": 1.46}

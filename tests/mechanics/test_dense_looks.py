@@ -16,6 +16,7 @@ LOOKS = overlooked.known_looks(RESULTS / "dense_looks.csv")
 FIRST = {name: (name, 1, 0) for name in overlooked.SCENES if (name, 1, 0) in LOOKS}
 
 
+@pytest.mark.quick(7)
 @pytest.mark.parametrize(
     ("rtol", "count"), [(1e-4, 4), *(pytest.param(rtol, 50, marks=pytest.mark.slow) for rtol in (1e-4, 1e-6))]
 )

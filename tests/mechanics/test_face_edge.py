@@ -39,6 +39,7 @@ TEARS = {
 }
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("values", TEARS.values(), ids=TEARS)
 def test_not_finite(values: tuple[float, ...]) -> None:
     batch = truncated(*values)
@@ -90,6 +91,7 @@ def test_the_limit_agrees_with_the_stress_beside_it(side: float, start: float) -
     assert swt[0, 0] == pytest.approx(max(tops), rel=1e-5)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     "values",
     [
@@ -167,6 +169,7 @@ LOST = {
 }
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(("batch", "tears"), LOST.values(), ids=LOST)
 def test_a_bulk_stress_that_pulls_while_contact_is_lost_makes_s_infinite(batch: Points, tears: bool) -> None:
     """It is all the tension that a plane needs: its strain swings with the pressure, without bound."""

@@ -199,6 +199,7 @@ def test_the_paraboloids_force_is_the_cube_of_the_radius() -> None:
     np.testing.assert_allclose(coordinate.radius(xi**3), xi, rtol=1e-14)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", INDENTERS)
 def test_at_constant_normal_load_both_controls_give_the_same(name: str) -> None:
     u = np.array([0.2, 0.6, 0.9])
@@ -332,6 +333,7 @@ def test_a_loop_in_mixed_control_needs_a_constant_normal_load(
     assert straight.swt[0] == pytest.approx(harmonic_one.swt[0], rel=2e-6)
 
 
+@pytest.mark.quick(8)
 @pytest.mark.parametrize("name", INDENTERS)
 @pytest.mark.parametrize(
     ("normal_force", "p", "q"), [(True, 1, 1), (False, 3, 2), (True, 1, 4), (False, 4, 1)]

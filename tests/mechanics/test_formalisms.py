@@ -44,6 +44,7 @@ def traction_of_springs(radius: Array, force: Array, r: Array) -> Array:
 POSITIONS = np.linspace(0.03, 1.27, 80)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
     depth, displacement = random_path(seed)
@@ -82,6 +83,7 @@ def test_force_of_every_spring_is_the_sum_of_jaegers_terms(seed: int) -> None:
     assert 3 in regimes  # partial slip with a memory
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(("p", "q"), [(1, 1), (1, 2), (5, 2)])
 @pytest.mark.parametrize("amplitudes", [(0.6, 0.5), (0.3, 1.1), (1.2, 0.7)])
 def test_the_package_goes_the_same_way_on_harmonic_paths(

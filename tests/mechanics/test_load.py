@@ -104,6 +104,7 @@ def test_phases_are_folded_into_one_period_of_s(p: int, q: int, period: float) -
     )
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("p", "q"), FREQUENCIES)
 def test_s_has_the_period_of_the_folded_phase_and_x_its_mirror(p: int, q: int) -> None:
     phases = np.array([0.4, 2.1, 3.6, 5.5, -1.2])

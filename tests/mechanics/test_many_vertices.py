@@ -25,6 +25,7 @@ def noisy(count: int, noise: float, seed: int, bulk: bool = False) -> LoadPath:
     return LoadPath("noisy", values + 0.5 * noise * np.random.default_rng(seed).normal(size=values.shape))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("noise", "bulk", "profile"),
     [(0.0, False, "cylinder"), (0.02, True, "paraboloid"), (0.1, False, "paraboloid")],

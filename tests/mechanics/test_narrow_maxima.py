@@ -136,6 +136,7 @@ FROZEN = [
 ]
 
 
+@pytest.mark.quick(12)
 @pytest.mark.parametrize("rtol", [pytest.param(1e-4, marks=pytest.mark.slow), 1e-6])
 @pytest.mark.parametrize(("profile", "values", "lengths", "s"), CASES + FROZEN)
 def test_the_largest_of_narrow_maxima(profile, values, lengths, s, rtol):

@@ -59,6 +59,7 @@ def test_statements_on_critical_points_leave_out_where_there_is_none() -> None:
         assert "nan" not in statement(some).measured
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("profile", ["paraboloid", "rounded_punch", "wavy_paraboloid"])
 @pytest.mark.parametrize("rest", [1e-4, pytest.param(1e-6, marks=pytest.mark.slow)])
 def test_hardly_any_tension_is_not_drowned_in_rounding(profile: str, rest: float) -> None:
@@ -75,6 +76,7 @@ def test_hardly_any_tension_is_not_drowned_in_rounding(profile: str, rest: float
     np.testing.assert_allclose(coarse, near, rtol=1e-6)
 
 
+@pytest.mark.slow
 def test_tension_within_rounding_is_within_s_error() -> None:
     # The cylinder's friction pulls by 2 μ p0 √N at most, p0 = 1/2: less than the bulk stress presses. Where
     # the edge leaves a place nothing acts across z, and rounding of that to the power of 0.2 is not small.

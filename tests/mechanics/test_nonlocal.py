@@ -127,6 +127,7 @@ def mean_of_field(scene, x, distance):
     return total / volume
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_volume_means_are_those_of_the_field(name):
     scene = scene_of(SCENES[name])
@@ -136,6 +137,7 @@ def test_volume_means_are_those_of_the_field(name):
     assert found.volume_error[0, 0] < 2e-3 * found.volume[0, 0]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_points_and_lines_are_those_of_the_field(name):
     """In both directions, by Simpson's rule in the root of the distance."""
@@ -416,6 +418,7 @@ def test_a_place_without_instants_of_its_own_keeps_one() -> None:
     np.testing.assert_array_equal(local_swt._packed(instants, kept), [[2.0], [3.0]])
 
 
+@pytest.mark.slow
 def test_a_mean_of_a_thousandth_of_swt_is_known_to_a_hundredth():
     """By as many more places as that takes; 65,536 places all over the half sphere say 4.06e-6 ± 0.02e-6."""
     load = {"p": 2, "normal_amplitude": 0.31101609, "tangential_amplitude": 0.00193947, "phase": 1.01996498}

@@ -390,6 +390,7 @@ CASES = [
 ]
 
 
+@pytest.mark.quick(16)
 @pytest.mark.parametrize(
     "rtol", [*(pytest.param(rtol, marks=pytest.mark.slow) for rtol in (1e-3, 1e-4)), 1e-6]
 )

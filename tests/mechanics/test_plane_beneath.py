@@ -110,6 +110,7 @@ def test_the_field_ends_at_the_surface_line(strip: object) -> None:
     np.testing.assert_array_equal(found, Body(scene, nodes_at(scene, instants), 400).stress(x, 7.0, 0.0))
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", PLANE_NAMES)
 def test_s_is_swt_of_the_body_over_all_planes(name: str) -> None:
     """At the critical point no plane is higher, also none whose normal leaves the section."""
@@ -148,6 +149,7 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
         assert means.line[0, k, 0] == pytest.approx(line, rel=3e-3)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("friction", "pull", "mean", "amplitude", "excess"),
     [(0.0, 0.0, 0.0, 0.05, 0.5215), (0.3, 0.05, 0.15, 0.15, 0.0745), (0.3, 0.2, 0.15, 0.15, 0.0)],
@@ -162,6 +164,7 @@ def test_beneath_a_load_that_pulsates_a_bulk_stress_is_worse(friction, pull, mea
     assert (abs(whole.position[2]) > 2.5) == (excess > 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["cylinder", pytest.param("rounded_flat", marks=pytest.mark.slow)])
 def test_the_search_of_the_body_stays_in_the_section(name: str) -> None:
     """It finds s of the line, nothing higher beneath it, and y = 0; far away swt of a bulk stress alone."""

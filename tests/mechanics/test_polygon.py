@@ -86,6 +86,7 @@ def test_both_components_are_exact_at_the_vertices() -> None:
         np.testing.assert_array_equal(one.tangential(at), load.corner_tangential[[row], : sides + 1])
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("less", [1e-15, 3e-15, 1e-14, 1e-13, 1e-12])
 def test_growth_nearly_along_the_slip_line(less: float) -> None:
     rng = np.random.default_rng(6)

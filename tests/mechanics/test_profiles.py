@@ -241,6 +241,7 @@ def test_stress_integrals_against_quadrature(indenter: oracle.Indenter) -> None:
             assert outer[1, k, j] == pytest.approx(load, abs=(1e-5 if near_axis else 1e-9) * largest)
 
 
+@pytest.mark.quick(6)
 @every_plain_shape
 def test_s_of_a_plain_shape_is_that_of_the_paraboloid(indenter: oracle.Indenter) -> None:
     name, value = FAMILIES[indenter.profile].plain or ("", 0.0)

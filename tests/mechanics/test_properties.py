@@ -92,6 +92,7 @@ def test_s_has_its_period_in_the_phase(point: Points) -> None:
     close(s, s[0], 3 * RTOL)
 
 
+@pytest.mark.slow
 @few
 @given(single_points())
 def test_s_rises_with_friction(point: Points) -> None:
@@ -123,6 +124,7 @@ def test_s_is_continuous_in_every_parameter(point: Points) -> None:
     assert np.all(np.abs(found.s - found.s[0]) <= found.s_error + found.s_error[0] + RTOL * found.s[0])
 
 
+@pytest.mark.slow
 @few
 @given(st.lists(single_points(("paraboloid",)), min_size=2, max_size=3))
 def test_chunks_do_not_matter(singles: list[Points]) -> None:

@@ -88,6 +88,7 @@ PHASES = [
 LENGTHS = [{}, {}, {}, {"flat_radius": 20.0}, {"flat_radius": 6.581116694018547}]
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(
     "case", [pytest.param(k, marks=[pytest.mark.slow] if k == 3 else []) for k in range(len(ROUNDED))]
 )

@@ -184,6 +184,7 @@ CIRCLES = [
 ]
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(("point", "ratio", "highest"), CIRCLES)
 def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
     solved = swtstudy.solve(**point, frequency_ratio=ratio)

@@ -146,6 +146,7 @@ def test_traction_obeys_coulombs_law(name: str, p: int, q: int) -> None:
     assert slips.any()
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", SHAPES)
 @pytest.mark.parametrize(("p", "q"), [(1, 1), (1, 2), (5, 2)])
 def test_stress_by_growth_in_stick_against_quadrature(name: str, p: int, q: int) -> None:
@@ -174,6 +175,7 @@ def test_stress_by_growth_in_stick_against_quadrature(name: str, p: int, q: int)
     assert grown > 0
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize(
     "phase", [1e-6, 0.01, np.pi - 1e-3, *(pytest.param(each, marks=pytest.mark.slow) for each in (1e-4, 1.0))]
 )

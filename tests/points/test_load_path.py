@@ -119,6 +119,7 @@ def test_a_loop_of_force_and_displacement_needs_a_constant_normal_load() -> None
     assert len(caught.value.mistakes) == 1
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("forces", [True, False])
 def test_harmonic_sums_are_what_two_oscillations_are(forces: bool) -> None:
     """The paper's own load, as a loop of one harmonic each."""

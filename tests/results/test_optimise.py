@@ -166,6 +166,7 @@ def singular_beyond(points, rtol):
     return replace(found, s=np.where(points.friction < 1.6, found.s, np.inf))
 
 
+@pytest.mark.slow
 def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
     monkeypatch.setattr("swtstudy.mechanics.solve_points", singular_beyond)
     found = optimise(over={"friction": (0.2, 2.0)}, rtol=1e-2)

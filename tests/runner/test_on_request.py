@@ -87,6 +87,7 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
     assert not kept_folder(path).exists()
 
 
+@pytest.mark.slow
 def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
     path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
     # Long cycles and small blocks of some thirty points.
@@ -166,6 +167,7 @@ def test_a_point_at_which_one_fails_is_told_and_keeps_its_s(tmp_path: Path, monk
     assert np.isfinite(mended.dissipation).all()
 
 
+@pytest.mark.slow
 def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) -> None:
     for name, phase, asked in (
         ("a", "0.5, 1.0", EVERY[:1]),

@@ -115,6 +115,7 @@ def test_a_solver_that_workers_cannot_import_is_said(wide, tmp_path, monkeypatch
         run(wide, tmp_path / "wide.nc", solver=sys.modules["made_here"].solver)
 
 
+@pytest.mark.slow
 def test_a_point_that_kills_its_worker_is_alone_in_failing():
     study = Study.from_text('title = "t"\n[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]')
     chunk = Chunk.of(unique_points(study.grid), [np.arange(2), np.arange(2, 4)])

@@ -95,6 +95,7 @@ def test_a_single_load_and_a_contact_in_python_have_blocks_too(tmp_path: Path) -
         contact.solve(blocks={"running": 1, "start-up": 1})
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("count", [2, 5, 10])
 def test_equal_cycles_in_a_round_have_so_many_times_the_damage(count: int) -> None:
     """As blocks of a single one have; exactly, since all of them are the same."""
@@ -178,6 +179,7 @@ def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
     assert Study.from_text(text.replace('hue = "load"\n', "").replace("damage_share", "repetitions")).figure
 
 
+@pytest.mark.slow
 def test_lives_of_shear_are_summed_as_those_of_tension(tmp_path: Path) -> None:
     """By hand; of one criterion alone, and beside the other one."""
     text = RIG.replace("[fixed]", "yield_strength = 350\n[fixed]\nnormal_sensitivity = 0.3")

@@ -33,6 +33,7 @@ def canonical(**parameters: object):
     return grid.canonical()
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("profile", SHAPES)
 def test_a_constant_normal_load_gives_the_same_s_for_a_force_and_its_displacement(profile: str) -> None:
     """Cattaneo and Mindlin: Q_A/(μF_0) = 1 − N(c), g(c) = 1 − U, here with U from the closed form of N."""
