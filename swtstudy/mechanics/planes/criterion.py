@@ -13,8 +13,7 @@ What the searches over places, planes and instants need of a criterion, and all 
 * `Criterion.curves`, whose maxima count, and `Criterion.of_maxima` or `Criterion.value`, f by these;
 * `Criterion.derivatives` and `Criterion.log_derivatives`, for Newton's method over planes, on any plane with
   `Swing.amplitude_jets`; `Criterion.powers`, which say how much of f may be hidden by what is not seen;
-* `Criterion.far_field`, f under a bulk stress alone; `Criterion.needs_tension`, and
-  `Criterion.knows_sharp_edge`: whether it is known where f has no bound;
+* `Criterion.far_field`, f under a bulk stress alone, and `Criterion.needs_tension`;
 * its parameters at some places: `Criterion.take`, `Criterion.reshape`, `Criterion.spread`. A scene holds one
   of shape (n,), a history over planes one that can be broadcast to its places.
 
@@ -56,8 +55,6 @@ class Criterion(Rows, ABC):
     swing: ClassVar[Swing]
     #: Whether it is 0 on planes that never are in tension.
     needs_tension: ClassVar[bool]
-    #: Whether `swtstudy.mechanics.line.singular_edge` is right for it.
-    knows_sharp_edge: ClassVar[bool]
 
     def reshape(self, *shape: int) -> Self:
         """The same for places of another shape."""
@@ -171,7 +168,6 @@ class Swt(Criterion):
     degree: ClassVar[int] = 2
     swing: ClassVar[Swing] = NORMAL_STRAIN
     needs_tension: ClassVar[bool] = True
-    knows_sharp_edge: ClassVar[bool] = True
 
     @classmethod
     def of(cls, exponent: FloatArray, modulus: FloatArray) -> Swt:
@@ -244,7 +240,6 @@ class ShearCriterion(Criterion):
     degree: ClassVar[int] = 1
     swing: ClassVar[Swing] = SHEAR_STRESS
     needs_tension: ClassVar[bool] = False
-    knows_sharp_edge: ClassVar[bool] = False
 
 
 @dataclass(frozen=True)
