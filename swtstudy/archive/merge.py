@@ -178,7 +178,8 @@ def _union(grids: list[Grid]) -> Grid:
     )
     samples = dict(zip(sampled[0], zip(*points, strict=True), strict=True)) if points else {}
     names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
-    every = [name for name in AXES if any(grid.values(name) for grid in grids)]
+    # That of a load which was measured is no value of its own.
+    every = [name for name in AXES if any(name in grid.names for grid in grids)]
     values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in every}
     others = [name for name in every if name not in (*names, *samples)]
     names += [name for name in others if len(values[name]) > 1]

@@ -83,8 +83,11 @@ def cycle_at(points: Points, parameters: Mapping[str, object]) -> Scene:
 
 
 def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
-    """The force that friction does not carry, or the normal force that pulls."""
+    """The force that friction does not carry, the normal force that pulls, or bodies that never touch."""
     control, ratio = points.control, float(Margins.of(points).force_ratio[0])
+    if not (control.tangential_force or control.normal_force):
+        found = f"{literal(parameters['normal_amplitude'])}, at which the bodies never touch"
+        return Mistake("normal_amplitude", found, "an indentation depth above 0 at some instant")
     pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
     name = next(name for name in pairs if name in PAIRS)
     found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"

@@ -167,7 +167,7 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
         ratio = np.where(lost, _over_points(dataset, dataset.prescribed_force_ratio), 0.0)
     worst = ratio.max()
     if not worst > 1.0 + _ROUNDING:
-        return ": the normal force pulls at some instant"
+        return ": the normal force pulls at some instant, or the bodies never touch"
     place = _place(dataset, ratio, besides=("tangential_force_amplitude", "body"))
     if not np.isfinite(worst):
         return f": there is a tangential force while the normal force is 0 or pulls{place}"

@@ -14,7 +14,6 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED
 from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
@@ -34,7 +33,7 @@ def slice_at(
     require_points(dataset)
     report = Report()
     chosen: dict[str, Any] = {}
-    rows = np.ones(dataset.sizes.get(SAMPLE, 0), bool)
+    kept = {dim: np.ones(size, bool) for dim, size in dataset.sizes.items()}
     for name, raw in places.items():
         if name not in dataset.coords or name not in AXES:
             known = [str(known) for known in dataset.coords if known in AXES]
@@ -47,11 +46,12 @@ def slice_at(
         found = [_index(dataset[name], element, tolerance, report) for element in elements]
         if name in dataset.dims:
             chosen[name] = found if several else found[0]
-        elif dataset[name].dims == (SAMPLE,):
+        for dim in {*dataset[name].dims} - {name}:
             values = dataset[name].values
-            rows &= np.isin(values, values[found])
+            kept[dim] &= np.isin(values, values[found])
     report.refuse()
-    return dataset.isel(chosen if rows.all() else {**chosen, SAMPLE: np.flatnonzero(rows)})
+    rows = {dim: np.flatnonzero(some) for dim, some in kept.items() if not some.all()}
+    return dataset.isel(rows | chosen)
 
 
 def require_points(dataset: xr.Dataset) -> None:

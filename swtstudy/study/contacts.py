@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,8 +62,12 @@ def _cycles(name: str, raw: Mapping[str, Any], loads: Mapping[str, Definition]) 
     table = raw.get("loads", {}).get(name) if isinstance(raw.get("loads"), dict) else None
     if not isinstance(table, dict) or table.get("keep_cycles") is not True:
         return [name]
-    own = [each for each in loads if each.startswith(f"{name} ") and each not in raw["loads"]]
-    return own or [name]
+    return kept_cycles(name, loads) or [name]
+
+
+def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
+    """Which of the names are those of cycles that are kept of a load."""
+    return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]
 
 
 def read_given(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
-from swtstudy.study.contacts import every_name, read_blocks, read_given, rows_of, told_of_lives
+from swtstudy.study.contacts import every_name, kept_cycles, read_blocks, read_given, rows_of, told_of_lives
 from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
@@ -156,9 +156,7 @@ def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
         tables = raw.get(f"{parameter}s", {})
         # Cycles that are kept one by one are loads of their own.
         if used.isdisjoint(tables) and not any(
-            table.get("keep_cycles") is True and each.startswith(f"{name} ")
-            for name, table in tables.items()
-            for each in used
+            table.get("keep_cycles") is True and kept_cycles(name, used) for name, table in tables.items()
         ):
             for name in tables:
                 words = f"a {parameter} that is not used"

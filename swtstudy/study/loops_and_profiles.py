@@ -60,12 +60,15 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
                     continue
                 signal = signal_from(folder / table["file"], name, table)
                 found[name] = signal.loop
-                found |= {each.name: each for each in signal.loops if table.get("keep_cycles") is True}
+                for each in signal.loops if table.get("keep_cycles") is True else ():
+                    if each.name in tables:
+                        report(f"loads.{each.name}", f"the name of a cycle of loads.{name}", "another name")
+                    found[each.name] = each
             else:
                 found[name] = _loop(name, table, kind)
         except StudyError as error:
-            for each in error.mistakes:
-                report(*_placed(each, key, kind))
+            for mistake in error.mistakes:
+                report(*_placed(mistake, key, kind))
     return found
 
 

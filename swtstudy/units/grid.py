@@ -249,7 +249,7 @@ class PhysicalGrid(ContactDetails, Grid):
         """See `Grid.strain_shares`."""
 
         def of(body: int) -> xr.DataArray:
-            return self.at_rest.each(lambda contact: contact.moduli.strain_share(body, self.plane))
+            return self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
 
         return self._of_points(of(0).where(self.bodies == 0, of(1)))
 

@@ -183,3 +183,20 @@ def test_different_loops_of_one_name_are_refused(tmp_path):
         run(Study.from_text(text), paths[-1], solver=stand_in.smooth)
     with pytest.raises(ConflictError, match=r"^rig: of this name each archive defines another one$"):
         merge(paths)
+
+
+def test_means_of_measured_loads_are_no_axis(tmp_path):
+    """Of two such loads each contact had been asked for with the mean of the other one."""
+    fixed = '[units]\nlength = "mm"\nforce = "N"\nstress = "MPa"\n[fixed]\n'
+    fixed += "young_modulus = 73100\npoisson_ratio = 0.33\nradius = 50\n"
+    loads = "".join(
+        f"[loads.{name}]\nabsolute = true\nvertices = [[{mean}, 40], [{mean}, -40]]\n"
+        for name, mean in (("a", 200), ("b", 300))
+    )
+    archives = []
+    for friction in (0.5, 0.6):
+        text = f'title = "rig"\nrtol = 1e-2\n{fixed}'
+        text += f'friction = {friction}\n[axes]\nload = ["a", "b"]\n{loads}'
+        archives.append(tmp_path / f"{friction}.nc")
+        run(Study.from_text(text), archives[-1], solver=stand_in.smooth)
+    assert merge(archives).sizes == {"load": 2, "friction": 2}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from folders import STUDIES
-from made_up import made_up_audit, made_up_point
+from made_up import made_up_audit, made_up_audit_point, made_up_point
 
 from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
@@ -298,3 +298,15 @@ def test_a_sample_has_every_point_at_most_once():
     rows = drawn_rows(large, 40, seed=3)
     assert len({*rows.tolist()}) == len(rows) == 40
     assert not np.array_equal(rows, drawn_rows(large, 40, seed=4))
+
+
+def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_path, monkeypatch):
+    monkeypatch.setattr("swtstudy.paper.audit.point.audit_point", made_up_audit_point)
+    study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
+    first = audit_study(study, path, points=5, seed=1, workers=1)
+    second = audit_study(study, path, points=3, seed=2, workers=1)
+    assert (first.sizes["sample"], second.sizes["sample"]) == (5, 3)
+    assert audited_points(open_audit(path)).keys() == {*audited_points(first), *audited_points(second)}
+    save(open_audit(path).assign_attrs(solver_version="1"), path)
+    audit_study(study, path, points=1, seed=2, workers=1)
+    assert open_audit(path).sizes["sample"] == 1

@@ -14,6 +14,7 @@ import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.merge import merge
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
+from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.reading import read_grid
 from swtstudy.points.unique import unique_points
 from swtstudy.vocabulary.parameters import CONTROLS, Control
@@ -391,3 +392,20 @@ def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
 def test_vertices_that_are_no_numbers_are_a_mistake(vertices: object) -> None:
     with pytest.raises(StudyError, match=r"vertices of mine: found .*; allowed: a list of pairs of numbers"):
         LoadPath("mine", vertices)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("profile", [{}, {"profile": "rounded_punch", "flat_radius": 0.5}])
+@pytest.mark.parametrize("more", [{}, {"bulk_stress_mean": 0.05}])
+def test_bodies_that_never_touch_are_said_and_leave_their_neighbours_alone(
+    profile: dict[str, object], more: dict[str, float]
+) -> None:
+    """The first of two points gave its s to the second one."""
+    fixed = {"load": LoadPath("apart", [[-1.0, 0.0], [-0.2, 1.0], [-1.0, -1.0]]), **profile, **more}
+    found = swtstudy.solve(normal_amplitude=[4.0, 5.0, 10.0], rtol=1e-3, quantities=["von_mises"], **fixed)
+    alone = swtstudy.solve(normal_amplitude=4.0, rtol=1e-3, **fixed)
+    assert found.s[0] == pytest.approx(alone.s.item(), rel=1e-6)
+    assert np.isnan(found.s[1:]).all()
+    assert np.isnan(found.von_mises[1:]).all()
+    assert (found.regime[1:] == REGIMES.index("no_equilibrium")).all()
+    with pytest.raises(StudyError, match=r"normal_amplitude: found 10\.0, at which the bodies never touch"):
+        swtstudy.inspect_point(normal_amplitude=10.0, **fixed)

@@ -203,3 +203,19 @@ def test_lives_of_shear_are_summed_as_those_of_tension(tmp_path: Path) -> None:
     assert f"repeated {times} times to a crack; running does" in line
     assert " times to a crack by Fatemi and Socie; running does" in line
     assert "of the damage; repeated" in line
+
+
+RECORD = 'file = "rig.csv"\nabsolute = true\nrecorded_cycles = 2\nkeep_cycles = true\n'
+
+
+def test_cycles_that_are_kept_are_those_of_their_load_alone(tmp_path: Path) -> None:
+    """Cycles of "rig b" had counted as those of "rig", too."""
+    (tmp_path / "rig.csv").write_text("normal,tangential\n" + "200,0\n210,60\n190,-60\n" * 2)
+    both = f'[loads.rig]\n{RECORD}[loads."rig b"]\n{RECORD}' + block("rig", 25) + block("rig b", 1)
+    found = Study.from_text(RIG + both, "s", tmp_path).grid.blocks
+    assert [each.load for each in found] == ["rig 1", "rig 2", "rig b 1", "rig b 2"]
+    same = f'[loads."rig 2"]\n{START.partition(chr(10))[2]}[loads.rig]\n{RECORD}' + block("rig", 25)
+    with pytest.raises(
+        StudyError, match=r"loads.rig 2: found the name of a cycle of loads.rig; allowed: another"
+    ):
+        Study.from_text(RIG + same, "s", tmp_path)

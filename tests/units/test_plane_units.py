@@ -165,3 +165,16 @@ def test_mistakes_in_a_study_with_units(old: str, new: str, line: str) -> None:
     with pytest.raises(StudyError) as error:
         Study.from_text(RIG.replace(old, new))
     assert line in str(error.value)
+
+
+def test_beside_discs_strips_have_their_own_share_of_the_strain() -> None:
+    """Those of a grid with both had been taken for discs."""
+    different: dict[str, Any] = {"young_modulus": (E, 1.02 * E), "poisson_ratio": (0.3, 0.32), "similar": 0.1}
+    more = {"tangential_force_amplitude": 400.0, "bulk_stress_amplitude": 100.0, "contact_length": 1.0}
+    alone = swtstudy.physical(**GIVEN | different, **more)
+    both = swtstudy.physical(**GIVEN | different | {"profile": ["paraboloid", "cylinder"]}, **more)
+    shares = both.grid.strain_shares.reshape(2, 2)
+    np.testing.assert_allclose(shares[1], alone.grid.strain_shares, rtol=1e-12)
+    assert abs(shares[0, 0] - shares[1, 0]) > 1e-3
+    found = alone.solve(1e-2)
+    assert found.swt.slice(poisson_ratio=0.32).sizes == {"body": 1}

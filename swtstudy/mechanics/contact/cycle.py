@@ -226,7 +226,8 @@ def _push(stack: Memory, where: BoolArray, piece: Memory) -> None:
 def out_of_equilibrium(load: Load, control: Control) -> BoolArray:
     """True where there is no equilibrium at some instant, so that there is no stationary cycle.
 
-    A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding.
+    A tangential force needs |T| ≤ N, and a normal force N ≥ 0, both beyond rounding. Bodies that never touch
+    have none either.
 
     Parameters
     ----------
@@ -240,7 +241,9 @@ def out_of_equilibrium(load: Load, control: Control) -> BoolArray:
     Shape (n,).
     """
     least = -ROUNDING * load.largest_normal
-    lost = load.least_normal < least if control.normal_force else np.zeros(len(load), dtype=bool)
+    lost = load.largest_normal <= 0.0
+    if control.normal_force:
+        lost = lost | (load.least_normal < least)
     if control.tangential_force:
         instants = load.turning_instants()
         # The normal force has none where the bodies are apart.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -12,8 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.attributes import defined_in
+from swtstudy.paper.audit.report import audit_dataset, audited_points, open_audit
+from swtstudy.points.canonical import ROW, Definitions
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     from swtstudy.paper.audit.point import AuditedPoint
@@ -38,8 +42,8 @@ def audit_study(
     study
         From `Study.from_toml`.
     path
-        netCDF file for the audit. Points that it already holds are not audited again: a killed audit goes on,
-        and one with more points extends it.
+        netCDF file for the audit. Points that it already holds, by the same version of the solver, are kept,
+        and not audited again: a killed audit goes on, and one with more points extends it.
     points
         Number of points to draw at random without repetition; all if the study has fewer.
     seed
@@ -54,8 +58,8 @@ def audit_study(
     Returns
     -------
     xarray.Dataset
-        Along ``sample``: s, the body's maximum ``s_body``, where it is, on which plane, and ``verdict``, the
-        assumption that it breaks.
+        Of the points that are drawn, along ``sample``: s, the body's maximum ``s_body``, where it is, on
+        which plane, and ``verdict``, the assumption that it breaks.
 
     Raises
     ------
@@ -65,27 +69,25 @@ def audit_study(
     require_study(study)
     from swtstudy.archive.netcdf import save
     from swtstudy.paper.audit.point import audit_point
-    from swtstudy.paper.audit.report import audit_dataset, audited_points, open_audit
     from swtstudy.runner.workers import start_workers
 
-    rows, definitions = drawn_rows(study.grid, points, seed), study.grid.definitions
+    keys = drawn_rows(study.grid, points, seed).tolist()
+    known, definitions = _known(path, study.grid.definitions)
     audit = partial(audit_point, definitions=definitions, dense=dense)
-    keys = rows.tolist()
-    known: dict[tuple[float, ...], AuditedPoint] = {}
-    if Path(path).exists():
-        known = audited_points(open_audit(path))
-    if dense:
-        known = {
-            key: each for key, each in known.items() if np.isfinite(each.s_dense) or not np.isfinite(each.s)
-        }
-    missing = [key for key in keys if key not in known]
+
+    def lacks(key: tuple[float, ...]) -> bool:
+        point = known.get(key)
+        return point is None or (dense and bool(np.isnan(point.s_dense) and np.isfinite(point.s)))
+
+    missing = [key for key in keys if lacks(key)]
     count = progress or (lambda finished: None)
     count(len(keys) - len(missing))
 
-    def dataset() -> xr.Dataset:
-        done = [key in known for key in keys]
-        found = audit_dataset(rows[done], [known[key] for key in keys if key in known], definitions)
-        return found.assign_attrs(title=study.title, study=study.text, seed=seed)
+    def dataset(some: Iterable[tuple[float, ...]]) -> xr.Dataset:
+        done = [key for key in some if key in known]
+        found = audit_dataset(np.array(done, ROW), [known[key] for key in done], definitions)
+        own = {"title": study.title, "study": study.text, "seed": seed, "solver_version": SOLVER_VERSION}
+        return found.assign_attrs(own)
 
     saved = time.monotonic()
     try:
@@ -94,8 +96,28 @@ def audit_study(
                 known[key] = point
                 count(1)
                 if time.monotonic() - saved > _SAVE_EVERY:
-                    save(dataset(), path)
+                    save(dataset(known), path)
                     saved = time.monotonic()
     finally:
-        save(dataset(), path)
-    return dataset()
+        save(dataset(known), path)
+    return dataset(keys)
+
+
+def _known(
+    path: str | PathLike[str], own: Definitions
+) -> tuple[dict[tuple[float, ...], AuditedPoint], Definitions]:
+    """The points of an audit that is there, and what is defined in it and by the study.
+
+    None of another version of the solver, nor if one name stands for two things.
+    """
+    if not Path(path).exists():
+        return {}, own
+    audit = open_audit(path)
+    # An audit of the time before versions were written down is taken as it is.
+    current = audit.attrs.get("solver_version", SOLVER_VERSION) == SOLVER_VERSION
+    both = {each.code: each for named in defined_in(audit.attrs).values() for each in named.values()}
+    both |= own
+    names = {(each.parameter, each.name) for each in both.values()}
+    if not current or len(names) < len(both):
+        return {}, own
+    return audited_points(audit), both
