@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import socket
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
@@ -155,6 +155,7 @@ def _acquire(path: Path) -> int:
             os.close(handle)
             target = path.parent.with_suffix("")
             raise LockedError(f"{target} is being written by {holder}; wait until it has finished") from None
-        if path.exists() and os.stat(path).st_ino == os.fstat(handle).st_ino:
-            return handle
+        with suppress(FileNotFoundError):
+            if os.stat(path).st_ino == os.fstat(handle).st_ino:
+                return handle
         os.close(handle)

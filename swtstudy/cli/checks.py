@@ -143,7 +143,7 @@ def check(results: str, output: str | None) -> None:
 @click.command(epilog=examples("swtstudy audit figure3 --points 100"))
 @with_studies
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
-@click.option("--seed", default=0, show_default=True, help="Seed of the random numbers.")
+@click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of random numbers.")
 @click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
 @with_workers
 @click.option(

@@ -108,7 +108,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     for line in _as_read(lines, line_length()):
         click.echo(line)
     known = {REGIMES[int(regime)] for regime in dataset.regime.values.ravel()}
-    for name in known & WHY.keys():
+    for name in (each for each in WHY if each in known):
         click.echo(wrapped(f"{name}: {WHY[name]}", line_length()), err=True)
 
 
@@ -180,6 +180,10 @@ def show(
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    from swtstudy.figures.style import save_figure
+    from swtstudy.vocabulary.files import check_writable
+
+    check_writable(output)
     words = ""
     if study is None:
         figure = _point_or_profile(values, smoothing or 0.0, style, width)
@@ -187,10 +191,6 @@ def show(
         figure, words = _load(study, str(values["load"]), style, width)
     else:
         figure = _of_study(study, values, smoothing, body, style, width)
-    from swtstudy.figures.style import save_figure
-    from swtstudy.vocabulary.files import check_writable
-
-    check_writable(output)
     save_figure(figure, output, style)
     if words:
         click.echo(words)

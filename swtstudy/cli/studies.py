@@ -117,10 +117,11 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
 
 def _quantities(study: Study) -> Iterator[str]:
     from swtstudy.vocabulary.quantities import DISTANCE, distance_of
+    from swtstudy.vocabulary.wording import unit_words
 
     if study.asked.items:
-        unit = study.grid.row(DISTANCE).units.replace("1", "")
-        asked = [f"{item} {unit}".strip() if distance_of(item) else item for item in study.asked.items]
+        unit = unit_words(study.grid.row(DISTANCE).units)
+        asked = [f"{item}{unit}" if distance_of(item) else item for item in study.asked.items]
         yield f"  quantities         {', '.join(asked)}"
 
 

@@ -332,8 +332,9 @@ class InUnits:
         from swtstudy.fields.stress import stress_field
 
         own = self._measured(body)
+        places = own.places(x=x, y=y, z=z)
         with self._in_equilibrium(body):
-            field = stress_field(**own.places(x=x, y=y, z=z), time=time, **self.parameters(body))
+            field = stress_field(**places, time=time, **self.parameters(body))
         return own.with_units(field)
 
     def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
@@ -344,8 +345,9 @@ class InUnits:
         from swtstudy.fields.stress import swt_field
 
         own = self._measured(body)
+        places = own.places(x=x, y=y, z=z)
         with self._in_equilibrium(body):
-            field = swt_field(**own.places(x=x, y=y, z=z), **self.parameters(body))
+            field = swt_field(**places, **self.parameters(body))
         return own.with_units(field, {"s_local": KINDS[own.criterion].name})
 
     def inspect_point(self, body: int | str = 1) -> xr.Dataset:

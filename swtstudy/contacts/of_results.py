@@ -17,11 +17,12 @@ from swtstudy.study.sample import read_sample
 from swtstudy.study.shipped import find_study
 from swtstudy.study.tables import read_structure
 from swtstudy.units.grid import PhysicalGrid
+from swtstudy.units.labels import read_units
 from swtstudy.units.material import STRENGTH
-from swtstudy.units.rows import MEAN_LOADS, REST_DEPENDS_ON
+from swtstudy.units.rows import MEAN_LOADS, REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import AXES, PAIRS
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -103,7 +104,11 @@ def _firsts(axes: Mapping[str, Any], raw: Mapping[str, Any], folder: Path) -> di
     found = {name: _first(axis) for name, axis in axes.items() if name not in (DISTANCE, "body")}
     if "sample" not in raw:
         return found
-    sample, names = read_sample(raw["sample"], folder, Report(), {}, AXES)
+    # Ranges are those of the units.
+    units = read_units(raw["units"], Report()) if isinstance(raw.get("units"), dict) else None
+    known = rows(units) if units else PARAMETERS
+    single = {name: row for name, row in known.items() if name not in (DISTANCE, "body")}
+    sample, names = read_sample(raw["sample"], folder, Report(), {}, single)
     return found | {name: sample.values[name][0] if sample else None for name in names}
 
 

@@ -17,6 +17,7 @@ from swtstudy.figures.sheet import Figure, Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.requested import require
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
 from swtstudy.study.figure import LINE_KINDS, NO_AXIS, FigureLayout, wrong_axes, wrong_layout
@@ -172,6 +173,7 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
     if "regime" in dataset:
         shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
     if validity:
+        require(dataset, "s")
         shown["outside"] = outside(dataset, values)
     return xr.Dataset({name: values for name, values in shown.items() if values is not None})
 

@@ -171,7 +171,8 @@ def draw_lines(
         curve = part.value.values
         gaps = _NONE
         if may_jump(y) and not flag_words(whole):
-            gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y)
+            with np.errstate(divide="ignore"):
+                gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y)
         at, broken = np.insert(x, gaps, np.nan), np.insert(curve.astype(float), gaps, np.nan)
         across, up = (broken, at) if layout.kind == "life" else (at, broken)
         (line,) = axes.plot(across, up, **look)
@@ -216,7 +217,8 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it in
     its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
     """
-    step = np.diff(curve)
+    with np.errstate(invalid="ignore"):
+        step = np.diff(curve)  # none of two infinite lives
     if name == "critical_angle":
         step = (step + _HALF_TURN / 2) % _HALF_TURN - _HALF_TURN / 2  # a plane has no direction
     known = curve[np.isfinite(curve)]

@@ -26,6 +26,7 @@ from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.ticks import tick_in_pi
 from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.points.values import read_value
 from swtstudy.solving import solve
 from swtstudy.vocabulary.choices import FAMILIES
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
@@ -80,12 +81,13 @@ class LiveFigure:
         StudyError
             A ValueError with every mistake in the parameters, or that they have no equilibrium.
         """
-        phase = float(parameters.get("phase", PARAMETERS["phase"].default))  # type: ignore[arg-type]
+        dataset = load_and_springs(**parameters)  # names what is wrong
+        row = PARAMETERS["phase"]
+        phase = float(read_value(row, parameters.get("phase", row.default)))  # type: ignore[arg-type]
         curve = phases(parameters.get("frequency_ratio", 1), _FINER if fine else 1)
         # A phase that is one of these but for rounding takes its place.
         over = {"phase": np.union1d(curve[np.abs(curve - phase) > _ROUNDING], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
-        dataset = load_and_springs(**parameters)
         load, springs, over_phase = self.figure.axes
         with styled():
             for axes in self.figure.axes:
@@ -112,7 +114,8 @@ class LiveFigure:
 
 def phases(frequency_ratio: object, finer: int = 1) -> FloatArray:
     """Phases from 0 to 2π for the curve: those that have the same s by symmetry are solved once."""
-    ratio = Fraction(str(frequency_ratio))
+    ratio = read_value(PARAMETERS["frequency_ratio"], frequency_ratio)
+    assert isinstance(ratio, Fraction)
     periods = ratio.numerator * (2 if ratio.denominator % 2 else 1)
     return np.linspace(0.0, 2.0 * np.pi, periods * max(_LEAST, _PHASES // periods) * finer + 1)
 

@@ -21,7 +21,7 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import axis_words, place_words
 
 #: The most panels of a scatter plot side by side.
@@ -40,12 +40,11 @@ _DASHES = (":", "-", "--")
 
 def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """Points of the quantities over every sampled parameter, a panel each."""
-    names = [str(name) for name in dataset.coords if name in PARAMETERS and dataset[name].dims == (SAMPLE,)]
+    names = [str(name) for name in dataset.coords if name in AXES and dataset[name].dims == (SAMPLE,)]
     sheet = Sheet(len(layout.y), len(names), width, most=_ACROSS)
     figure = sheet.figure()
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
-        words = outside(dataset, quantity(dataset, y)).attrs["long_name"]
         for one, name in zip(axes[row], names, strict=True):
             for index, (label, part) in enumerate(_by(dataset, layout.hue)):
                 drawn = quantity(part, y)
@@ -54,6 +53,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 faint = min(1.0, (_OPAQUE / len(values)) ** 0.5)
                 one.plot(x, values, **_look(index), alpha=faint, label=label)
                 if layout.validity:
+                    words = outside(dataset, quantity(dataset, y)).attrs["long_name"]
                     out = outside(part, drawn).values
                     mark_points(one, x[out], values[out], words)
                 if at is not None:
@@ -133,7 +133,7 @@ def _edges(values: xr.DataArray) -> list[float]:
 
 def _scale_axes(axes: Axes, dataset: xr.Dataset, name: str, values: xr.DataArray) -> None:
     tick_flags(axes, flag_words(values))
-    if PARAMETERS[name].units == "rad":
+    if AXES[name].units == "rad":
         tick_in_pi(axes.xaxis, float(dataset[name].min()), float(dataset[name].max()))
 
 

@@ -29,6 +29,8 @@ _LONGEST_NAME = 24
 
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
 #: use them as labels. The unit 1 is left out of a Dataset.
+#: Data variables that results have where something is given that they are about.
+MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio")
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",

@@ -162,11 +162,12 @@ def share(part: float) -> str:
 
     Examples
     --------
-    >>> share(0.5), share(0.9996), share(9e-5)
-    ('50 %', '99.96 %', '0.009 %')
+    >>> share(0.5), share(0.9996), share(9e-5), share(1.2)
+    ('50 %', '99.96 %', '0.009 %', '120 %')
     """
     percent = 100.0 * part
-    digits = 0 if percent in (0.0, 100.0) else max(0, -math.floor(math.log10(min(percent, 100 - percent))))
+    inside = 0.0 < percent < 100.0
+    digits = max(0, -math.floor(math.log10(min(percent, 100 - percent)))) if inside else 0
     return f"{percent:.{digits}f} %"
 
 

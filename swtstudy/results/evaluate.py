@@ -120,7 +120,7 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
     quantity_error : its estimated error.
     """
     try:
-        place = reference(y)
+        place = reference(str(y))
     except ValueError as error:
         allowed = f"a data variable of these results, or {QUANTITY}"
         raise StudyError([Mistake("figure.y", f"{literal(y)} ({error})", allowed)]) from None

@@ -74,7 +74,8 @@ def fit(
         A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the rounds
         of the load to a crack; a row for each test. Tests without a crack have no life: leave them out.
     y
-        "cycles_volume", "cycles_point" or "cycles_line": of which mean. The latter two straight down.
+        "cycles_volume", "cycles_point" or "cycles_line": of which mean. The latter two straight down. By
+        Fatemi and Socie these with "FS_" before them.
     friction
         Whether friction is fitted, too; the study's is where that begins.
     confidence
@@ -99,6 +100,13 @@ def fit(
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
     grid, observed = _read(study, tests, 2 if friction else 1)
+    known = [name for name in NONLOCAL_LIVES if name in grid.made(_asked(DISTANCES))]
+    if y not in known:
+        raise StudyError([Mistake("y", literal(y), f"one of {', '.join(known)}")])
+    own = plain_number(grid.values("friction")[0])
+    if friction and not 0.0 < own < MOST_FRICTION:
+        allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
+        raise StudyError([Mistake("friction", f"{own:g}", allowed)])
     model = _Model.of(grid, np.log10(observed), y, friction)
     start = model.start()
     low, high = model.bounds()
@@ -163,7 +171,11 @@ class _Model:
         low, high = [self.distances[0]], [self.distances[-1]]
         if self.friction is not None:
             ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
-            low.append(max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3))
+            least = max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3)
+            if not least < MOST_FRICTION:
+                found = f"tangential forces that need {least:.3g} at least"
+                raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
+            low.append(least)
             high.append(MOST_FRICTION)
         return np.log(np.array(low)), np.log(np.array(high))
 
@@ -206,12 +218,16 @@ def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | 
     """log10 of the lives of n tests at k critical distances, shape (n, k): of both bodies the shorter one."""
     if friction is not None:
         grid = replace(grid, fixed={**grid.fixed, "friction": friction})
-    asked = Request((), tuple(distances.tolist()), is_axis=True, counts=True)
-    found = solve_grid(grid, RTOL, asked)[y]
+    found = solve_grid(grid, RTOL, _asked(distances))[y]
     if "direction" in found.dims:
         found = found.sel(direction=DIRECTIONS[0])
     others = [dim for dim in found.dims if dim not in (SAMPLE, DISTANCE)]
     return np.asarray(np.log10(found.min(others).transpose(SAMPLE, DISTANCE).values))
+
+
+def _asked(distances: FloatArray) -> Request:
+    """What lives at distances are computed with."""
+    return Request((), tuple(distances.tolist()), is_axis=True, counts=True)
 
 
 def _intervals(slopes: FloatArray, residuals: FloatArray, confidence: float) -> FloatArray:
@@ -312,6 +328,10 @@ def _of_tests(mistake: Mistake) -> Mistake:
 def _columns(tests: object) -> dict[str, list[Any]]:
     """The columns of a table of tests by name."""
     if isinstance(tests, Mapping):
+        lone = [name for name, values in tests.items() if isinstance(values, str) or np.ndim(values) != 1]
+        if lone:
+            allowed = "a list, with a value for each test"
+            raise StudyError([Mistake(f"tests.{name}", literal(tests[name]), allowed) for name in lone])
         return {str(name): list(values) for name, values in tests.items()}
     if not isinstance(tests, str | PathLike):
         raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])

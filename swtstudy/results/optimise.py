@@ -14,17 +14,28 @@ import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.labelled import ATTRIBUTES
+from swtstudy.points.labelled import ATTRIBUTES, MARGINS
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
 from swtstudy.units.variables import LIVES
-from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, is_rtol, literal, nearest
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    ALLOWED_SEED,
+    DEFAULT_RTOL,
+    LARGEST_SEED,
+    Report,
+    is_rtol,
+    is_whole,
+    literal,
+    nearest,
+)
 from swtstudy.vocabulary.quantities import NAMED, Request
 
+_NOT_ALWAYS = ("s_error", "run", *MARGINS)
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.
 MINIMISED = (
-    *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in ("s_error", "run")),
+    *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in _NOT_ALWAYS),
     *NAMED,
 )
 #: Steps of the neighbourhood, as fractions of a range.
@@ -134,10 +145,11 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    report = Report()
+    report, known = Report(), MINIMISED
     with report:
         box = read_box(over, parameters)
-    check_asked(report, minimise, rtol, seed)
+        known += box.corners.margins
+    check_asked(report, minimise, rtol, seed, known)
     report.refuse()
     return optimum_in(
         box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
@@ -155,13 +167,11 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
     return dataset_of(box, found, minimise, solve).assign_attrs(words)
 
 
-def check_asked(
-    report: Report, minimise: object, rtol: object, seed: object, known: Collection[str] = MINIMISED
-) -> None:
+def check_asked(report: Report, minimise: object, rtol: object, seed: object, known: Collection[str]) -> None:
     """Report mistakes in how an optimum is asked for; ``known`` may be minimised."""
     if minimise not in known:
         report("minimise", literal(minimise), nearest(str(minimise), known))
     if not is_rtol(rtol):
         report("rtol", literal(rtol), ALLOWED_RTOL)
-    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**32:
-        report("seed", literal(seed), "a whole number from 0 to 2**32 - 1")
+    if not is_whole(seed, 0, LARGEST_SEED):
+        report("seed", literal(seed), ALLOWED_SEED)

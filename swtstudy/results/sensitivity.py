@@ -13,7 +13,16 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.design import saltelli
 from swtstudy.units.results import measures
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, is_number, literal
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_SEED,
+    LARGEST_SEED,
+    Mistake,
+    Report,
+    StudyError,
+    is_number,
+    is_whole,
+    literal,
+)
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
 
@@ -64,6 +73,8 @@ def sensitivity(
     """
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
+    if not is_whole(seed, 0, LARGEST_SEED):
+        raise StudyError([Mistake("seed", literal(seed), ALLOWED_SEED)])
     names, size = _design(dataset)
     own = measures(dataset)
     quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])

@@ -56,7 +56,9 @@ PLAIN = Form()
 def form_of(given: Mapping[str, Any]) -> Form:
     """The form by what is given of ``separator``, ``decimal`` and ``columns``, the headers."""
     separator, decimal = given.get("separator") or PLAIN.separator, given.get("decimal") or PLAIN.decimal
-    return Form(separator, decimal, dict(given.get("columns") or {}))
+    # Those of the file are stripped, too.
+    headers = {own: str(header).strip() for own, header in (given.get("columns") or {}).items()}
+    return Form(separator, decimal, headers)
 
 
 def check_form(given: Mapping[str, Any], names: Sequence[str], report: Report) -> None:
@@ -149,7 +151,7 @@ def _cells(text: str, line: int, width: int, form: Form, source: str) -> pd.Data
             warnings.simplefilter("error", pd.errors.ParserWarning)
             table = pd.read_csv(io.StringIO(text), names=range(width + 1), index_col=False, **options)
     except pd.errors.ParserWarning:
-        cells = text.splitlines()[line].count(form.separator) + 1
+        cells = text.split("\n")[line].count(form.separator) + 1
         raise StudyError([_too_long(cells, width, line + 1, source)]) from None
     except (pd.errors.ParserError, ValueError) as error:
         raise StudyError([_unreadable(str(error), width, source)]) from None

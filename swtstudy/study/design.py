@@ -161,7 +161,7 @@ def read_distribution(parameter: Parameter, raw: object, key: str, report: Repor
     known = ("distribution", "low", "high", *DISTRIBUTIONS[kind])
     numbers: dict[str, float] = {}
     sound = True
-    for name in raw.keys() - {*known}:
+    for name in (each for each in raw if each not in known):
         report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
         sound = False
     for name in known[1:]:

@@ -125,6 +125,8 @@ def place_of(mistake: Mistake) -> str:
 
 #: Columns of the file of a profile.
 PROFILE_COLUMNS = ("radius", "height")
+#: What is said of a file.
+OF_FILES = ("columns", "separator", "decimal", "two_sided", "level")
 
 _RADII = np.linspace(0.0, 1e3, 9)
 _ANY_PROFILE = TabulatedProfile("any", _RADII, _RADII**2)
@@ -157,6 +159,11 @@ def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> di
         if given not in (["file"], [*PROFILE_COLUMNS]):
             words = " and ".join(given) or "nothing"
             report(key, words, "radius and height, or file")
+            continue
+        beside = {"level": "with two_sided"} if given == ["file"] else dict.fromkeys(OF_FILES, "with a file")
+        strange = [each for each in beside if table.get(each) is not None]
+        if strange and not (given == ["file"] and table.get("two_sided") is True):
+            report(key, ", ".join(strange), f"{strange[0]} {beside[strange[0]]} only")
             continue
         try:
             found[name] = profile_from(name, table, folder)

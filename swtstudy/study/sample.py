@@ -20,7 +20,15 @@ from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
-from swtstudy.vocabulary.mistakes import Report, is_whole, literal, more_like_it, nearest
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_SEED,
+    LARGEST_SEED,
+    Report,
+    is_whole,
+    literal,
+    more_like_it,
+    nearest,
+)
 from swtstudy.vocabulary.parameter import Parameter
 
 #: Key of the file in messages.
@@ -59,9 +67,6 @@ def _number_or_text(cell: str) -> object:
     except ValueError:
         return cell
 
-
-#: Largest seed: NumPy's and scipy's generators take it.
-LARGEST_SEED = 2**32 - 1
 
 _FORMS = "design, size and ranges; or file; or points"
 
@@ -173,7 +178,7 @@ def _read_design(raw: Mapping[str, Any], report: Report) -> Design | None:
         allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
         report("sample.size", "nothing" if size is None else literal(size), allowed)
     if not good_seed:
-        report("sample.seed", literal(seed), f"a whole number from 0 to {LARGEST_SEED}")
+        report("sample.seed", literal(seed), ALLOWED_SEED)
     return Design(name, size, seed) if name in DESIGNS and good_size and good_seed else None
 
 
@@ -225,7 +230,7 @@ LARGEST_SAMPLED = 2**63 - 1
 
 
 def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
-    """Canonical rows of random points of a grid, without repetition, shape (n, columns).
+    """Canonical rows of random points of a grid, without repetition, shape (n,).
 
     Raises
     ------

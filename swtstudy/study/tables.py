@@ -87,7 +87,7 @@ Axis = Annotated[
 class SampleTable(Table):
     """Parameters that vary together: a design of points in ranges, or given points."""
 
-    allowed = "a table with design, size and ranges, or with file"
+    allowed = "a table with design, size and ranges, with points, or with file"
 
     design: Annotated[DesignName | None, Allowed(_quoted(DESIGNS))] = _key(
         "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).", None
@@ -146,7 +146,7 @@ _DECIMAL = _key('The decimal sign in the file: "." or ",".', None)
 class LoadTable(Table):
     """A loop of loads: its vertices, its harmonics, or the file of a signal."""
 
-    allowed = "a table with vertices or file"
+    allowed = "a table with vertices, with normal and tangential, or with file"
 
     vertices: Any = _key(
         "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "

@@ -66,6 +66,8 @@ def read_trace(
     position, height = read_as_given(own, COLUMNS, given).T
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
+    if not np.ptp(position) > 0.0:
+        raise StudyError([Mistake("", f"{len(position)} points at one position", "a trace across", str(own))])
     radius, mean, noise = folded(position, height, level)
     if -mean.min() > mean.max():
         found = f"heights that fall by {-mean.min():.3g} from the middle to the sides"

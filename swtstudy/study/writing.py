@@ -153,7 +153,9 @@ def _cost(study: Study) -> str:
     from swtstudy.points.unique import duration, rough_seconds
 
     ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
-    weight = sum(p + q for p, q in ratios) / len(ratios)
+    loads = study.grid.values("load")
+    loops = sum(load.cost for load in loads if isinstance(load, Definition)) / max(len(loads), 1)
+    weight = sum(p + q for p, q in ratios) / len(ratios) + loops
     seconds = rough_seconds(study.grid.size * weight, study.grid.size, study.asked)
     return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 

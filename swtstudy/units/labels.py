@@ -50,7 +50,7 @@ class Units:
 def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     """The units that a study says; every mistake is reported."""
     sound = True
-    for name in raw.keys() - {*UNIT_KINDS}:
+    for name in (each for each in raw if each not in UNIT_KINDS):
         report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), UNIT_KINDS))
         sound = False
     for kind in UNIT_KINDS:

@@ -49,18 +49,21 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
         If there is anything but real numbers, such as text, truth values, complex numbers, times or ragged
         sequences.
     """
-    mistake = StudyError([Mistake(key, literal(values), allowed)])
+
+    def mistake() -> StudyError:
+        return StudyError([Mistake(key, literal(values), allowed)])
+
     try:
         array: np.ma.MaskedArray = np.ma.asarray(values)
     except (TypeError, ValueError):
-        raise mistake from None
+        raise mistake() from None
     if array.dtype.kind == "O":
         known = np.ma.filled(array, np.nan)
         if not all(map(is_number, known.flat)):
-            raise mistake
+            raise mistake()
         return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
     if array.dtype.kind not in "iuf":
-        raise mistake
+        raise mistake()
     return np.asarray(np.ma.filled(array.astype(float), np.nan))
 
 

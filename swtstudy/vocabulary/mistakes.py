@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from numbers import Real
+from numbers import Integral, Real
 from typing import TypeGuard
 
 from swtstudy.vocabulary.parameter import spelled
@@ -152,7 +152,7 @@ def is_number(value: object) -> TypeGuard[Real | Decimal]:
 
 def is_whole(value: object, least: int, largest: float = math.inf) -> TypeGuard[int]:
     """Return whether a value is a whole number in a range, and not a truth value."""
-    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= largest
+    return isinstance(value, Integral) and not isinstance(value, bool) and least <= int(value) <= largest
 
 
 def plain_number(value: object) -> float:
@@ -177,12 +177,14 @@ def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, st
     'did you mean friction? known: friction, phase'
     >>> nearest("mu", ["friction", "phase"])
     'did you mean friction (μ)? known: friction, phase'
+    >>> nearest("x", ["friction", "phase"])
+    'one of friction, phase'
     """
     known = list(known)
     close = meant(name, known, symbols)
     named, letter = symbols.get(spelled(name), ("", ""))
-    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? " if close else ""
-    return f"{hint}known: {', '.join(known)}"
+    hint = f"did you mean {close}{f' ({letter})' if named == close else ''}? known:" if close else "one of"
+    return f"{hint} {', '.join(known)}"
 
 
 def meant(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str | None:
@@ -214,6 +216,11 @@ SMALLEST_STORED_RTOL = 1e-8
 
 #: The allowed range in words, for messages.
 ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
+
+
+#: Largest seed: NumPy's and scipy's generators take it.
+LARGEST_SEED = 2**32 - 1
+ALLOWED_SEED = f"a whole number from 0 to {LARGEST_SEED}"
 
 
 def is_rtol(raw: object, smallest: float = SMALLEST_RTOL) -> bool:

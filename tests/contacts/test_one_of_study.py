@@ -153,3 +153,10 @@ def test_without_equilibrium_the_forces_are_said_in_the_units_of_the_study(tmp_p
     ):
         with pytest.raises(StudyError, match="tangential_force_amplitude 120 N exceeds"):
             inspect()
+
+
+def test_what_is_sampled_in_units_is_in_the_ranges_of_these(tmp_path: Path) -> None:
+    """Forces of more than 10 N are none without units, and had no value."""
+    sample = '[sample]\ndesign = "sobol"\nsize = 4\nranges.tangential_force_amplitude = [30, 60]\n'
+    drawn = one_of_study(file_of(tmp_path, f"{CONTACT}normal_force = 200\n{sample}"), {}, at_rest=True)
+    assert 30.0 <= drawn.fixed["tangential_force_amplitude"] <= 60.0

@@ -180,3 +180,9 @@ def test_a_map_of_a_ratio_is_pale_where_it_is_1() -> None:
     assert mesh.norm.vmin + mesh.norm.vmax == pytest.approx(2.0)
     assert luminance(mesh.to_rgba(1.0)[:3]) > 0.85
     assert max(luminance(mesh.to_rgba(end)[:3]) for end in mesh.get_clim()) < 0.15
+
+
+def test_there_is_no_jump_between_two_lives_without_end() -> None:
+    """Nor do they warn."""
+    lives = np.array([1e5, 1e6, np.inf, np.inf, 1e7, 1e8])
+    assert 3 not in place_jumps(np.log(lives), "cycles").tolist()

@@ -331,7 +331,7 @@ def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, word
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"load": "square"}, "load: found 'square' .no such load.; allowed: known: harmonic"),
+        ({"load": "square"}, "load: found 'square' .no such load.; allowed: one of harmonic"),
         ({"load": 3.0}, "load: found 3.0 .not a name."),
         (
             {"load": [LoadPath("a", SQUARE), LoadPath("a", CONE)]},

@@ -141,6 +141,10 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
         ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
         ("nowhere.csv", "tests: found 'nowhere.csv' "),
         (3, "tests: found 3; allowed: a CSV file"),
+        (
+            {"friction": 0.3, "life": [1e5, 1e6]},
+            "tests.friction: found 0.3; allowed: a list, with a value for",
+        ),
     ],
 )
 def test_wrong_tables_are_named(rig, tests, words):
@@ -164,6 +168,15 @@ def test_wrong_requests_are_named(rig, tmp_path):
         swtstudy.fit(rig[0], tests, y="cycles")
     with pytest.raises(StudyError, match=r"y: found 'FS_cycles'; allowed: .*FS_cycles_volume"):
         swtstudy.fit(rig[0], tests, y="FS_cycles")
+    with pytest.raises(
+        StudyError, match="y: found 'FS_cycles_volume'; allowed: one of cycles_volume, cycles_p"
+    ):
+        swtstudy.fit(rig[0], tests, y="FS_cycles_volume")
+    other = tmp_path / "other.toml"
+    other.write_text(STUDY.replace("friction = 0.5", "friction = 5"), encoding="utf-8")
+    three = {"tangential_force_amplitude": [30, 60, 80], "life": [1e5, 1e6, 1e7]}
+    with pytest.raises(StudyError, match="friction: found 5; allowed: a positive number below 3"):
+        swtstudy.fit(other, three, friction=True)
     with pytest.raises(StudyError, match="confidence: found 2"):
         swtstudy.fit(rig[0], tests, confidence=2)
     plain = tmp_path / "plain.toml"

@@ -200,6 +200,10 @@ def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
         ({"over": {"phase": (0, 1)}, "friction": [0.1, 0.2]}, "friction: "),
         ({"over": {"phase": (0, 1)}, "minimise": "S"}, "minimise: found 'S'; allowed: did you mean s"),
         ({"over": {"phase": (0, 1)}, "minimise": "regime"}, "minimise: found 'regime'"),
+        (
+            {"over": {"phase": (0, 1)}, "minimise": "bulk_shift"},
+            "minimise: found 'bulk_shift'; allowed: one of s",
+        ),
         ({"over": {"phase": (0, 1)}, "rtol": 1}, "rtol: found 1"),
         ({"over": {"phase": (0, 1)}, "seed": -1}, "seed: found -1"),
         (

@@ -202,7 +202,8 @@ def test_a_rough_table_has_few_landmarks_over_its_whole_range():
 
 
 @pytest.mark.parametrize(
-    ("kind", "words"), [("profiles", "radius and height, or file"), ("loads", "vertices or file")]
+    ("kind", "words"),
+    [("profiles", "radius and height, or file"), ("loads", "vertices, with normal and tangential")],
 )
 def test_what_is_defined_is_a_table(kind: str, words: str) -> None:
     with pytest.raises(StudyError, match=rf"{kind}.mine: found 3; allowed: a table with {words}"):

@@ -260,7 +260,7 @@ def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
         (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "also used for x"),
         (FIGURE.replace('hue = "friction"', ""), "figure", "no place for the axis friction"),
         (FIGURE + 'panels = "profile"', "figure.panels", "not an axis"),
-        (FIGURE + 'colour = "red"', "figure.colour", "known:"),
+        (FIGURE + 'colour = "red"', "figure.colour", "one of"),
         (FIGURE + "y = 3", "figure.y", "a text, or a list"),
         (FIGURE + 'y = "t"', "figure.y", "not a quantity"),
         (FIGURE + 'y = "critical"', "figure.y", "critical_angle, regime"),

@@ -210,3 +210,30 @@ def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
     assert Study.from_text(used).grid.size == 2
     # One of several may wait for another run.
     assert Study.from_text(used + "[loads.later]\nvertices = [[0, 1], [0, -2]]\n").grid.size == 2
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (
+            "radius = [0, 1]\nheight = [0, 1]\ntwo_sided = true",
+            "two_sided; allowed: two_sided with a file only",
+        ),
+        (
+            'radius = [0, 1]\nheight = [0, 1]\nseparator = ";"',
+            "separator; allowed: separator with a file only",
+        ),
+        ('file = "worn.csv"\nlevel = false', "level; allowed: level with two_sided only"),
+    ],
+)
+def test_what_is_said_of_files_and_traces_is_said_of_them_alone(
+    more: str, words: str, tmp_path: Path
+) -> None:
+    text = PROFILE.replace('file = "worn.csv"', more)
+    assert any(f"profiles.mine: found {words}" in each for each in mistakes_of(text, tmp_path))
+
+
+def test_headers_are_stripped_on_both_sides(tmp_path: Path) -> None:
+    (tmp_path / "cycle.csv").write_text(" Fn [N] , Ft\n0,1\n0,-1\n")
+    columns = 'columns = { normal = " Fn [N] ", tangential = "Ft" }\n'
+    assert Study.from_text(LOOP + columns, "s", tmp_path).grid.values("load")

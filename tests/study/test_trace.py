@@ -133,3 +133,9 @@ tangential_force_amplitude = 300
     ):
         with pytest.raises(StudyError, match=words):
             swtstudy.Study.from_text(text.replace(*wrong), "s", tmp_path)
+
+
+def test_a_trace_at_one_position_is_told(tmp_path: Path) -> None:
+    (tmp_path / "still.csv").write_text("position,height\n" + "1,0\n" * 40)
+    with pytest.raises(StudyError, match=r"still.csv: found 40 points at one position; allowed: a trace"):
+        read_trace(tmp_path / "still.csv")
