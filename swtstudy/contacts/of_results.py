@@ -19,10 +19,10 @@ from swtstudy.study.tables import read_structure
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import read_units
 from swtstudy.units.material import STRENGTH
-from swtstudy.units.rows import MEAN_LOADS, REST_DEPENDS_ON, rows
+from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -70,7 +70,7 @@ def one_of_study(
     raw = tables_of(path)
     if mistakes := read_structure(raw, path)[1]:
         raise StudyError(mistakes)
-    replaced = {*values}.union(*(pair for pair in _ONE_OF if {*pair} & values.keys()))
+    replaced = {*values}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
     loads = [block["load"] for block in raw.get("blocks", ())]
     fixed, axes = with_loads(raw.get("fixed", {}), raw.get("axes", {}), loads)
     values, profiles = _with_profile(values, fixed, raw.get("profiles", {}), smoothing)
@@ -119,8 +119,6 @@ def _first(axis: object) -> object:
     return axis[0] if isinstance(axis, list) and axis else axis
 
 
-#: Of which one takes the other's place.
-_ONE_OF = (*PAIRS.items(), MEAN_LOADS, ("bulk_stress_mean", "bulk_stress_ratio"))
 #: What a study has that is nothing of one contact.
 _OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
 

@@ -11,11 +11,10 @@ from swtstudy.results.objective import Box, read_ranges
 from swtstudy.results.optimise import check_asked, optimum_in
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import read_contacts
-from swtstudy.units.rows import MEAN_LOADS, SIMILAR_KEY
+from swtstudy.units.rows import ONE_OF, SIMILAR_KEY
 from swtstudy.units.variables import variables
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError
-from swtstudy.vocabulary.parameters import PAIRS
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 
@@ -51,9 +50,7 @@ def _box(grid: PhysicalGrid, over: object) -> Box:
     ]
     ranges, report = read_ranges(over, numeric)
     report.refuse()
-    # What takes the place of another, as a force that of a displacement.
-    pairs = [{*pair} for pair in PAIRS.items()] + [{*MEAN_LOADS}, {"bulk_stress_ratio", "bulk_stress_mean"}]
-    replaced = {*ranges}.union(*(pair for pair in pairs if pair & {*ranges}))
+    replaced = {*ranges}.union(*(pair for pair in ONE_OF if {*pair} & {*ranges}))
     fixed: dict[str, Any] = {name: value for name, value in grid.fixed.items() if name not in replaced}
     fixed |= {name: [*two] for name, two in grid.pairs.items() if name not in replaced}
     bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}

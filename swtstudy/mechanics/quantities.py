@@ -38,9 +38,7 @@ from swtstudy.vocabulary.quantities import (
 KINDS = ("volume", "point", "line")
 
 
-def worst_means(
-    scene: Scene, position: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = 1e-3
-) -> NonlocalSwt:
+def worst_means(scene: Scene, position: FloatArray, angle: FloatArray, distance: FloatArray) -> NonlocalSwt:
     """The largest values over critical distances among those about the critical points and other maxima.
 
     Each kind, distance and direction has its own place. Another local maximum of swt along the line is tried
@@ -49,10 +47,10 @@ def worst_means(
 
     Parameters
     ----------
-    scene, position, angle, distance, rtol
+    scene, position, angle, distance
         As of `nonlocal_swt`, with the critical points.
     """
-    found = nonlocal_swt(scene, position, angle, distance, rtol)
+    found = nonlocal_swt(scene, position, angle, distance)
     rows = np.flatnonzero(np.isfinite(position))
     if not rows.size:
         return found
@@ -63,7 +61,7 @@ def worst_means(
         if np.abs(x - position[row]) <= near[row] or swt <= _least(found)[row]:
             continue
         degrees = np.degrees(0.5 * double_angle)
-        own = nonlocal_swt(scene.take(row), np.array([x]), np.array([degrees]), distance, rtol)
+        own = nonlocal_swt(scene.take(row), np.array([x]), np.array([degrees]), distance)
         found = _larger(found, int(row[0]), own)
     return found
 

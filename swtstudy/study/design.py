@@ -197,11 +197,7 @@ def _checked(given: Distribution, key: str, report: Report) -> Distribution | No
         report(key, f"the bounds {found}", "the lower bound first, and a higher one")
         return None
     for name in ("deviation", "median"):
-        if (
-            name in given.given
-            and not (name == "median" and given.kind == "normal")
-            and given.given[name] <= 0.0
-        ):
+        if given.given.get(name, 1.0) <= 0.0:
             report(f"{key}.{name}", f"{given.given[name]:g}", "a number greater than 0")
             return None
     mode = given.given.get("mode", given.low)

@@ -85,10 +85,8 @@ def _kind(table: Mapping[str, Any]) -> str | Mistake:
         allowed = "vertices, file, or normal and tangential, with or without bulk"
         return Mistake("", " and ".join(given) or "nothing", allowed)
     kind = given[0]
-    strange = [key for key in table if table[key] is not None and key not in (*given, *_BESIDE[kind])]
-    strange = [
-        key for key in strange if key in (*_BESIDE["file"], "mean_normal")
-    ]  # others are reported elsewhere
+    known = (*_BESIDE["file"], "mean_normal")  # others are reported elsewhere
+    strange = [key for key in known if table.get(key) is not None and key not in (*given, *_BESIDE[kind])]
     if strange:
         of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
         return Mistake("", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")

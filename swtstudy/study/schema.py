@@ -16,7 +16,7 @@ from swtstudy.units.material import KEYS
 from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
 from swtstudy.vocabulary.choices import families_with
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 #: Name of the schema's file beside studies; their first line points to it.
@@ -196,7 +196,7 @@ def _range(parameter: Parameter) -> dict[str, Any]:
 def _description(parameter: Parameter) -> str:
     owners = [profile.replace("_", " ") for profile in families_with(parameter.name)]
     of = f"; of the {' and the '.join(owners)}" if owners else ""
-    kind = kind_of(parameter.name) if parameter.name in AXES else None
+    kind = kind_of(parameter.name)
     units = f"with units a {kind}" if kind else ""
     if parameter.part == "contact":
         return f"{parameter.meaning}; with units only{f', a {kind}' if kind else ''}"

@@ -184,8 +184,8 @@ class Contact:
     @property
     def force_factor(self) -> float:
         """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid; of a strip per length over E* δ0."""
-        edge = self._profile().radius(np.ones((1, 1)))
-        return 2.0 * float(self._profile().half_load(edge)[0, 0])
+        profile = self._profile()
+        return 2.0 * float(profile.half_load(profile.radius(np.ones((1, 1))))[0, 0])
 
     @property
     def mean_pressure(self) -> float:

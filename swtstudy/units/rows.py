@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.units.labels import LARGEST, SMALLEST, Units
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES
 
 if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
@@ -101,6 +101,8 @@ _KINDS = {
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Of which exactly one is given.
 MEAN_LOADS = ("depth", "normal_force")
+#: Of which one takes the other's place.
+ONE_OF = (*PAIRS.items(), MEAN_LOADS, ("bulk_stress_mean", "bulk_stress_ratio"))
 #: What a contact at rest depends on.
 REST_DEPENDS_ON = (
     *("young_modulus", "poisson_ratio", "radius", *MEAN_LOADS, "load", "contact_length", "body"),
