@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.marks import mark_points
-from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, slices
-from swtstudy.figures.sheet import Figure, Sheet, Width
+from swtstudy.figures.quantity_words import flag_words, is_life, part_words, quantity_words, slices
+from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_panel_titles
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_flags, tick_in_pi
 from swtstudy.points.grid import SAMPLE
@@ -22,7 +22,7 @@ from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import axis_words, place_words
+from swtstudy.vocabulary.wording import axis_words, place_words, raised
 
 #: The most panels of a scatter plot side by side.
 _ACROSS = 3
@@ -60,6 +60,8 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                     one.set_xticks(range(len(at)), at)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
             _scale_axes(one, dataset, name, quantity(dataset, y))
+            if is_life(quantity(dataset, y).attrs):
+                one.set_yscale("log")
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(quantity(dataset, y), y))
     return _finished(figure, axes, layout)
@@ -88,12 +90,18 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 lines.append(_percentile_words(values, label))
             one.set_title("\n".join(filter(None, lines)), loc="left")
             one.set_xlabel(quantity_words(whole, y))
+            if is_life(whole.attrs):
+                one.set_xscale("log")
             flags = flag_words(whole)
             if flags:
                 one.set_xticks(range(len(flags)), flags, rotation=30, ha="right")
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel("points")
-    return _finished(figure, axes, layout)
+            first.yaxis.get_major_locator().set_params(integer=True)
+    figure = _finished(figure, axes, layout)
+    figure.draw_without_rendering()
+    wrap_panel_titles(figure)
+    return figure
 
 
 def _draw_one(axes: Axes, values: xr.DataArray, edges: list[float], label: str | None, colour: str) -> None:
@@ -113,7 +121,7 @@ def _percentiles(values: xr.DataArray) -> list[float]:
 
 def _percentile_words(values: xr.DataArray, label: str | None) -> str:
     places = zip(PERCENTILES, _percentiles(values), strict=False)
-    words = ", ".join(f"{percent} %: {place:.3g}" for percent, place in places)
+    words = ", ".join(f"{percent} %: {raised(f'{place:.3g}')}" for percent, place in places)
     return f"{label}, {words}" if label and words else words
 
 
@@ -128,6 +136,9 @@ def _edges(values: xr.DataArray) -> list[float]:
     if words:
         return [place - 0.5 for place in range(len(words) + 1)]
     known = _finite(values)
+    if is_life(values.attrs):
+        # People read lives in decades.
+        return (10.0 ** np.histogram_bin_edges(np.log10(known[known > 0.0]), "auto")).tolist()
     return np.histogram_bin_edges(known if len(known) else [0.0, 1.0], "auto").tolist()
 
 

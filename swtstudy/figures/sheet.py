@@ -199,14 +199,19 @@ def wrap_texts(figure: Figure) -> None:
         return
     figure.draw_without_rendering()
     wrap_title(figure)
-    room = figure.bbox.width
+    wrap_panel_titles(figure)
+    for axes in figure.axes:
+        _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
+        _wrap(axes.yaxis.label, axes.bbox.height, True)
+
+
+def wrap_panel_titles(figure: Figure) -> None:
+    """Break the titles of panels that are longer than these, in a figure that has been laid out."""
     for axes in figure.axes:
         ticks = axes.xaxis.get_tightbbox()
         wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
         for text in (axes.title, axes._left_title, axes._right_title):  # type: ignore[attr-defined]
-            _wrap(text, min(wide, room - axes.bbox.x0), False)
-        _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
-        _wrap(axes.yaxis.label, axes.bbox.height, True)
+            _wrap(text, min(wide, figure.bbox.width - axes.bbox.x0), False)
 
 
 def letters(words: str) -> int:

@@ -98,14 +98,15 @@ def _force_ratio(load: Load) -> FloatArray:
 def bulk_shift(points: Points) -> FloatArray:
     """e/a_H of n points, shape (n,), however large: about the width of the slip zone it is but an estimate.
 
-    NaN for other profiles than the paraboloid and the cylinder, and without friction.
+    NaN without friction, and under a bulk stress that moves for other profiles than the paraboloid and the
+    cylinder.
     """
-    if points.profile not in (PLAIN, PLAIN_STRIP):
-        return np.full(len(points), np.nan)
     ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
     if points.path is not None:
         course = points.path.bulk
         amplitude = amplitude * (0.0 if course is None else 0.5 * np.ptp(course.ends))
+    if points.profile not in (PLAIN, PLAIN_STRIP):
+        return np.where((amplitude == 0.0) & (μ > 0.0), 0.0, np.nan)
     stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)
     shift = np.full(len(points), np.nan)
     return np.divide(2.0 * amplitude, μ * stiffness, out=shift, where=μ > 0.0)

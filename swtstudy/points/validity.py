@@ -87,6 +87,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     if not dataset.s.size:
         return ()
     lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
+    lines += _unknown_shift(dataset)
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -101,16 +102,20 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
             lines.append(f"{limit.words}{_where(out)}: {found}{f',{place}' if place else ''}")
         else:
             within.append(found)
-    within += _unknown(dataset)
+    within += _unknown_yield(dataset)
     return (*lines, *(within if inside else ()))
 
 
-def _unknown(dataset: xr.Dataset) -> Iterator[str]:
-    """Lines on what is not known: yield without a strength, shifts of the stick zones of most profiles."""
+def _unknown_yield(dataset: xr.Dataset) -> Iterator[str]:
+    """Say that yield is not known without a strength."""
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
         words = "whether that yields is unknown without a yield_strength"
         yield f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";")
+
+
+def _unknown_shift(dataset: xr.Dataset) -> Iterator[str]:
+    """Say where the shift of the stick zone by the bulk stress, which s leaves out, is not known."""
     if "bulk_shift_ratio" in dataset:
         slips = dataset.regime.values == REGIMES.index("partial_slip")
         lost = slips & np.isnan(_over_points(dataset, dataset.bulk_shift_ratio))
