@@ -208,7 +208,9 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         told_of_lives(raw, report)
     asked = Request(names, *distances, counts=counts)
     grid: Grid | None
-    if contacts is None:
+    if isinstance(raw.get("sample"), dict) and not sampled:
+        grid, found = None, Report()  # what is sampled is unknown: nothing else is missing
+    elif contacts is None:
         grid, found = read_grid(
             fixed, axes, report.key, source, others=(DISTANCE,), known=known, samples=samples
         )

@@ -13,14 +13,12 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.study.columns import read_as_given
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 from swtstudy.study.trace import read_trace
+from swtstudy.units.loads import ANY, ANY_MEASURED
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
-_ANY_LOOP = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
-#: The same for one that a real contact may be given without its mean load.
-_ANY_ABSOLUTE_LOOP = LoadPath("any", _ANY_LOOP.vertices, 1.0)
 #: What may be said of vertices and of harmonics besides.
 _BESIDE = {
     "vertices": ("absolute", "mean_normal"),
@@ -45,7 +43,7 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
     for name, table in tables.items():
         key = f"loads.{name}"
         # A wrong loop stands for any: that it is used is no mistake of its own.
-        found[name] = _ANY_ABSOLUTE_LOOP if {"absolute", "mean_normal"} & {*table} else _ANY_LOOP
+        found[name] = ANY_MEASURED if {"absolute", "mean_normal"} & {*table} else ANY
         if not isinstance(table.get("file", ""), str):
             continue  # reported with the structure
         kind = _kind(table)

@@ -19,8 +19,9 @@ from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES
 
-#: A load that stands for one that is wrong.
-ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]], 1.0)
+#: Loads that stand for wrong ones: one in shares of the mean load, and one that was measured.
+ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
+ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
 
 
 def are_measured(loads: Sequence[Value]) -> bool:

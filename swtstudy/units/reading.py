@@ -21,7 +21,15 @@ from swtstudy.units.contacts_at_rest import check_contacts, check_distances
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.labels import UNIT_KINDS, Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.units.loads import ANY, check_lengths, labels_of, mean_of_loads, measured_amplitudes, still_load
+from swtstudy.units.loads import (
+    ANY,
+    ANY_MEASURED,
+    check_lengths,
+    labels_of,
+    mean_of_loads,
+    measured_amplitudes,
+    still_load,
+)
 from swtstudy.units.rows import MEAN_LOADS, NAMES_KEY, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -72,7 +80,8 @@ def read_contacts(
     grid = completed(good_fixed, good_axes, good_samples, about)
     check_bodies(grid, report)
     check_loops(grid, report)
-    if not report:
+    # Sizes of what stands for a wrong load are no mistakes.
+    if not report and not any(load is ANY or load is ANY_MEASURED for load in grid.values("load")):
         check_contacts(grid, report)
     if not report:
         check_distances(grid, distances, report)
@@ -185,7 +194,7 @@ def _check_given(
     # What is misspelt is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
-    measured = good.get("load") or ((ANY,) if "load" in everything else ())
+    measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
     everything |= {*measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
