@@ -21,9 +21,10 @@ from swtstudy.units.bodies import bodies_of, constants_of_both, cycles_from, str
 from swtstudy.units.contacts_at_rest import check_distances
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.loads import mean_of_bulk
+from swtstudy.units.material import warn_of_units
 from swtstudy.units.reading import completed
 from swtstudy.units.rows import length_of
-from swtstudy.vocabulary.choices import family_of, is_profile
+from swtstudy.vocabulary.choices import FINDLEY, family_of, is_profile
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
@@ -288,12 +289,15 @@ class PhysicalContact(InUnits):
         sequence: tuple[Block, ...] = ()
         with report:
             sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        if constants is not None and {*self.grid.values("criterion")} == {FINDLEY}:
+            report("constants", f"constants with the criterion {FINDLEY} alone", "none: it has no life")
         if blocks and constants is None and not self.grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(self.grid, distances[0], report)
         report.refuse()
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
         grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
+        warn_of_units(grid, self.moduli.young)
         return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))
 
     def optimise(

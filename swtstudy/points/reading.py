@@ -152,7 +152,7 @@ def read_values(
             report.of(name, words, "one of the two")
     for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
         if name in rows and rows[name].units == "rad":
-            _warn_of_degrees(report.key(name), raw)
+            warn_of_degrees(report.key(name), raw)
     for name, single in fixed.items():
         value = _read(rows[name], single, report.key(name), report, known) if name in rows else None
         if value is not None:
@@ -165,7 +165,7 @@ def read_values(
     return good_fixed, good_axes
 
 
-def _warn_of_degrees(key: str, raw: object) -> None:
+def warn_of_degrees(key: str, raw: object) -> None:
     """Warn of an angle that is probably meant in degrees."""
     several = (raw.start, raw.stop) if isinstance(raw, Range) else raw
     for each in several if isinstance(several, list | tuple) else (several,):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
@@ -91,6 +92,8 @@ DISTRIBUTIONS: dict[str, tuple[str, ...]] = {
     "lognormal": ("median", "deviation"),
 }
 _UNBOUNDED = ("normal", "lognormal")
+#: That of a logarithm: ten times as much or a tenth are as near to the median.
+_LARGEST_DEVIATION = 2.3
 #: A distribution of which the bounds leave less than this is not meant so.
 _LEAST_SHARE = 1e-6
 
@@ -195,6 +198,11 @@ def _checked(given: Distribution, key: str, report: Report) -> Distribution | No
     found = f"{given.low:g} and {given.high:g}"
     if not given.low < given.high:
         report(key, f"the bounds {found}", "the lower bound first, and a higher one")
+        return None
+    if given.kind == "lognormal" and given.given["deviation"] > _LARGEST_DEVIATION:
+        found = f"{given.given['deviation']:g}, as a factor {math.exp(given.given['deviation']):.3g}"
+        allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
+        report(f"{key}.deviation", found, allowed)
         return None
     for name in ("deviation", "median"):
         if given.given.get(name, 1.0) <= 0.0:

@@ -233,10 +233,11 @@ def check_figure(
     unsure
         Names of what the study may have but for other mistakes, which are reported.
     """
-    of = "{} in this study" if asked.distances else "this study"
     found = [*wrong_layout(layout)]
     for y in [y for y in layout.y if y.strip() not in unsure] or ("s",) * (not layout.y):
-        found += wrong_axes(layout, _sizes(y, layout, dims, grid, asked), of.format(y))
+        sizes = _sizes(y, layout, dims, grid, asked)
+        of = f"{y} in this study" if asked.distances or {*dims} - {*sizes} else "this study"
+        found += wrong_axes(layout, sizes, of)
     if layout.regimes and layout.x in QUANTITY_AXES:
         found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
     for mistake in dict.fromkeys(found):

@@ -10,6 +10,8 @@ import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.points.reading import warn_of_degrees
+from swtstudy.points.values import read_angle
 from swtstudy.study.columns import read_as_given
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 from swtstudy.study.trace import read_trace
@@ -19,6 +21,8 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
+#: Numbers of a harmonic: order, amplitude, phase.
+_OF_HARMONIC = 3
 #: What may be said of vertices and of harmonics besides.
 _BESIDE = {
     "vertices": ("absolute", "mean_normal"),
@@ -103,7 +107,7 @@ def _placed(mistake: Mistake, key: str, kind: str) -> tuple[str, str, str]:
 def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:
     mean, absolute = table.get("mean_normal"), table.get("absolute")
     if kind == "normal":
-        rows = table["normal"], table["tangential"], table.get("bulk") or ()
+        rows = [_harmonics(table.get(each) or (), each) for each in (*COLUMNS, BULK)]
         return LoadPath.harmonic_sum(name, *rows, mean_normal=mean)
     if absolute not in (None, False, True) or (absolute and mean is not None):
         found = literal(absolute) if mean is None else "absolute and mean_normal"
@@ -111,6 +115,21 @@ def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:
     if absolute:
         return LoadPath.absolute(name, table["vertices"])
     return LoadPath(name, table["vertices"], mean)
+
+
+def _harmonics(rows: Any, column: str) -> Any:
+    """Rows of order, amplitude and phase, which may be a text as in studies."""
+    read = list(rows) if isinstance(rows, list | tuple) else rows
+    for number, row in enumerate(read if isinstance(read, list) else ()):
+        if isinstance(row, list | tuple) and len(row) == _OF_HARMONIC:
+            warn_of_degrees(column, row[-1])
+            if isinstance(row[-1], str):
+                try:
+                    read[number] = (*row[:-1], float(read_angle(row[-1])))
+                except ValueError as error:
+                    key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
+                    raise StudyError([Mistake(key, found, "a phase")]) from None
+    return read
 
 
 def place_of(mistake: Mistake) -> str:

@@ -158,7 +158,10 @@ class LoadTable(Table):
         "and, optionally, bulk, of one cycle or of several.",
         None,
     )
-    normal: Any = _key("Harmonics of c_n instead of vertices: rows of order, amplitude and phase.", None)
+    normal: Any = _key(
+        "Harmonics of c_n instead of vertices: rows of order k, amplitude A and phase α of A sin(kφ + α).",
+        None,
+    )
     tangential: Any = _key("Harmonics of c_t: rows of order, amplitude and phase.", None)
     bulk: Any = _key("Harmonics of c_b, beside those: rows of order, amplitude and phase.", None)
     mean_normal: Any = _key(

@@ -148,7 +148,9 @@ def _to_a_crack(times: xr.DataArray, shares: xr.DataArray, by: str) -> str:
     if not known.size:
         return f"{_NO_CRACK}{by}"
     ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
+    lost = times.size - known.size
     words = f"repeated {' to '.join(ends)} times to a crack{by}"
+    words += f", unknown at {lost} of {times.size} points" if lost else ""
     share = shares.isel(index_at(times, int(np.nanargmin(times.values))))
     if not share.ndim:
         return words

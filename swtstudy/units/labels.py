@@ -56,7 +56,11 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     for kind in UNIT_KINDS:
         label = raw.get(kind)
         named = isinstance(label, str) and label.strip() not in ("", "1", "rad")
-        if not named or not str(label).isprintable():
+        alike = [each for each in KNOWN[kind] if each.lower() == str(label).strip().lower()]
+        if named and alike and str(label).strip() not in alike:
+            report(f"units.{kind}", literal(label), f"did you mean {' or '.join(alike)}?")
+            sound = False
+        elif not named or not str(label).isprintable():
             found = literal(label) if kind in raw else "nothing"
             report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
             sound = False

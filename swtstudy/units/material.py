@@ -114,6 +114,12 @@ _STRESSES = ("young_modulus", "strength", _MODULUS, "shear_strength", STRENGTH, 
 _FILE = "a TOML file with a table of constants for each material"
 #: Strengths over Young's modulus: metals are well within.
 USUAL_STRAINS = 2e-4, 0.05
+#: Constants of all metals are within these, and a percentage is not.
+USUAL_CONSTANTS = {
+    "strength_exponent": (-0.5, 0.0),
+    "ductility": (1e-3, 5.0),
+    "ductility_exponent": (-2.0, 0.0),
+}
 #: Of each body.
 _BOTH = 2
 #: Moduli of both bodies, as far as they are single values.
@@ -210,7 +216,7 @@ def _of_both(
 
 
 def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
-    """Warn of strengths that no metal has beside the modulus of its body: one is in another unit."""
+    """Warn of constants that no metal has, alone or beside the modulus of its body: a unit is another one."""
     given = {
         "strength": [each.strength for each in of.materials],
         "shear_strength": [each.strength for each in of.shear_materials],
@@ -222,7 +228,12 @@ def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
             if not USUAL_STRAINS[0] <= value / modulus <= USUAL_STRAINS[1]:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
                 ends = " to ".join(f"{end:g}" for end in USUAL_STRAINS)
-                warnings.warn(f"{words}, of metals {ends}: are both in {of.units.stress}?", stacklevel=2)
+                stress = of.units.stress or "one unit"
+                warnings.warn(f"{words}, of metals {ends}: are both in {stress}?", stacklevel=2)
+    for name, (least, largest) in USUAL_CONSTANTS.items():
+        for value in dict.fromkeys(getattr(each, name) for each in of.materials):
+            if not least <= value <= largest:
+                warnings.warn(f"material.{name} {value:g}, of metals {least:g} to {largest:g}", stacklevel=2)
 
 
 def _shear_constants(

@@ -123,7 +123,7 @@ def rows(units: Units) -> dict[str, Parameter]:
     ratio: dict[str, Any] = {
         "lower": -LARGEST,
         "upper": 1.0 - 1e-9,
-        "words": "a number below 1: the least over the largest",
+        "words": "a number below 1: the least over the largest; of stresses that press bulk_stress_mean",
     }
     body: dict[str, Any] = {"lower": 1.0, "upper": 2.0, "open_lower": False, "words": "1 or 2"}
     own: dict[str, Parameter] = {

@@ -409,3 +409,20 @@ def test_bodies_that_never_touch_are_said_and_leave_their_neighbours_alone(
     assert (found.regime[1:] == REGIMES.index("no_equilibrium")).all()
     with pytest.raises(StudyError, match=r"normal_amplitude: found 10\.0, at which the bodies never touch"):
         swtstudy.inspect_point(normal_amplitude=10.0, **fixed)
+
+
+def harmonics(phase: object) -> str:
+    return (
+        STUDY.partition("[loads")[0]
+        + f"[loads.mine]\nnormal = [[1, 0.5, 0]]\ntangential = [[2, 1, {phase}]]\n"
+    )
+
+
+def test_phases_of_harmonics_are_written_as_other_angles() -> None:
+    (expected,) = Study.from_text(harmonics(np.pi / 2)).grid.loops
+    for words in ('"pi/2"', '"90 deg"'):
+        assert Study.from_text(harmonics(words)).grid.loops[0].code == expected.code
+    with pytest.warns(UserWarning, match="tangential: 90 is in radians"):
+        Study.from_text(harmonics(90))
+    with pytest.raises(StudyError, match=r"found .x. .*; allowed: a phase"):
+        Study.from_text(harmonics('"x"'))

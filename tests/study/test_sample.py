@@ -492,3 +492,12 @@ def test_a_sample_in_words(tmp_path):
     # Two values are listed, three are a range.
     assert "sampled phase: 0, 1" in lines
     assert "sampled friction: from 0.1 to 0.3" in lines
+
+
+def test_the_deviation_of_a_logarithm_is_no_length():
+    ranges = "phase = [0, 1]\nfriction = {distribution='lognormal', median=0.3, deviation=5}\n"
+    text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{ranges}'
+    with pytest.raises(
+        StudyError, match=r"friction.deviation: found 5, as a factor 148; allowed: that of the nat"
+    ):
+        Study.from_text(text)

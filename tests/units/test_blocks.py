@@ -14,6 +14,7 @@ from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results
 from swtstudy.archive.describe import describe
 from swtstudy.reports.findings import sentences
 from swtstudy.runner.workload import assess
+from swtstudy.units.blocks import sequence_words
 from swtstudy.vocabulary.wording import number_words
 
 RIG = f"""
@@ -219,3 +220,18 @@ def test_cycles_that_are_kept_are_those_of_their_load_alone(tmp_path: Path) -> N
         StudyError, match=r"loads.rig 2: found the name of a cycle of loads.rig; allowed: another"
     ):
         Study.from_text(RIG + same, "s", tmp_path)
+
+
+def test_repetitions_that_are_not_known_are_counted(tmp_path: Path) -> None:
+    strong = RUNNING.replace("-60]", "-90]").replace("60]", "90]")
+    text = (
+        RIG.replace("friction = 0.5\n", "")
+        + "[axes]\nfriction = [0.4, 0.6]\n"
+        + strong
+        + block("running", 1e3)
+    )
+    found = run(Study.from_text(text), tmp_path / "rig.nc", workers=1)
+    assert np.isnan(found.repetitions[0])
+    assert "times to a crack, unknown at 1 of 2 points" in sequence_words(
+        found, Study.from_text(text).grid.blocks
+    )

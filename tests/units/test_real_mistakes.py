@@ -1,10 +1,10 @@
 """Studies in units of the user's own: what is wrong in them."""
 
 import pytest
-from real import STUDY, UNITS
+from real import ALUMINIUM, STUDY, UNITS
 
 import swtstudy
-from swtstudy import Study, StudyError
+from swtstudy import Study, StudyError, physical
 
 #: A line of the study, what stands there instead, and what is said of it.
 MISTAKES = [
@@ -199,3 +199,23 @@ def test_a_critical_distance_far_beyond_the_contact_is_refused_wherever_it_comes
     contact = swtstudy.physical(**own, normal_force=200, tangential_amplitude=1e-3)
     with pytest.raises(StudyError, match=r"^critical_distance: found 60 at radius = 50, .* a_H; allowed: at"):
         contact.solve(critical_distance=[0.05, 60])
+
+
+@pytest.mark.parametrize(("label", "meant"), [("Mpa", "MPa"), ("gpa", "GPa")])
+def test_a_unit_that_is_nearly_known_is_asked_about(label: str, meant: str) -> None:
+    with pytest.raises(StudyError, match=rf"units.stress: found '{label}'; allowed: did you mean {meant}\?"):
+        Study.from_text(STUDY.replace('stress = "MPa"', f'stress = "{label}"'))
+
+
+def test_constants_that_no_metal_has_are_warned_of() -> None:
+    with pytest.warns(UserWarning, match=r"material.ductility 40.9, of metals 0.001 to 5"):
+        Study.from_text(STUDY.replace("ductility = 0.409", "ductility = 40.9"))
+    contact = physical(
+        young_modulus=73.1, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=0.2,
+        tangential_force_amplitude=0.06,
+    )  # fmt: skip
+    with pytest.warns(UserWarning, match=r"material.strength 927 over young_modulus 73.1 is 12.7"):
+        contact.solve(1e-2, constants=ALUMINIUM)
+    findley = contact.with_parameters(criterion="findley", normal_sensitivity=0.3)
+    with pytest.raises(StudyError, match="constants: found constants with the criterion findley alone"):
+        findley.solve(1e-2, constants=ALUMINIUM)
