@@ -93,14 +93,14 @@ PARAMETERS: dict[str, Parameter] = {
             "profile", "f", "f", "profile of the indenter", "paraboloid", names=tuple(FAMILIES), part="shape"
         ),
         Parameter(
-            "flat_radius", r"b/a_H", "b", "radius of the punch face", upper=20.0, part="shape", scale="a_H"
+            "flat_radius", r"b/a_H", "b", "radius of the punch face", upper=100.0, part="shape", scale="a_H"
         ),
         Parameter(
             "flat_half_width",
             r"b/a_H",
             "b",
             "half-width of the flat face",
-            upper=20.0,
+            upper=100.0,
             part="shape",
             scale="a_H",
         ),

@@ -2,12 +2,17 @@
 
 import importlib
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from folders import RESULTS, STUDIES
+from scenes import points
 
 from swtstudy.mechanics import solve_points
+from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.paper.audit.point import dense_look
+from swtstudy.vocabulary.parameters import Control
 
 sys.path.append(str(STUDIES / "checks"))
 overlooked = importlib.import_module("overlooked")
@@ -23,9 +28,9 @@ FIRST = {name: (name, 1, 0) for name in overlooked.SCENES if (name, 1, 0) in LOO
 @pytest.mark.parametrize("scene", FIRST)
 def test_no_maximum_is_overlooked(scene: str, rtol: float, count: int) -> None:
     chunk = FIRST[scene]
-    points, (dense, _) = overlooked.drawn(*chunk), LOOKS[chunk]
+    drawn, (dense, _) = overlooked.drawn(*chunk), LOOKS[chunk]
     some = np.flatnonzero(np.isfinite(dense))[:count]
-    found = solve_points(points.take(some), rtol)
+    found = solve_points(drawn.take(some), rtol)
     low = dense[some] - found.s
     missed = low > found.s_error + overlooked.DENSE * dense[some]
     # At the closer tolerance few are low, by millionths (results/overlooked.md).
@@ -36,6 +41,19 @@ def test_no_maximum_is_overlooked(scene: str, rtol: float, count: int) -> None:
 def test_the_law_reaches_small_motions() -> None:
     """Dense looks have been done at points of each scene, over decades of both amplitudes."""
     assert FIRST.keys() == overlooked.SCENES.keys()
-    points = overlooked.drawn("displacements", 1, 0)
-    assert points.tangential_amplitude.min() < 3e-3
-    assert points.normal_amplitude.min() < 0.02
+    drawn = overlooked.drawn("displacements", 1, 0)
+    assert drawn.tangential_amplitude.min() < 3e-3
+    assert drawn.normal_amplitude.min() < 0.02
+
+
+@pytest.mark.parametrize("profile", ["rounded_punch", "truncated_paraboloid", "rounded_flat"])
+def test_wide_faces_are_resolved(profile: str) -> None:
+    """Pads are some ten times as wide as the ring, or strip, around their faces."""
+    shape = "flat_half_width" if profile == "rounded_flat" else "flat_radius"
+    batch = points(profile, 0.3, 0.5, [0.3, 0.05], [0.5, 0.02], [0.7, 1.9], **{shape: [30.0, 100.0]})
+    if profile == "rounded_flat":
+        batch = replace(batch, control=Control(True, True))
+    found = solve_points(batch, 1e-4)
+    for k in range(2):
+        dense, _ = dense_look(scene_of(batch.take(np.array([k]))), 64, 32)
+        assert found.s[k] == pytest.approx(dense, rel=1e-4)
