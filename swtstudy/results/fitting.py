@@ -226,7 +226,7 @@ def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | 
 
 
 def _asked(distances: FloatArray) -> Request:
-    """What lives at distances are computed with."""
+    """The request with which lives at distances are computed."""
     return Request((), tuple(distances.tolist()), is_axis=True, counts=True)
 
 

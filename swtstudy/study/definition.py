@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike
@@ -145,6 +146,10 @@ class Study:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
         study = study_from(raw, text, source, Path(folder))
         _unused(raw, study.grid, source).refuse()
+        for name in _idle(study.grid):
+            warnings.warn(
+                f"{source}: axes.{name} has no effect: what it is of does not oscillate", stacklevel=2
+            )
         return study
 
 
@@ -162,6 +167,15 @@ def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
                 words = f"a {parameter} that is not used"
                 report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report
+
+
+def _idle(grid: Grid) -> list[str]:
+    """Axes of phases and frequencies of what stands still, or of loops, which have their own."""
+    harmonic = len(grid.loops) < len(grid.values("load"))
+    moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
+    pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
+    idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
+    return [name for name, still in idle.items() if still and name in grid.axes]
 
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:

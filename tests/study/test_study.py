@@ -2,6 +2,7 @@ import math
 import re
 import subprocess
 import sys
+import warnings
 from fractions import Fraction
 
 import pytest
@@ -329,6 +330,7 @@ def test_titles_that_can_be_drawn_are_accepted(title):
 def test_titles_are_checked_without_pyplot(title, imported):
     code = f"""
 import sys
+import warnings
 from swtstudy import Study
 Study.from_text({MINIMAL + FIGURE + f"title = '{title}'"!r})
 assert set(sys.modules) & {{"matplotlib.mathtext", "matplotlib.pyplot", "xarray"}} == {imported or "set()"}
@@ -536,3 +538,22 @@ def test_axes_that_are_too_long_are_named(monkeypatch):
     }
     assert Study.from_text(MINIMAL + "[axes]\nfriction = [0.1, 0.2, 0.3]\n").grid.size == 3
     assert Study.from_text(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 2}\n").grid.size == 2
+
+
+@pytest.mark.parametrize(
+    ("fixed", "axes", "idle"),
+    [
+        (
+            "normal_amplitude = 0",
+            'phase = [0, 1]\nfrequency_ratio = ["1", "2"]',
+            ["phase", "frequency_ratio"],
+        ),
+        ("normal_amplitude = 0.5", "bulk_stress_phase = [0, 1]\nphase = [0, 1]", ["bulk_stress_phase"]),
+        ("normal_amplitude = 0\nbulk_stress_amplitude = 0.1", "bulk_stress_phase = [0, 1]", []),
+    ],
+)
+def test_axes_without_effect_are_warned_of(fixed: str, axes: str, idle: list[str]) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        Study.from_text(f'title = "t"\n[fixed]\n{fixed}\n[axes]\n{axes}\n')
+    assert [str(each.message).split()[1] for each in caught] == [f"axes.{name}" for name in idle]

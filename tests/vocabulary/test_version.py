@@ -19,7 +19,7 @@ CASES = {
     "wavy paraboloid": points("wavy_paraboloid", waviness_amplitude=0.01, wavelength=5.0, phase=PSI),
     "random": random_points(5, 3, "paraboloid"),
 }
-VERSION = "21"
+VERSION = "22"
 VALUES: dict[str, list[float]] = {
     "paraboloid": [0.1551365493, 0.147611081388, 0.148788222112],
     "long cycle": [0.170205407959, 0.16352357832, 0.137603701497],
