@@ -32,7 +32,8 @@ def optimum(
     asked
         What is asked beside s.
     """
-    known = ["s", "s_surface", *(each.name for each in variables(grid, asked) if each.of), *grid.margins]
+    found = (each.name for each in variables(grid, asked) if each.of)
+    known = dict.fromkeys(("s", "s_surface", *found, *grid.margins))
     report = Report()
     with report:
         box = _box(grid, over)

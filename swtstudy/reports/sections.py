@@ -167,6 +167,14 @@ def _materials(dataset: xr.Dataset) -> Iterator[str]:
                     for name, v in vars(material).items()
                 ]
                 yield f"<h3>{title}</h3>" + table(("", ""), rows, numbers=(1,))
+        limits = {"yield_strength": given.yield_strengths, "findley_limit": given.findley_limits}
+        rows = [
+            (name.replace("_", " "), f"{value_text(name, value)} {given.units.stress}")
+            for name, both in limits.items()
+            for value in dict.fromkeys(both)
+        ]
+        if rows:
+            yield "<h3>Limits of the stress</h3>" + table(("", ""), rows, numbers=(1,))
 
 
 def _unit_of_constant(dataset: xr.Dataset, name: str) -> str:

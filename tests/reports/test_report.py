@@ -175,6 +175,15 @@ def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
     assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
 
 
+def test_limits_of_the_stress_are_said_beside_the_constants() -> None:
+    contact = swtstudy.physical(
+        young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=200.0,
+        tangential_force_amplitude=60.0, yield_strength=(350.0, 420.0),
+    )  # fmt: skip
+    body = settings_section(contact.solve(1e-2)).body.partition("Limits of the stress")[2]
+    assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 ", "yield strength", "420 "]
+
+
 @pytest.mark.parametrize(
     "name", ["figure6", "sphere_on_flat", "sensitivity", "loops", "bulk_stress", "plane_contacts", "criteria"]
 )
