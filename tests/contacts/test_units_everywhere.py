@@ -290,3 +290,11 @@ def test_titles_leave_out_the_factors_of_a_measured_load():
     assert "psi" not in words
     with pytest.raises(StudyError, match=r"normal_amplitude: .* in lengths; or .*, 1 if it is in forces"):
         physical(**given, normal_force=200.0, load=loop, tangential_force_amplitude=1.0)
+
+
+def test_titles_name_the_body_where_there_are_two():
+    bulk = {"bulk_stress_amplitude": 10.0}
+    assert "body" not in physical(**RIG)._headlines(1)[0]
+    assert physical(**RIG, **bulk)._headlines(2)[0].endswith("body 2")
+    named = physical(**RIG, **bulk, bodies=["pad", "specimen"])
+    assert [named._headlines(body)[0].rpartition(",  ")[2] for body in (1, 2)] == ["pad", "specimen"]
