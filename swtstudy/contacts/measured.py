@@ -76,8 +76,8 @@ def headline(grid: PhysicalGrid, body: int, at_rest: bool) -> str:
         value: Any = values[body - 1 if name in grid.pairs else 0]
         value = str(value) if row.kind == "name" else value
         words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
-    if "body" in grid.dims and not at_rest:
-        words["body"] = grid.body_names[body - 1] if grid.body_names else f"body {body}"
+    if grid.body_names and not at_rest:
+        words["body"] = grid.body_names[body - 1]
     return ",  ".join(words.values())
 
 
