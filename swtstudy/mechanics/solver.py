@@ -103,8 +103,8 @@ def _scene(points: Points, load: Load, shared: Cycle | None, number: IndexArray)
     """
     in_diagram, coordinate = diagram(points.control, points.profile, points.shape, load)
     every = np.arange(len(points))
-    # Without tangential motion there is no traction, whatever the friction.
-    friction = np.where(load.moves_tangentially, points.friction, 0.0)
+    # Without a tangential load there is no traction, whatever the friction.
+    friction = np.where(load.has_tangential, points.friction, 0.0)
     if shared is not None:
         scene = Scene(shared.take(number), coordinate, points.poisson_ratio, friction)
         return every, scene.with_own(points)
@@ -127,14 +127,13 @@ def _split(index: IndexArray, size: int) -> list[IndexArray]:
 
 def _idle(scene: Scene) -> BoolArray:
     """Where s is 0: pressure alone makes no tension at ν = 1/2 or in the plane, rest no swing of strain."""
-    load = scene.cycle.load
-    rests = load.largest_normal == load.least_normal
+    load, slides = scene.cycle.load, scene.friction == 0.0
+    rests = (load.largest_normal == load.least_normal) & (slides | ~load.moves_tangentially)
     if scene.bulk is not None:
-        return np.asarray((scene.friction == 0.0) & rests & ~scene.bulk.moves)
+        return np.asarray(rests & ~scene.bulk.moves)
     if not scene.criterion.needs_tension:
-        return np.asarray((scene.friction == 0.0) & rests)
-    compressed = (scene.poisson_ratio == 0.5) | scene.profile.plane
-    return np.asarray((scene.friction == 0.0) & (compressed | rests))
+        return np.asarray(rests)
+    return np.asarray(rests | (slides & ((scene.poisson_ratio == 0.5) | scene.profile.plane)))
 
 
 def _or_far_field(scene: Scene, found: Maximum) -> Maximum:

@@ -14,6 +14,7 @@ import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.merge import merge
 from swtstudy.mechanics.load.harmonic_sum import HarmonicSum
+from swtstudy.mechanics.load.smooth import SmoothPath
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.reading import read_grid
 from swtstudy.points.unique import unique_points
@@ -426,3 +427,28 @@ def test_phases_of_harmonics_are_written_as_other_angles() -> None:
         Study.from_text(harmonics(90))
     with pytest.raises(StudyError, match=r"found .x. .*; allowed: a phase"):
         Study.from_text(harmonics('"x"'))
+
+
+def with_offset(kind: str, moved: float) -> LoadPath | SmoothPath:
+    """Loops with a constant tangential load, but for a small motion."""
+    if kind == "harmonics":
+        moving = [(1, moved, 0.0)] if moved else []
+        return LoadPath.harmonic_sum("offset", [(1, 0.5, 0.0)], [(0, 0.5, 0.5 * np.pi), *moving])
+    if kind == "bulk":
+        return LoadPath("offset", [[0.0, 0.5, 1.0], [0.0, 0.5 + moved, -1.0]])
+    return LoadPath("offset", [[-0.5, 0.5], [0.5, 0.5 + moved]])
+
+
+@pytest.mark.parametrize("kind", ["polygon", "harmonics", "bulk"])
+@pytest.mark.parametrize("names", [PLAIN, FORCED])
+def test_a_constant_tangential_load_keeps_its_traction(kind: str, names: tuple[str, str]) -> None:
+    """It had been taken for none, and s was up to four times too low."""
+    given = dict(zip(names, (1.0, 0.8), strict=True))
+    given |= {"bulk_stress_amplitude": 0.1} if kind == "bulk" else {}
+    constant, moving = (
+        swtstudy.solve(load=with_offset(kind, moved), rtol=1e-5, **given) for moved in (0.0, 1e-10)
+    )
+    assert constant.s.item() == pytest.approx(moving.s.item(), rel=5e-5)
+    if kind == "polygon":
+        seen = swtstudy.inspect_point(load=with_offset(kind, 0.0), **given)
+        assert constant.s.item() == pytest.approx(seen.s_local.max().item(), rel=2e-3)

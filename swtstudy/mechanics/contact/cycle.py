@@ -143,6 +143,12 @@ def solve_cycle(load: Load) -> Cycle:
     stack, record = Memory.empty(n, 1, depth), Memory.empty(n, intervals, depth)
     stack.start[course.edge[:, 0] > 0.0, 0, 0] = 0.0
     slips = np.any(course.forward | course.backward, axis=0)
+    # Elsewhere what slips later wipes out how the tangential load came to be.
+    at_rest = load.has_tangential & ~load.moves_tangentially & (load.largest_normal == load.least_normal)
+    if at_rest.any():
+        first = course.tangential[:, :1]
+        senses = at_rest[:, None] & (first > 0.0), at_rest[:, None] & (first < 0.0)
+        _slip(load, stack, senses, course.times, course.instant[:, :1])
     for period in range(2):
         for i in range(intervals):
             # An interval pushes two pieces at most.
@@ -154,7 +160,8 @@ def solve_cycle(load: Load) -> Cycle:
                 record.write((slice(None), i), stack.take((slice(None), 0)))
             _lose_contact(stack, course, i)
             if slips[i]:
-                _slip(load, stack, course, i)
+                senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
+                _slip(load, stack, senses, course.times, course.instant[:, i + 1 : i + 2])
     deepest = max(int(np.isfinite(record.start).sum(axis=-1).max()), 1)
     memory = record.take((slice(None), slice(None), slice(deepest)))
     return Cycle(
@@ -202,11 +209,12 @@ def _lose_contact(stack: Memory, course: _Course, i: int) -> None:
     stack.start[stack.start >= course.edge[:, i + 1, None, None]] = np.inf
 
 
-def _slip(load: Load, stack: Memory, course: _Course, i: int) -> None:
-    """Push a piece along a slip line, where springs have slipped."""
+def _slip(
+    load: Load, stack: Memory, senses: tuple[BoolArray, BoolArray], times: GrowthTimes, instant: FloatArray
+) -> None:
+    """Push a piece along a slip line where springs slip up to an instant, (n, 1), in one of both senses."""
     row = np.zeros((len(load), 1), dtype=np.intp)
-    senses = course.forward[:, i : i + 1], course.backward[:, i : i + 1]
-    states = slip_states(load, stack, senses, course.times, row, course.instant[:, i + 1 : i + 2])
+    states = slip_states(load, stack, senses, times, row, instant)
     edge, tangential, front, sign = (
         values[:, 0] for values in (states.edge, states.tangential, states.front, states.sign)
     )

@@ -84,6 +84,10 @@ class MappedLoad(Load):
         return np.asarray(self.normal_motion + self.given.tangential_amplitude)
 
     @property
+    def has_tangential(self) -> BoolArray:
+        return self.given.has_tangential
+
+    @property
     def moves_tangentially(self) -> BoolArray:
         return self.given.moves_tangentially
 

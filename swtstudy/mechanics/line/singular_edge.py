@@ -66,8 +66,7 @@ def not_finite(scene: Scene) -> BoolArray:
     turn = scene.coordinate.radius(cycle.load.least_normal[:, None])
     lost = (turn <= nearest)[:, 0]
     tears |= lost
-    moves = (friction > 0.0) & cycle.load.moves_tangentially
-    tears &= moves
+    tears &= (friction > 0.0) & cycle.load.has_tangential
     if scene.bulk is not None:
         # Pressure alone swings no strain at ν = 1/2.
         tears |= lost & (scene.poisson_ratio < 0.5) & _pulls_while_lost(scene, scene.coordinate.of(nearest))

@@ -66,8 +66,12 @@ class BimodalLoad(Load):
         return self.normal_amplitude + self.tangential_amplitude
 
     @property
-    def moves_tangentially(self) -> BoolArray:
+    def has_tangential(self) -> BoolArray:
         return self.tangential_amplitude > 0.0
+
+    @property
+    def moves_tangentially(self) -> BoolArray:
+        return self.has_tangential
 
     @property
     def oscillations(self) -> tuple[int, int]:

@@ -73,6 +73,11 @@ class Load(Rows, ABC):
 
     @property
     @abstractmethod
+    def has_tangential(self) -> BoolArray:
+        """Shape (n,): whether there is a tangential load at all, be it a constant one."""
+
+    @property
+    @abstractmethod
     def moves_tangentially(self) -> BoolArray:
         """Shape (n,): whether the tangential load changes at all."""
 

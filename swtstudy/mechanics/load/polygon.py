@@ -95,6 +95,10 @@ class PolygonLoad(Load):
         return np.asarray(0.5 * spans[self.row])
 
     @property
+    def has_tangential(self) -> BoolArray:
+        return np.asarray((np.abs(self.corner_tangential).max(axis=1) > 0.0)[self.row])
+
+    @property
     def moves_tangentially(self) -> BoolArray:
         return np.asarray(np.ptp(self.corner_tangential, axis=1)[self.row] > 0.0)
 

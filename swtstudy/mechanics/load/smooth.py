@@ -64,6 +64,10 @@ class SmoothLoad(Load):
         return np.asarray(normal * self.normal_amplitude + tangential * self.tangential_amplitude)
 
     @property
+    def has_tangential(self) -> BoolArray:
+        return (self.tangential_amplitude > 0.0) & any(self.tangential_sum.ends)
+
+    @property
     def moves_tangentially(self) -> BoolArray:
         return (self.tangential_amplitude > 0.0) & (not self.tangential_sum.is_constant)
 
