@@ -185,3 +185,23 @@ def test_random_points_are_not_below_a_dense_look_at_the_body(seed):
     body = Body(scene, time_nodes(scene, 6), 60)
     dense = von_mises(body.stress(r * np.cos(θ), r * np.sin(θ), z)).max()
     assert largest(**parameters) >= 0.998 * dense
+
+
+@pytest.mark.parametrize(
+    ("profile", "shape"), [("rounded_flat", "flat_half_width"), ("rounded_punch", "flat_radius")]
+)
+def test_beside_a_wide_face_the_ring_of_contact_is_looked_at(profile, shape):
+    """Of 0.2 a_H beside a face of 100; a mesh over the contact had seen 30 % less."""
+    parameters = {"profile": profile, shape: 100.0, "normal_amplitude": 0.0, "tangential_amplitude": 0.0}
+    if profile == "rounded_flat":
+        parameters = {name.replace("_amplitude", "_force_amplitude"): v for name, v in parameters.items()}
+    scene = read_scene(parameters)
+    from swtstudy.mechanics.body.body import Body, time_nodes
+
+    ring = scene.largest_radius[0] - 100.0
+    r, z = (
+        each.ravel()
+        for each in np.meshgrid(100.0 + ring * np.linspace(-1.5, 1.0, 26), ring * np.linspace(0.1, 2.0, 20))
+    )
+    dense = von_mises(Body(scene, time_nodes(scene, 1), 60).stress(r, 0.0 * r, z)).max()
+    assert 0.998 * dense <= largest(**parameters) <= 1.01 * dense

@@ -219,6 +219,7 @@ def test_values_of_several_criteria_are_not_compared() -> None:
     }
 
 
+@pytest.mark.filterwarnings("ignore:.* has no effect:UserWarning")
 def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     """A phase moves nothing where the normal load is constant."""
     still = swtstudy.run(Study.from_text(f"{CRITERIA}phase = [0, 1]\n"), tmp_path / "still.nc")

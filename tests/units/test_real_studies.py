@@ -54,6 +54,7 @@ def test_the_contact_at_rest_is_hertz(solved):
     assert solved.contact_radius.dims == ("normal_force",)
 
 
+@pytest.mark.filterwarnings("ignore:.* has no effect:UserWarning")
 def test_work_and_radii_are_in_the_units(solved, tmp_path):
     """δA = 0: stick zone and loop of Cattaneo and Mindlin, the work from Johnson's Contact Mechanics, 7.4."""
     still = STUDY.replace("normal_amplitude = 2e-3", "").replace("critical_distance = 0.05", "")
