@@ -25,7 +25,7 @@ from swtstudy.points.values import as_number
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS
+from swtstudy.vocabulary.parameters import PAIRS, Control
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -50,13 +50,16 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     def number(name: str) -> np.ndarray:
         return np.array([as_number(grid.fixed[grid.control.given_for(name)])])
 
-    course = grid.fixed["load"]
+    course, control = grid.fixed["load"], grid.control
+    if not number("normal_amplitude").any():
+        # What stands still is prescribed as the other component is: loops know no mixed control.
+        control = Control(control.tangential_force, control.tangential_force)
     return Points(
         profile=profile,  # type: ignore[arg-type]
         p=np.array([ratio.numerator]),
         q=np.array([ratio.denominator]),
         shape={name: number(name) for name in family_of(profile).shape},
-        control=grid.control,
+        control=control,
         path=course if isinstance(course, Loop) else None,
         criterion=str(grid.fixed["criterion"]),
         **{name: number(name) for name in NUMBERS},

@@ -113,11 +113,14 @@ def check_loops(grid: Grid, report: Report) -> None:
             allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
             allowed += " (absolute = true, LoadPath.absolute)"
             report.of("load", found, allowed)
-    moving = [load for load in grid.loops if grid.control.mixed and not load.is_steady]
+    loops = grid.loops if grid.control.mixed else ()
+    moving = [literal(load.name) for load in loops if not load.is_steady]
     if moving:
-        names = ", ".join(literal(load.name) for load in moving)
-        found = f"{names} with a normal load that is not constant, and {grid.control.name}"
+        found = f"{', '.join(moving)} with a normal load that is not constant, and {grid.control.name}"
         report.of("load", found, "two displacements or two forces")
+    elif smooth := [literal(load.name) for load in loops if not hasattr(load, "vertices")]:
+        found = f"harmonics, {', '.join(smooth)}, and {grid.control.name}"
+        report.of("load", found, "two displacements or two forces; or vertices")
 
 
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:

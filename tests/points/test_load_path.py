@@ -452,3 +452,15 @@ def test_a_constant_tangential_load_keeps_its_traction(kind: str, names: tuple[s
     if kind == "polygon":
         seen = swtstudy.inspect_point(load=with_offset(kind, 0.0), **given)
         assert constant.s.item() == pytest.approx(seen.s_local.max().item(), rel=2e-3)
+
+
+def test_harmonics_know_no_mixed_control() -> None:
+    still = LoadPath.harmonic_sum("still", [], [(1, 1.0, 0.0)])
+    with pytest.raises(
+        StudyError, match=r"load: found harmonics, 'still', and normal_force\+tangential_disp"
+    ):
+        swtstudy.solve(load=still, normal_force_amplitude=1.0, tangential_amplitude=0.5)
+    moving = LoadPath.harmonic_sum("moving", [(1, 0.3, 0.0)], [(1, 1.0, 0.0)])
+    given = {"load": moving, "normal_force_amplitude": 0.0, "tangential_amplitude": 0.5}
+    seen = swtstudy.inspect_point(**given)
+    assert seen.s_local.max().item() == pytest.approx(swtstudy.solve(**given).s.item(), rel=2e-3)
