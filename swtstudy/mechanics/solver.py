@@ -127,13 +127,13 @@ def _split(index: IndexArray, size: int) -> list[IndexArray]:
 
 def _idle(scene: Scene) -> BoolArray:
     """Where s is 0: pressure alone makes no tension at ν = 1/2 or in the plane, rest no swing of strain."""
-    load, slides = scene.cycle.load, scene.friction == 0.0
-    rests = (load.largest_normal == load.least_normal) & (slides | ~load.moves_tangentially)
+    load, frictionless = scene.cycle.load, scene.friction == 0.0
+    rests = (load.largest_normal == load.least_normal) & (frictionless | ~load.moves_tangentially)
     if scene.bulk is not None:
         return np.asarray(rests & ~scene.bulk.moves)
     if not scene.criterion.needs_tension:
         return np.asarray(rests)
-    return np.asarray(rests | (slides & ((scene.poisson_ratio == 0.5) | scene.profile.plane)))
+    return np.asarray(rests | (frictionless & ((scene.poisson_ratio == 0.5) | scene.profile.plane)))
 
 
 def _or_far_field(scene: Scene, found: Maximum) -> Maximum:
