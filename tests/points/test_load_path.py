@@ -449,6 +449,9 @@ def test_a_constant_tangential_load_keeps_its_traction(kind: str, names: tuple[s
         swtstudy.solve(load=with_offset(kind, moved), rtol=1e-5, **given) for moved in (0.0, 1e-10)
     )
     assert constant.s.item() == pytest.approx(moving.s.item(), rel=5e-5)
+    if kind == "bulk":
+        other = LoadPath("other", [[0.0, -0.5, 1.0], [0.0, -0.5, -1.0]])
+        assert swtstudy.solve(load=other, rtol=1e-5, **given).s.item() == pytest.approx(constant.s.item())
     if kind == "polygon":
         seen = swtstudy.inspect_point(load=with_offset(kind, 0.0), **given)
         assert constant.s.item() == pytest.approx(seen.s_local.max().item(), rel=2e-3)
