@@ -12,17 +12,16 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.study.definition import study_from, tables_of, with_loads
-from swtstudy.study.sample import read_sample
+from swtstudy.study.contacts import rows_of
+from swtstudy.study.definition import sample_of, study_from, tables_of, with_loads
 from swtstudy.study.shipped import find_study
 from swtstudy.study.tables import read_structure
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.labels import read_units
 from swtstudy.units.material import STRENGTH
-from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, rows
+from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 
 
@@ -102,13 +101,8 @@ def one_of_study(
 def _firsts(axes: Mapping[str, Any], raw: Mapping[str, Any], folder: Path) -> dict[str, object]:
     """The first value of each axis of a study, and of each parameter that it samples."""
     found = {name: _first(axis) for name, axis in axes.items() if name not in (DISTANCE, "body")}
-    if "sample" not in raw:
-        return found
-    # Ranges are those of the units.
     units = read_units(raw["units"], Report()) if isinstance(raw.get("units"), dict) else None
-    known = rows(units) if units else PARAMETERS
-    single = {name: row for name, row in known.items() if name not in (DISTANCE, "body")}
-    sample, names = read_sample(raw["sample"], folder, Report(), {}, single)
+    sample, names = sample_of(raw, folder, {}, Report(), rows_of(units))
     return found | {name: sample.values[name][0] if sample else None for name in names}
 
 

@@ -45,6 +45,8 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
     figure = sheet.figure()
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
+        whole = quantity(dataset, y)
+        words = outside(dataset, whole).attrs["long_name"] if layout.validity else ""
         for one, name in zip(axes[row], names, strict=True):
             for index, (label, part) in enumerate(_by(dataset, layout.hue)):
                 drawn = quantity(part, y)
@@ -53,17 +55,16 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 faint = min(1.0, (_OPAQUE / len(values)) ** 0.5)
                 one.plot(x, values, **_look(index), alpha=faint, label=label)
                 if layout.validity:
-                    words = outside(dataset, quantity(dataset, y)).attrs["long_name"]
                     out = outside(part, drawn).values
                     mark_points(one, x[out], values[out], words)
                 if at is not None:
                     one.set_xticks(range(len(at)), at)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
-            _scale_axes(one, dataset, name, quantity(dataset, y))
-            if is_life(quantity(dataset, y).attrs):
+            _scale_axes(one, dataset, name, whole)
+            if is_life(whole.attrs):
                 one.set_yscale("log")
         for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel(quantity_words(quantity(dataset, y), y))
+            first.set_ylabel(quantity_words(whole, y))
     return _finished(figure, axes, layout)
 
 
@@ -99,8 +100,9 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
             first.set_ylabel("points")
             first.yaxis.get_major_locator().set_params(integer=True)
     figure = _finished(figure, axes, layout)
-    figure.draw_without_rendering()
-    wrap_panel_titles(figure)
+    if width is None:  # others are wrapped with all their texts
+        figure.draw_without_rendering()
+        wrap_panel_titles(figure)
     return figure
 
 

@@ -27,10 +27,10 @@ from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attribute
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
 
-#: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
-#: use them as labels. The unit 1 is left out of a Dataset.
 #: Data variables that results have where something is given that they are about.
 MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio")
+#: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
+#: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
     "s": {
         "long_name": "SWT parameter SWT/SWT0",

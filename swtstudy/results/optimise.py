@@ -23,10 +23,9 @@ from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     ALLOWED_SEED,
     DEFAULT_RTOL,
-    LARGEST_SEED,
     Report,
     is_rtol,
-    is_whole,
+    is_seed,
     literal,
     nearest,
 )
@@ -173,5 +172,5 @@ def check_asked(report: Report, minimise: object, rtol: object, seed: object, kn
         report("minimise", literal(minimise), nearest(str(minimise), known))
     if not is_rtol(rtol):
         report("rtol", literal(rtol), ALLOWED_RTOL)
-    if not is_whole(seed, 0, LARGEST_SEED):
+    if not is_seed(seed):
         report("seed", literal(seed), ALLOWED_SEED)

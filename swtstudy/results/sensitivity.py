@@ -15,12 +15,11 @@ from swtstudy.study.design import saltelli
 from swtstudy.units.results import measures
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_SEED,
-    LARGEST_SEED,
     Mistake,
     Report,
     StudyError,
     is_number,
-    is_whole,
+    is_seed,
     literal,
 )
 from swtstudy.vocabulary.parameters import AXES
@@ -73,7 +72,7 @@ def sensitivity(
     """
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
-    if not is_whole(seed, 0, LARGEST_SEED):
+    if not is_seed(seed):
         raise StudyError([Mistake("seed", literal(seed), ALLOWED_SEED)])
     names, size = _design(dataset)
     own = measures(dataset)

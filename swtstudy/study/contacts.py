@@ -14,6 +14,7 @@ from swtstudy.vocabulary.quantities import EVERY_VARIABLE
 
 if TYPE_CHECKING:
     from swtstudy.units.grid import ContactDetails
+    from swtstudy.units.labels import Units
     from swtstudy.vocabulary.parameter import Parameter
 
 
@@ -118,12 +119,12 @@ def every_name() -> set[str]:
     return {*NAMES, *EVERY_VARIABLE}
 
 
-def rows_of(contacts: ContactDetails | None) -> Mapping[str, Parameter]:
-    """The parameters that a study may have."""
+def rows_of(units: Units | None) -> Mapping[str, Parameter]:
+    """The parameters that a study may have, with or without units."""
     from swtstudy.vocabulary.parameters import PARAMETERS
 
-    if contacts is None:
+    if units is None:
         return PARAMETERS
     from swtstudy.units.rows import rows
 
-    return rows(contacts.units)
+    return rows(units)

@@ -208,8 +208,8 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         places[DISTANCE] = "material"
     if contacts is not None:
         contacts = replace(contacts, blocks=blocks)
-    rows = rows_of(contacts)
-    sample, sampled = _sample(raw, folder, known, report, rows)
+    rows = rows_of(contacts.units if contacts else None)
+    sample, sampled = sample_of(raw, folder, known, report, rows)
     places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     places |= {"load": "blocks"} if blocks else {}
     samples = {name: sample.values[name] if sample else None for name in sampled}
@@ -275,7 +275,7 @@ def _dims(raw: Mapping[str, Any], grid: Grid | None) -> list[str]:
     return dims + ([] if grid is None else [dim for dim in grid.dims if dim not in dims])
 
 
-def _sample(
+def sample_of(
     raw: Mapping[str, Any], folder: Path, known: Known, report: Report, rows: Mapping[str, Parameter]
 ) -> tuple[Sample | None, list[str]]:
     """The sample, and the names of the parameters that are sampled."""

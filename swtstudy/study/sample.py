@@ -22,8 +22,8 @@ from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_
 from swtstudy.vocabulary.files import plain_float, read_table, reason_of
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_SEED,
-    LARGEST_SEED,
     Report,
+    is_seed,
     is_whole,
     literal,
     more_like_it,
@@ -171,7 +171,7 @@ def _read_design(raw: Mapping[str, Any], report: Report) -> Design | None:
     size: Any = raw.get("size")
     balanced = name in BALANCED
     good_size = is_whole(size, 1, LONGEST_AXIS) and not (balanced and size & (size - 1))
-    good_seed = is_whole(seed, 0, LARGEST_SEED)
+    good_seed = is_seed(seed)
     if name not in DESIGNS:
         report("sample.design", literal(name), nearest(str(name), DESIGNS))
     if not good_size:

@@ -56,8 +56,9 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     for kind in UNIT_KINDS:
         label = raw.get(kind)
         named = isinstance(label, str) and label.strip() not in ("", "1", "rad")
-        alike = [each for each in KNOWN[kind] if each.lower() == str(label).strip().lower()]
-        if named and alike and str(label).strip() not in alike:
+        word = str(label).strip()
+        alike = [each for each in KNOWN[kind] if each.lower() == word.lower()]
+        if named and alike and word not in alike:
             report(f"units.{kind}", literal(label), f"did you mean {' or '.join(alike)}?")
             sound = False
         elif not named or not str(label).isprintable():

@@ -223,6 +223,11 @@ LARGEST_SEED = 2**32 - 1
 ALLOWED_SEED = f"a whole number from 0 to {LARGEST_SEED}"
 
 
+def is_seed(value: object) -> TypeGuard[int]:
+    """Return whether a value is allowed as seed of random numbers."""
+    return is_whole(value, 0, LARGEST_SEED)
+
+
 def is_rtol(raw: object, smallest: float = SMALLEST_RTOL) -> bool:
     """Return whether a value is allowed as relative accuracy."""
     return smallest <= plain_number(raw) <= LARGEST_RTOL
