@@ -113,6 +113,16 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     return table, _make_loads_canonical(table)
 
 
+def canonical_cycles(columns: Mapping[str, NDArray]) -> FloatArray:
+    """Number of load cycles of the canonical point in the common period 2πq/ω1 of each point, shape (n,).
+
+    The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times in
+    the common period. ``columns`` are those of `canonical_points`.
+    """
+    rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
+    return np.where(rests, columns["p"], 1.0)
+
+
 def _make_profiles_canonical(table: Table) -> None:
     profile = table["profile"]
     for family in FAMILIES.values():

@@ -19,11 +19,12 @@ from swtstudy.points.canonical import (
     SHARED_COLUMNS,
     Definitions,
     Table,
+    canonical_cycles,
     group_rows,
     points_from,
 )
 from swtstudy.points.grid import Grid
-from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of
+from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of, rows_of
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
 LARGEST_GRID = 50_000_000
@@ -179,9 +180,12 @@ def columns_at(
     """Spread columns of distinct points to the points of a grid, each of shape (grid.size,).
 
     ``known`` gives a column of the distinct points by its name. Points that are mirrored have places with the
-    other sign.
+    other sign; what counts per load cycle is that of the common period of the point's own frequencies.
     """
     found = {name: known(name)[points.index] for name in columns_of(asked.same)}
+    if per_cycle := _columns_per_cycle(asked):
+        cycles = _canonical_cycles(grid)
+        found |= {name: cycles * found[name] for name in per_cycle}
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):
         found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
@@ -201,12 +205,35 @@ def columns_back(
         found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
 
     every = np.arange(grid.size)
+    per_cycle = _columns_per_cycle(asked)
+    cycles = _canonical_cycles(grid) if per_cycle else np.ones(1)
     for name in columns_of(asked.same):
-        put(name, every, columns[name])
+        put(name, every, columns[name] / cycles if name in per_cycle else columns[name])
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):
         for name, known, rows, is_place in _columns(item_of(distance), items, each):
             put(known, rows, _mirrored(columns[name][rows], points, rows, is_place))
+    return found
+
+
+def _columns_per_cycle(asked: Request) -> set[str]:
+    """Columns whose values grow with the number of load cycles."""
+    return {
+        column
+        for item in asked.same
+        for row in rows_of(item)
+        if row.per_cycle
+        for variable in row.variables
+        for column in columns_in(row, variable, item)
+    }
+
+
+def _canonical_cycles(grid: Grid) -> FloatArray:
+    """`canonical_cycles` of all points of a grid, shape (grid.size,)."""
+    found = np.empty(grid.size)
+    for start in range(0, grid.size, _SLAB):
+        stop = min(start + _SLAB, grid.size)
+        found[start:stop] = canonical_cycles(grid.columns(start, stop))
     return found
 
 

@@ -49,6 +49,8 @@ class Quantity:
         if with fatigue constants; none, if by its name.
     is_place
         Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
+    per_cycle
+        Whether it is twice as large if the load passes twice through the same cycle.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Quantity:
     has_error: bool = False
     dims: tuple[str, ...] = ()
     is_place: bool = False
+    per_cycle: bool = False
 
     @property
     def variables(self) -> tuple[str, ...]:
@@ -73,10 +76,11 @@ QUANTITIES: dict[str, Quantity] = {
             "dissipation",
             r"W/(\mu F_0\, \mu E^* \delta_0/G^*)",
             "dissipated work",
-            "work by friction in a cycle over mu F0 mu E* delta0 / G*, F0 the normal force at depth delta0; "
-            "of plane contacts per length, over mu P0 mu delta0",
+            "work by friction in a load cycle, the common period 2 pi q/omega1, over mu F0 mu E* delta0 / G*, "
+            "F0 the normal force at depth delta0; of plane contacts per length, over mu P0 mu delta0",
             "dissipated_work",
             has_error=True,
+            per_cycle=True,
         ),
         Quantity(
             "stick_radius",
@@ -170,6 +174,7 @@ QUANTITIES: dict[str, Quantity] = {
             "how many strain cycles of a round have this SWT, or about it; NaN where there are no more",
             "number",
             dims=(*COUNTED_SIZES,),
+            per_cycle=True,
         ),
     )
 }

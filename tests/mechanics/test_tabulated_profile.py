@@ -6,11 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given as sampled
+from hypothesis import settings
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from scenes import points, random_points
 from scipy.integrate import quad
 
+import swtstudy
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile, make_profile
@@ -242,3 +246,63 @@ def test_landmarks_part_the_line_with_a_bulk_stress_too() -> None:
         within = landmarks[landmarks < scene.largest_radius[:, None]]
         assert within.size > 0
         assert np.isin(within, ends).all()
+
+
+def faced(face: float, sharp: bool, count: int, end: float = 2.9) -> TabulatedProfile:
+    """A table of a truncated paraboloid, or of a rounded punch."""
+    r = np.linspace(0.0, end, count)
+    rise = 0.5 * (r * r - face * face) if sharp else 0.5 * (r - face) ** 2
+    return TabulatedProfile(f"face {face:g}", r, np.where(r > face + 1e-9, rise, 0.0))
+
+
+SOFT = {"normal_amplitude": 0.4, "tangential_amplitude": 0.3, "phase": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("profile", "given", "expected", "tolerance"),
+    [
+        (faced(0.8, True, 101), {"bulk_stress_amplitude": 0.01}, 0.178367, 1e-4),
+        (faced(0.5, False, 61), SOFT | {"poisson_ratio": 0.1, "bulk_stress_amplitude": 0.01}, 0.0732657, 2e-6),
+        (
+            faced(0.5, False, 61),
+            SOFT | {"poisson_ratio": 0.1, "bulk_stress_amplitude": 0.3, "bulk_stress_mean": 0.3},
+            0.442225,
+            2e-6,
+        ),
+        (
+            faced(0.5, False, 61),
+            SOFT | {"poisson_ratio": 0.3, "bulk_stress_amplitude": 0.3, "bulk_stress_mean": 0.3},
+            0.419470,
+            2e-6,
+        ),
+    ],
+)
+def test_a_faced_table_under_a_bulk_stress_has_known_values(
+    profile: TabulatedProfile, given: dict[str, float], expected: float, tolerance: float
+) -> None:
+    assert float(swtstudy.solve(profile=profile, **given).s) == pytest.approx(expected, rel=tolerance)
+
+
+@settings(max_examples=8, deadline=None, derandomize=True)
+@sampled(
+    face=st.sampled_from([0.1, 0.3, 0.55, 0.8, 1.2]),
+    sharp=st.booleans(),
+    count=st.integers(61, 140),
+    criterion=st.sampled_from(["swt", "findley", "fatemi_socie"]),
+    poisson_ratio=st.sampled_from([0.0, 0.1, 0.3, 0.5]),
+    bulk_stress_amplitude=st.sampled_from([0.0, 0.01, 0.3]),
+    bulk_stress_mean=st.sampled_from([0.0, 0.3]),
+    phase=st.floats(0.0, 6.0),
+)
+def test_a_faced_table_agrees_with_its_built_in_twin(
+    face: float, sharp: bool, count: int, criterion: str, **others: float
+) -> None:
+    """To what the table leaves open: its edge may lie anywhere between two of its radii."""
+    sharp = sharp and criterion == "swt"  # shear has no bound at a sharp edge
+    name = "truncated_paraboloid" if sharp else "rounded_punch"
+    given = {**others, "criterion": criterion, "normal_amplitude": 0.3, "tangential_amplitude": 0.4}
+    if criterion != "swt":
+        given["normal_sensitivity"] = 0.4
+    twin = swtstudy.solve(rtol=1e-5, profile=name, flat_radius=face, **given)
+    found = swtstudy.solve(rtol=1e-5, profile=faced(face, sharp, count), **given)
+    assert float(found.s) == pytest.approx(float(twin.s), rel=5e-4 if sharp else 2e-5)
