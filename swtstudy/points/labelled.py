@@ -57,16 +57,18 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
     },
     "bulk_shift": {
         "long_name": "shift of the stick zone",
-        "comment": "by the strain of the bulk stress, in a_H: s leaves it out; NaN for other profiles than "
-        "the paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the "
-        "slip zone",
+        "comment": "by the strain of the bulk stress, in a_H: s leaves it out, and is too low at the edge in "
+        "tension, see bulk_shift_ratio; NaN for other profiles than the paraboloid and the cylinder, without "
+        "friction or stick, and where it exceeds the width of the slip zone",
         "units": "1",
         "symbol": r"e/a_H",
     },
     "bulk_shift_ratio": {
         "long_name": "shift over slip zone",
         "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
-        "width of the slip zone, however large; NaN as the shift, without a permanent stick zone",
+        "width of the slip zone, however large: at the edge in tension s is too low, it should be up to 6 % "
+        "at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as the shift, without a permanent stick "
+        "zone",
         "units": "1",
         "symbol": r"e/(a - c)",
     },

@@ -20,6 +20,9 @@ from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_
 KNOWN_LIVES = 1e2, 1e7
 #: Positions nearer to a sharp tip than this, in a_H, are the innermost ones, or next to them.
 BESIDE_TIP = 10.0 * INNERMOST
+#: By how much s of a cylinder and, approximately, of a sphere would be higher with the stick zone in its place,
+#: by `bulk_shift_ratio`: at constant P, Q = 0.2 μP and a bulk stress in phase without mean; less at larger Q.
+BULK_SHIFT_ERRORS = {0.1: (0.054, 0.058), 0.5: (0.21, 0.24), 1.0: (0.32, 0.39)}
 #: Rounding of a ratio that is 1.
 _ROUNDING = 1e-9
 
@@ -40,6 +43,8 @@ class Limit:
         What the variable is, in words.
     short
         What the limit is, in a word or two.
+    consequence
+        On which side of the truth s is beyond it, and by how much; nothing if that is not known.
     """
 
     variable: str
@@ -47,8 +52,10 @@ class Limit:
     words: str
     value: str
     short: str
+    consequence: str = ""
 
 
+_MISSING = ", ".join(f"{100 * max(both):.0f} % at {ratio:g}" for ratio, both in BULK_SHIFT_ERRORS.items())
 LIMITS = (
     Limit(
         "yield_ratio",
@@ -60,10 +67,11 @@ LIMITS = (
     Limit("radius_ratio", 0.1, "contact too large for half-spaces", "contact radius over R", "half-spaces"),
     Limit(
         "bulk_shift_ratio",
-        0.5,
+        0.1,
         "shift of the stick zone by bulk strain too large to be left out",
         "shift over the width of the slip zone",
         "bulk strain",
+        f"s is too low at the edge in tension, it should be up to {_MISSING} higher for Q ≥ 0.2 μP",
     ),
 )
 
@@ -99,7 +107,8 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
         found = f"{limit.value} up to {_number(np.nanmax(values))}, limit {limit.largest:g}"
         if out.any():
             place = _place(dataset, values)
-            lines.append(f"{limit.words}{_where(out)}: {found}{f',{place}' if place else ''}")
+            found += f",{place}" if place else ""
+            lines.append(f"{limit.words}{_where(out)}: {'; '.join(filter(None, (found, limit.consequence)))}")
         else:
             within.append(found)
     within += _unknown_yield(dataset)

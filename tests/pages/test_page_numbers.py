@@ -19,8 +19,11 @@ from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import TOLERANCE
+from swtstudy.points.validity import LIMITS
 from swtstudy.reports.values import LARGEST_TABLE
 from swtstudy.units.rows import SIMILAR
+
+(LARGEST_SHIFT,) = (limit.largest for limit in LIMITS if limit.variable == "bulk_shift_ratio")
 
 PAGES = {
     str(page.relative_to(ROOT)): " ".join(page.read_text(encoding="utf-8").split()) for page in shown.PAGES
@@ -253,7 +256,14 @@ def thresholds() -> None:
     text = lines("thresholds_35NCD16.txt")
     first, second = text[2 : text.index("")], text[text.index("") + 3 :]
     rows = {line.split()[0]: line.split()[1:] for line in first}
-    tests = {name: [float(v) for v in row] for name, row in rows.items() if name[:2] in ("PF", "FF")}
+    tests = {
+        name: [float(v.rstrip("*")) if v != "-" else 0.0 for v in row]
+        for name, row in rows.items()
+        if name[:2] in ("PF", "FF")
+    }
+    assert [name for name, row in rows.items() if "*" in "".join(row)] == ["FF2", "FF3", "FF5", "FF6"]
+    assert {name for name, row in tests.items() if row[5] > LARGEST_SHIFT} == {"FF2", "FF3", "FF5", "FF6"}
+    says("the four (FF2, FF3, FF5, FF6) above {}", LARGEST_SHIFT)
     unshifted = {name: row[4] for name, row in tests.items() if name[:2] == "PF" or name in ("FF7", "FF8")}
     assert len(tests) == 16
     says("meet those of PF1 to PF8, FF7 and FF8 within {} %", 1)
