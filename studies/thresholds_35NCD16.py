@@ -147,7 +147,7 @@ def main() -> None:
     ratio = (found / published).mean()
     print(f"{'mean':<21}{published.mean():9.2f}  {found.mean():5.3f}  {ratio:5.3f}  {'':7}   {_row(mean)}")
     print(f"{'scatter':<55}{_row(scatter)}")
-    print(f"* SWT is too low: the bulk stress moves the stick zone by more than {LARGEST_SHIFT:g} of the slip zone")
+    print(f"* e/(a-c) above {LARGEST_SHIFT:g}: SWT is too low, since the bulk stress moves the stick zone")
     print(f"\nlargest von Mises stress over 950 MPa at these depths\n{'':46}{_heads()}")
     for test, row in zip(tests, peaks, strict=True):
         print(f"{test.name:<46}{_row(row)}")

@@ -67,8 +67,8 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "long_name": "shift over slip zone",
         "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
         "width of the slip zone, however large: at the edge in tension s is too low, it should be up to 6 % "
-        "at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as the shift, without a permanent stick "
-        "zone",
+        "at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as the shift, without a permanent "
+        "stick zone",
         "units": "1",
         "symbol": r"e/(a - c)",
     },

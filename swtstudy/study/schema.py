@@ -24,7 +24,7 @@ SCHEMA_FILE = "study.schema.json"
 SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
-_SIMILAR = "Dundurs' |β| up to which two bodies count as similar (eq. 1); with units only"
+_SIMILAR = "|β|/μ up to which two bodies count as similar, β Dundurs' constant (eq. 1); with units only"
 #: What properties of a material are; the names of others say so.
 _PROPERTIES = {
     "young_modulus": "Young's modulus of the constants, if it is not that of the body.",

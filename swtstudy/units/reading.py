@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
+import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -30,7 +31,15 @@ from swtstudy.units.loads import (
     measured_amplitudes,
     still_load,
 )
-from swtstudy.units.rows import MEAN_LOADS, NAMES_KEY, OF_BODIES, SIMILAR_KEY, rows, wrong_mean_load
+from swtstudy.units.rows import (
+    MEAN_LOADS,
+    NAMES_KEY,
+    NOTICEABLE_MISMATCH,
+    OF_BODIES,
+    SIMILAR_KEY,
+    rows,
+    wrong_mean_load,
+)
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
@@ -62,7 +71,7 @@ def read_contacts(
     similar = single.pop(SIMILAR_KEY, given.similar)
     body_names = _body_names(single, given.body_names, report)
     if not 0.0 <= plain_number(similar) < math.inf:
-        report.of(SIMILAR_KEY, literal(similar), "a number ≥ 0: the largest |β| of similar bodies")
+        report.of(SIMILAR_KEY, literal(similar), "a number ≥ 0: the largest |β|/μ of similar bodies")
     good_fixed, good_axes = read_values(
         single, axes, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
     )
@@ -235,13 +244,27 @@ def _check_given(
 
 
 def check_bodies(grid: PhysicalGrid, report: Report) -> None:
-    """Bodies that are not similar."""
-    for one, other in itertools.product(*map(grid.of_both, OF_BODIES)):
-        beta = Moduli(one, other).mismatch
-        if abs(beta) > grid.similar:
-            allowed = f"|β| ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
-            report.of(OF_BODIES, f"bodies that are not similar: Dundurs' β = {beta:.3f}", allowed)
-            return
+    """Refuse bodies that are not similar, and warn of bodies that are not quite.
+
+    Without friction nothing is dragged along, and bodies of any moduli are right.
+    """
+    rubbing = [as_number(value) for value in grid.values("friction") if as_number(value) > 0.0]
+    pairs = [Moduli(*both) for both in itertools.product(*map(grid.of_both, OF_BODIES))]
+    if not rubbing or not pairs:
+        return
+    friction, beta = min(rubbing), max((pair.mismatch for pair in pairs), key=abs)
+    ratio = abs(beta) / friction
+    found = f"Dundurs' β = {beta:.3g} is {ratio:.2g} times the friction {friction:g}"
+    if ratio > grid.similar:
+        enough = math.ceil(100.0 * ratio) / 100.0
+        allowed = (
+            f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1); "
+            f"{SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
+        )
+        report.of(OF_BODIES, f"bodies that are not similar: {found}", allowed)
+    elif ratio > NOTICEABLE_MISMATCH:
+        words = f"{found}: pressure p drags tangential tractions of about β p along, which s leaves out"
+        warnings.warn(words, stacklevel=2)
 
 
 def read_contact(text: object) -> ContactDetails:

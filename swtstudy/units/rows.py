@@ -86,8 +86,11 @@ def least_depths(contact: Contact) -> dict[str, float]:
 WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
 #: Parameters that each of the two bodies has.
 OF_BODIES = ("young_modulus", "poisson_ratio")
-#: A fixed value that is no parameter: Dundurs' |β| up to which the bodies count as similar, and what that is.
-SIMILAR_KEY, SIMILAR = "similar", 0.05
+#: A fixed value that is no parameter: |β|/μ up to which the bodies count as similar, β Dundurs' constant, and
+#: what that is. Pressure drags tractions of β p along, friction bears μ p.
+SIMILAR_KEY, SIMILAR = "similar", 0.3
+#: |β|/μ above which it is warned of, a fifth of that.
+NOTICEABLE_MISMATCH = 0.06
 #: Another: what the two bodies are called.
 NAMES_KEY = "bodies"
 #: What is 0 unless given: a constant normal load is the plainest one.

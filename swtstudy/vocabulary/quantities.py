@@ -76,8 +76,8 @@ QUANTITIES: dict[str, Quantity] = {
             "dissipation",
             r"W/(\mu F_0\, \mu E^* \delta_0/G^*)",
             "dissipated work",
-            "work by friction in a load cycle, the common period 2 pi q/omega1, over mu F0 mu E* delta0 / G*, "
-            "F0 the normal force at depth delta0; of plane contacts per length, over mu P0 mu delta0",
+            "work by friction in a load cycle, the common period 2 pi q/omega1, over mu F0 mu E* delta0 / "
+            "G*, F0 the normal force at depth delta0; of plane contacts per length, over mu P0 mu delta0",
             "dissipated_work",
             has_error=True,
             per_cycle=True,

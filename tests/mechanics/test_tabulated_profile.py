@@ -262,7 +262,12 @@ SOFT = {"normal_amplitude": 0.4, "tangential_amplitude": 0.3, "phase": 1.0}
     ("profile", "given", "expected", "tolerance"),
     [
         (faced(0.8, True, 101), {"bulk_stress_amplitude": 0.01}, 0.178367, 1e-4),
-        (faced(0.5, False, 61), SOFT | {"poisson_ratio": 0.1, "bulk_stress_amplitude": 0.01}, 0.0732657, 2e-6),
+        (
+            faced(0.5, False, 61),
+            SOFT | {"poisson_ratio": 0.1, "bulk_stress_amplitude": 0.01},
+            0.0732657,
+            2e-6,
+        ),
         (
             faced(0.5, False, 61),
             SOFT | {"poisson_ratio": 0.1, "bulk_stress_amplitude": 0.3, "bulk_stress_mean": 0.3},

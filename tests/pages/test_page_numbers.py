@@ -21,7 +21,7 @@ from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.points.validity import LIMITS
 from swtstudy.reports.values import LARGEST_TABLE
-from swtstudy.units.rows import SIMILAR
+from swtstudy.units.rows import NOTICEABLE_MISMATCH, SIMILAR
 
 (LARGEST_SHIFT,) = (limit.largest for limit in LIMITS if limit.variable == "bulk_shift_ratio")
 
@@ -353,8 +353,8 @@ def best_load() -> None:
 
 
 def limits() -> None:
-    says("Dundurs' |β| above {}) are refused", SIMILAR)
-    says("contacts with \\|β\\| above {} are refused", SIMILAR)
+    says("|β|/μ above {} is warned of, above {} refused", NOTICEABLE_MISMATCH, SIMILAR)
+    says("contacts with \\|β\\|/μ above {} are warned of, above {} refused", NOTICEABLE_MISMATCH, SIMILAR)
     says("(exit code {}, `--retry-failed`)", POINTS_FAILED)
     says("never on an oblique plane ({} % of s left aside)", 100 * TOLERANCE)
     says("at r = b, where it is never below {} s", LEFT_OUT)

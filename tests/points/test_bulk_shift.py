@@ -56,7 +56,9 @@ def test_the_table_of_cylinders_in_the_docs() -> None:
         for ratio, cell in zip(ratios, cells, strict=True):
             found, exact = _of_cylinder(load, float(ratio))
             word = cell.removesuffix(" %")
-            assert 100.0 * (exact / found - 1.0) == pytest.approx(float(word), abs=0.06 if "." in word else 0.6)
+            assert 100.0 * (exact / found - 1.0) == pytest.approx(
+                float(word), abs=0.06 if "." in word else 0.6
+            )
 
 
 def test_above_a_tenth_results_say_on_which_side_s_is() -> None:
@@ -68,8 +70,8 @@ def test_above_a_tenth_results_say_on_which_side_s_is() -> None:
     (line,) = validity_lines(found)
     assert "at 1 of 2 points" in line
     assert line.endswith(
-        "; s is too low at the edge in tension, it should be up to 6 % at 0.1, 24 % at 0.5, 39 % at 1 higher for "
-        "Q ≥ 0.2 μP"
+        "; s is too low at the edge in tension, it should be up to 6 % at 0.1, 24 % at 0.5, 39 % at 1 higher "
+        "for Q ≥ 0.2 μP"
     )
     assert "too low" in found.bulk_shift_ratio.comment
     assert not any("too low" in line for line in validity_lines(found.isel(bulk_stress_amplitude=[0])))

@@ -40,9 +40,7 @@ def test_dissipation_is_the_area_of_the_loop_that_inspect_shows() -> None:
     assert float(point.dissipation) == pytest.approx(float(area), rel=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "bulk"), [("4", 0.0), pytest.param("7/5", 20.0, marks=pytest.mark.slow)]
-)
+@pytest.mark.parametrize(("ratio", "bulk"), [("4", 0.0), pytest.param("7/5", 20.0, marks=pytest.mark.slow)])
 def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: float) -> None:
     contact = swtstudy.physical(
         young_modulus=73.1e3,
