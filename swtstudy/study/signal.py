@@ -358,7 +358,8 @@ def _without_spikes(
         row, column = int(rows[0]), int(columns[0])
         cycle = int((time[row] - time[0]) / period) + 1
         more = f", and {rows.size - 1} more" if rows.size > 1 else ""
-        found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in cycle {cycle}, row {row + 1} below the header"
+        place = f"in cycle {cycle}, row {row + 1} below the header"
+        found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} {place}"
         usual = f"where the median of the cycles is {median[row, column]:.4g}{more}"
         warnings.warn(f"{name}: {found}, {usual}: a spike? despike = true takes it out", stacklevel=4)
     return values
