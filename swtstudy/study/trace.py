@@ -291,7 +291,7 @@ class _Even:
         tilt = float(found[-1]) / end if level else 0.0
         cost = np.log(np.hypot(loss, FINEST * span) / max(rise, FINEST * span))
         cost += TILT_PENALTY * abs(tilt) * end / span
-        return cls(middle, end, tilt, found[: base.shape[1]], float(cost))
+        return cls(middle, end, tilt, np.asarray(found[: base.shape[1]], np.float64), float(cost))
 
     def rise(self, x: FloatArray) -> FloatArray:
         """The even part at positions, above that at the middle."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +25,9 @@ friction = 0.5
 def told(folder: Path, text: str) -> str:
     """What `swtstudy validate` says of a sound study."""
     (folder / "mine.toml").write_text(text)
-    done = CliRunner().invoke(main, ["validate", str(folder / "mine.toml")])
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        done = CliRunner().invoke(main, ["validate", str(folder / "mine.toml")])
     assert done.exit_code == 0, done.output
     assert "valid, " in done.output
     return " ".join(done.output.split())
@@ -47,15 +50,15 @@ def test_a_radius_in_metres_is_told(tmp_path: Path) -> None:
     assert "validity: contact too large for half-spaces: contact radius over R up to 1.67" in words
 
 
-@pytest.mark.parametrize(("face", "is_told"), [(0.0, True), (0.2, True)])
-def test_heights_in_micrometres_are_told(tmp_path: Path, face: float, is_told: bool) -> None:
+@pytest.mark.parametrize("face", [0.0, 0.2])
+def test_heights_in_micrometres_are_told(tmp_path: Path, face: float) -> None:
     x = np.linspace(-2.0, 2.0, 401)
     z = np.maximum(np.abs(x) - face, 0.0) ** 2 / 50.0
     profile = '[profiles.pad]\nfile = "pad.csv"\ntwo_sided = true\n'
     given = (
         STUDY.replace("[fixed]", f'{profile}[fixed]\nprofile = "pad"') + "tangential_force_amplitude = 60\n"
     )
-    for factor, wrong in ((1.0, False), (1e3, is_told)):
+    for factor, wrong in ((1.0, False), (1e3, True)):
         np.savetxt(
             tmp_path / "pad.csv",
             np.stack([x, factor * z], 1),
