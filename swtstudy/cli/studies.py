@@ -54,8 +54,12 @@ def new(name: str, units: bool) -> None:
 @click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
 @with_studies
 def validate(studies: tuple[str, ...]) -> None:
-    """Check each STUDY (a TOML file) without computing anything."""
+    """Check each STUDY (a TOML file) without computing anything.
+
+    Says, too, which limits of the model points exceed, as far as their loads alone tell.
+    """
     from swtstudy.archive.paths import archive_paths
+    from swtstudy.points.foreseen import foreseen
     from swtstudy.study.definition import sound_studies
 
     report = Report()
@@ -68,6 +72,8 @@ def validate(studies: tuple[str, ...]) -> None:
         with report:
             archive_paths([source], "")
             click.echo(wrapped(words, line_length(), 2))
+            for line in foreseen(study.grid):
+                click.echo(f"validity: {line}", err=True)
     report.refuse()
 
 

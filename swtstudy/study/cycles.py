@@ -5,11 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray
 
 #: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
 #: count seven times as much.
 LEAST_EIGENVALUE = 0.01
+
+#: A spike stands out by so many standard deviations, and by this share of the range of the median cycle.
+SPIKE, SPIKE_SHARE = 10.0, 0.5
+#: Fewest samples of a record, and of a cycle, of which it is asked whether they repeat.
+FEWEST_SAMPLES, FEWEST_IN_CYCLE = 16, 4
+#: Correlation of a repeating record with itself one cycle later, and of a column that is noise at most.
+REPEATS, NOISE = 0.9, 0.5
+#: Quantiles to which samples are cut before.
+TRIMMED = (0.005, 0.995)
 
 
 def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
@@ -58,6 +67,68 @@ def drift(cycles: FloatArray) -> float:
     mean, step = (np.fft.rfft(v, axis=0)[1:4] for v in means)
     slope = 2j * np.pi * np.arange(1, len(mean) + 1)[:, None] * mean
     return float(-(slope.conj() * step).sum().real / max((np.abs(slope) ** 2).sum(), TINY))
+
+
+def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> tuple[BoolArray, FloatArray]:
+    """Samples that stand out from the median of the cycles.
+
+    Such a sample is far from that median, and either outside of the range of the median cycle or outside of
+    both samples beside it: the steep side of a cycle that comes a little late is none.
+
+    Parameters
+    ----------
+    time, values, period, count
+        As of `folded`.
+
+    Returns
+    -------
+    out
+        Shape (k, d), True for spikes.
+    median
+        Shape (k, d): the median of the cycles at the phase of each sample.
+    """
+    cycle = np.median(folded(time, values, period, count), axis=0)
+    phase = np.mod((time - time[0]) / period, 1.0) * len(cycle)
+    closed = np.concatenate([cycle, cycle[:1]])
+    median = np.stack([np.interp(phase, np.arange(len(closed)), column) for column in closed.T], axis=-1)
+    off = values - median
+    least = SPIKE * np.median(np.abs(off), axis=0) / 0.6745
+    least = np.maximum(least, SPIKE_SHARE * np.ptp(cycle, axis=0))
+    beside = np.stack([np.roll(values, 1, axis=0), np.roll(values, -1, axis=0)])
+    beside[0, 0], beside[1, -1] = beside[1, 0], beside[0, -1]
+    outside = np.zeros_like(values, bool)
+    for low, high in ((cycle.min(axis=0), cycle.max(axis=0)), (beside.min(axis=0), beside.max(axis=0))):
+        outside |= (values > high + least) | (values < low - least)
+    return outside & (np.abs(off) > least), median
+
+
+def repeats(time: FloatArray, values: FloatArray) -> float | None:
+    """How often a record (k, d) repeats itself; None if it does not, or holds less than two cycles."""
+    size = len(time)
+    if size < FEWEST_SAMPLES:
+        return None
+    even = np.linspace(time[0], time[-1], size)
+    found = []
+    for column in values.T:
+        own = np.interp(even, time, np.clip(column, *np.quantile(column, TRIMMED)))  # a spike hides all else
+        own = own - own.mean()
+        if not own.any():
+            continue
+        power = np.abs(np.fft.rfft(own, 2 * size)) ** 2
+        products = np.fft.irfft(power)[: size // 2 + 1]
+        found.append(products / np.arange(size, size // 2 - 1 + size % 2, -1)[: len(products)] / own.var())
+    found = [each for each in found if each[FEWEST_IN_CYCLE:].max() > NOISE]
+    if not found:
+        return None
+    least = np.min(found, axis=0)
+    inner = np.arange(FEWEST_IN_CYCLE, len(least))
+    after = np.append(least, -np.inf)[inner + 1]
+    tops = inner[(least[inner] > REPEATS) & (least[inner] >= least[inner - 1]) & (least[inner] >= after)]
+    if not tops.size:
+        return None
+    # The last top is so many cycles from the first sample: it tells the length of one best.
+    cycles = round(tops[-1] / tops[0])
+    return float(size / (tops[-1] / cycles))
 
 
 def mean_over(time: FloatArray, values: FloatArray, period: float) -> float:

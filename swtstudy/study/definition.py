@@ -150,6 +150,11 @@ class Study:
             warnings.warn(
                 f"{source}: axes.{name} has no effect: what it is of does not oscillate", stacklevel=2
             )
+        if isinstance(raw.get("units"), dict):
+            from swtstudy.units.contacts_at_rest import doubts_of_units
+
+            for line in doubts_of_units(study.grid):  # type: ignore[arg-type]
+                warnings.warn(f"{source}: {line}", stacklevel=2)
         return study
 
 

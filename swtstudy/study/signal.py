@@ -16,7 +16,7 @@ from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
-from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, scatter
+from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,
@@ -33,10 +33,23 @@ ROUNDING = 1e-6
 #: amplitude when they are folded, 1 − sin(πx)/πx.
 MOST_DRIFT = 0.08
 
+#: Cycles from which a spike is told: the median of fewer follows it.
+FEWEST_CYCLES = 3
+
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
 #: What may be said of a signal in a file.
-KEYS = ("columns", "absolute", "separator", "decimal", "time", "recorded_cycles", "period", "harmonics")
+KEYS = (
+    "columns",
+    "absolute",
+    "separator",
+    "decimal",
+    "time",
+    "recorded_cycles",
+    "period",
+    "harmonics",
+    "despike",
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,6 +209,7 @@ def read_signal(
     recorded_cycles: int | None = None,
     period: float | None = None,
     harmonics: int | None = None,
+    despike: bool = False,
 ) -> Signal:
     """Loads that a rig has recorded, from a table with a header.
 
@@ -224,6 +238,9 @@ def read_signal(
     harmonics
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.
+    despike
+        Whether samples that stand out from all other cycles take the median of the cycles at their phase;
+        without it a warning names them.
 
     Returns
     -------
@@ -237,7 +254,7 @@ def read_signal(
     """
     given: dict[str, object] = {"columns": columns, "absolute": absolute, "separator": separator}
     given |= {"decimal": decimal, "time": time, "period": period}
-    given |= {"recorded_cycles": recorded_cycles, "harmonics": harmonics}
+    given |= {"recorded_cycles": recorded_cycles, "harmonics": harmonics, "despike": despike}
     own = Path(path).stem or str(path) if name is None else name
     return signal_from(Path(path), checked_name(own), given)
 
@@ -261,6 +278,7 @@ def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
 #: What is sound for each key, and in words.
 _SOUND = {
     "absolute": (lambda value: isinstance(value, bool), "true or false"),
+    "despike": (lambda value: isinstance(value, bool), "true or false"),
     "time": (lambda value: isinstance(value, str) and value.strip(), "the header of the column of the time"),
     "recorded_cycles": (lambda value: is_whole(value, 1), "a whole number of cycles, 1 or more"),
     "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
@@ -301,6 +319,7 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
+    values = _without_spikes(name, time, values, period, count, given)
     signal = Signal(name, time, values, period, count, bool(given.get("absolute")), highest)
     if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
@@ -309,6 +328,8 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
     _warn_of_time(signal)
+    if count == 1 and given.get("recorded_cycles") is None and given.get("period") is None:
+        _warn_of_repeats(signal)
     if signal.is_folded_apart:
         found = f"{name}: its {count} cycles differ by more than their mean moves"
         warnings.warn(f"{found}; is {key} right?", stacklevel=2)
@@ -318,6 +339,44 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
         best = period * (1.0 + shift)
         warnings.warn(f"{found}; is the period {best:.4g} and not {period:.4g}?", stacklevel=2)
     return signal
+
+
+def _without_spikes(
+    name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: Mapping[str, object]
+) -> FloatArray:
+    """The values, with ``despike`` the median of the cycles where one stands out; else a warning names it."""
+    if given.get("despike") and count < FEWEST_CYCLES:
+        allowed = f"{FEWEST_CYCLES} recorded cycles at least: spikes are told from the median of the cycles"
+        raise StudyError([Mistake("despike", f"{count} cycle{'s' * (count > 1)}", allowed)])
+    if count < FEWEST_CYCLES:
+        return values
+    out, median = spikes(time, values, period, count)
+    if given.get("despike"):
+        return np.where(out, median, values)
+    rows, columns = np.nonzero(out)
+    if rows.size:
+        row, column = int(rows[0]), int(columns[0])
+        cycle = int((time[row] - time[0]) / period) + 1
+        more = f", and {rows.size - 1} more" if rows.size > 1 else ""
+        place = f"in cycle {cycle}, row {row + 1} below the header"
+        found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} {place}"
+        usual = f"where the median of the cycles is {median[row, column]:.4g}{more}"
+        warnings.warn(f"{name}: {found}, {usual}: a spike? despike = true takes it out", stacklevel=4)
+    return values
+
+
+def _warn_of_repeats(signal: Signal) -> None:
+    """Warn of a record that is read as one load cycle and repeats itself."""
+    found = repeats(signal.time, signal.values)
+    if found is None:
+        return
+    whole = round(found)
+    if abs(found - whole) < 0.01 * found:
+        words = f"the record repeats {whole} times: recorded_cycles = {whole}?"
+    else:
+        length = signal.period / found
+        words = f"the record repeats {found:.1f} times: period = {length:.4g}?"
+    warnings.warn(f"{signal.name}: {words}", stacklevel=4)
 
 
 def _warn_of_time(signal: Signal) -> None:

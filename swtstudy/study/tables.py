@@ -183,6 +183,9 @@ class LoadTable(Table):
         "Length of a cycle in the place of their number, in the unit of the time, or in samples.", None
     )
     harmonics: Any = _key("Highest order of a fit of the file's columns by harmonics: a smooth loop.", None)
+    despike: Any = _key(
+        "Whether samples that stand out from all other cycles take the median of the cycles.", None
+    )
     keep_cycles: Flag = _key(
         "Whether blocks of the load run all recorded cycles in turn, not their mean.", False
     )

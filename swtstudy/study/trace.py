@@ -1,27 +1,50 @@
-"""A profilometer's trace across a body: two sides, with a tilt, an offset and noise."""
+"""A profilometer's trace across a body: two sides, with a tilt, an offset, noise, dust, pits and dropouts."""
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
 import numpy as np
 
 from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 from swtstudy.study.columns import read_as_given
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
-#: Middles that are tried at a time, and how often closer ones are.
-MIDDLES, ROUNDS = 101, 4
-#: Middles whose sides are unlike by so much more than those of the best one are as good: the tilt decides.
-AS_GOOD = 1.05
+#: Middles of the first search, over the central half of the trace, with so many samples at most.
+MIDDLES, MOST_SAMPLES = 41, 1000
+#: Share of the distance to the nearer end by which the middle is searched around a first estimate.
+NEAR = 0.2
+#: Misfit over the rise that is not told from none: that of the spline itself.
+FINEST = 1e-4
+#: Knots of the even spline whose residuals tell outliers: their spacing is wider than a grain of dust.
+KNOTS = 14
+#: Steps of the robust fit, and the residual over the standard deviation from which a sample counts for
+#: nothing: 95 % efficient with normal noise (Tukey's biweight).
+STEPS, TUKEY = 8, 4.685
+#: Increase of the logarithm of the misfit with the tilt over the largest rise per length. A tilted parabola
+#: is a shifted one; this picks the shifted one, and is too small to move the middle of other shapes.
+TILT_PENALTY = 0.05
+#: Share of the rise that belongs to the lowest region, from which the middle follows.
+LOWEST = 0.5
+#: Standard deviations from which a sample is an outlier, and the share of outliers above which
+#: the two sides have different shapes instead.
+OUTLIER, MOST_OUTLIERS = 8.0, 0.2
+#: A gap is longer than this number of steps; a sample represents its side up to this number of steps.
+GAP, REACH = 5.0, 1.5
+#: Least share of the trace that both sides together cover without a warning.
+LEAST_USED = 0.7
 #: Share of the points, at least so many, of whose parabola the lowest point is the zero of heights.
 INNERMOST, LEAST = 0.1, 5
+#: Share of the largest rise up to which heights are 0, and of the largest radius up to which a face is none.
+ROUND, LEAST_FACE = 1e-5, 0.05
 #: Share of its largest rise that a trace has at both of its ends.
 LEAST_RISE = 0.02
 
@@ -37,7 +60,11 @@ def read_trace(
     smoothing: float | None = None,
     geometry: str = AXISYMMETRIC,
 ) -> TabulatedProfile:
-    """A profile from a trace across it: the mean of both sides, smoothed by what they are unlike.
+    """Read a profile from a trace across it: the mean of both sides, smoothed by their difference.
+
+    The middle follows from the lowest region of the trace by a robust fit. Samples that stand out on one
+    side only, such as dust, pits and dropouts, are set aside. A warning tells their rows, gaps between
+    samples, and a middle so far from the centre that much of the trace is unused.
 
     Parameters
     ----------
@@ -53,7 +80,7 @@ def read_trace(
     level
         Whether to take off the tilt that makes both sides most alike. An offset is always taken off.
     smoothing
-        As of a `TabulatedProfile`, in the place of what the sides are unlike.
+        As of a `TabulatedProfile`, instead of the difference of the sides.
     geometry
         As of a `TabulatedProfile`.
 
@@ -68,17 +95,21 @@ def read_trace(
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
     if not np.ptp(position) > 0.0:
         raise StudyError([Mistake("", f"{len(position)} points at one position", "a trace across", str(own))])
-    radius, mean, noise = folded(position, height, level)
-    if -mean.min() > mean.max():
-        found = f"heights that fall by {-mean.min():.3g} from the middle to the sides"
-        allowed = "heights that grow away from the other body: with the other sign"
-        raise StudyError([Mistake("", found, allowed, str(own))])
-    if _one_sided(position, height):
+    real = _without_sentinels(height)
+    if _one_sided(position[real], height[real]):
         found = "one side only: heights are lowest at an end of the trace"
         allowed = "both sides, with the lowest point between them; of one side a table of radius and height"
         raise StudyError([Mistake("", found, allowed, str(own))])
-    smoothing = noise if smoothing is None else smoothing
-    return TabulatedProfile(own.stem if name is None else name, radius, mean, smoothing, geometry)
+    fold = Fold.of(position, height, level)
+    if -fold.height.min() > fold.height.max():
+        found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
+        allowed = "heights that grow away from the other body: with the other sign"
+        raise StudyError([Mistake("", found, allowed, str(own))])
+    title = own.stem if name is None else name
+    for line in _doubts(position, fold):
+        warnings.warn(f"{title}: {line}", stacklevel=2)
+    smoothing = fold.noise if smoothing is None else smoothing
+    return TabulatedProfile(title, fold.radius, fold.height, smoothing, geometry)
 
 
 def _one_sided(position: FloatArray, height: FloatArray) -> bool:
@@ -86,50 +117,252 @@ def _one_sided(position: FloatArray, height: FloatArray) -> bool:
     order = np.argsort(position)
     outer = max(1, len(order) // 100)
     ends = [height[order[:outer]].mean(), height[order[-outer:]].mean()]
-    return bool(min(ends) - height.min() < LEAST_RISE * np.ptp(height))
+    span = np.ptp(height)
+    is_cap = max(ends) < height.max() - 0.5 * span
+    return bool(min(ends) - height.min() < LEAST_RISE * span and not is_cap)
 
 
-def folded(position: FloatArray, height: FloatArray, level: bool) -> tuple[FloatArray, FloatArray, float]:
-    """Radii and heights of both sides of a trace together, and how unlike these are.
+def _doubts(position: FloatArray, fold: Fold) -> list[str]:
+    """Lines on the samples that were set aside, on gaps, and on a trace of which much is unused."""
+    lines, aside = [], np.flatnonzero(~fold.kept)
+    if aside.size:
+        plural = "s" * (aside.size > 1)
+        rows = f"row{plural} {_runs(aside + 1)} below the header"
+        lines.append(f"{aside.size} sample{plural} set aside that the other side does not have: {rows}")
+    at = np.sort(position)
+    steps = np.diff(at)
+    middle_step = float(np.median(steps[steps > 0.0]))
+    for gap in np.flatnonzero(steps > GAP * middle_step):
+        ends = f"a gap of {steps[gap]:.4g} in the positions, from {at[gap]:.4g} to {at[gap + 1]:.4g}"
+        lines.append(f"{ends}, where most steps are {middle_step:.4g}: the heights there are unknown")
+    used = 2.0 * fold.radius[-1] / np.ptp(position)
+    if used < LEAST_USED:
+        found = f"the middle is at {fold.middle:.4g}, so that only {used:.0%} of the trace has two sides"
+        lines.append(f"{found}: radii up to {fold.radius[-1]:.4g}; is that the middle?")
+    return lines
 
-    Parameters
+
+def _runs(rows: IndexArray, most: int = 5) -> str:
+    """Ascending numbers as ranges, such as 3, 7 to 9."""
+    parts = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
+    words = [f"{part[0]} to {part[-1]}" if len(part) > 1 else f"{part[0]}" for part in parts]
+    return ", ".join(words[:most]) + (f" and {len(words) - most} more places" if len(words) > most else "")
+
+
+@dataclass(frozen=True, eq=False)
+class Fold:
+    """Both sides of a trace together.
+
+    Attributes
     ----------
-    position, height
-        Shape (k,), in any order.
-    level
-        Whether a tilt is taken off.
-
-    Returns
-    -------
     radius, height
         Shape (m,): even radii from 0 on, and the mean of both sides above the lowest point.
     noise
-        Root mean square of half of the difference of both sides, which that mean has, too.
+        Root mean square of half of the difference of both sides; their mean has the same noise.
+    middle
+        Position of the middle.
+    kept
+        Shape (k,): which samples count; the others are sentinels and outliers.
     """
-    order = np.argsort(position)
-    position, height = position[order], height[order]
-    count = len(position) // 2
-    ends = position[0] + np.array([0.25, 0.75]) * np.ptp(position)
-    for _ in range(ROUNDS):
-        middles = np.linspace(ends[0], ends[1], MIDDLES)
-        found = [_sides(position, height, middle, count, level) for middle in middles]
-        unlike = np.array([each[2] for each in found])
-        tilt = np.where(unlike <= AS_GOOD * unlike.min(), [abs(each[3]) for each in found], np.inf)
-        best = int(tilt.argmin()) if level else int(unlike.argmin())
-        ends = middles[best] + np.array([-2.0, 2.0]) * (middles[1] - middles[0])
-    radius, mean, noise, _ = found[best]
-    inner = slice(max(LEAST, int(INNERMOST * count)))
-    mean = mean - np.polynomial.Polynomial.fit(radius[inner] ** 2, mean[inner], 1)(0.0)
-    mean[0] = 0.0
-    return radius, mean, noise
+
+    radius: FloatArray
+    height: FloatArray
+    noise: float
+    middle: float
+    kept: BoolArray
+
+    @classmethod
+    def of(cls, position: FloatArray, height: FloatArray, level: bool) -> Fold:
+        """Fold a trace, of positions and heights (k,) in any order; with ``level`` without its tilt."""
+        kept = _without_sentinels(height)
+        middle, tilt, rise = _middle(position[kept], height[kept], level)
+        kept[kept] = ~_outliers(position[kept], height[kept] - tilt * position[kept], middle, rise)
+        sides = _sides(position[kept], height[kept] - tilt * position[kept], middle)
+        radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
+        values = np.array([_cubic(*side)(radius) for side in sides])
+        known = np.array([_reached(side[0], radius) for side in sides])
+        weight = np.where(known.any(axis=0), known, True).astype(float)
+        mean = (weight * values).sum(axis=0) / weight.sum(axis=0)
+        odd = 0.5 * np.diff(values, axis=0)[0, known.all(axis=0)]
+        noise = float(np.sqrt(np.mean(odd**2))) if odd.size else 0.0
+        inner = slice(max(LEAST, int(INNERMOST * len(radius))))
+        mean = mean - np.polynomial.Polynomial.fit(radius[inner] ** 2, mean[inner], 1)(0.0)
+        mean[0] = 0.0
+        rises = int(np.argmax(np.abs(mean) > ROUND * mean.max()))
+        if radius[rises] > LEAST_FACE * radius[-1]:
+            mean[:rises] = 0.0
+        return cls(radius, mean, noise, middle, kept)
 
 
-def _sides(
-    position: FloatArray, height: FloatArray, middle: float, count: int, level: bool
-) -> tuple[FloatArray, FloatArray, float, float]:
-    """Radii, the mean of both sides, by how much they are unlike, and the tilt, about a middle."""
-    radius = np.linspace(0.0, min(middle - position[0], position[-1] - middle), count)
-    right, left = (np.interp(middle + side * radius, position, height) for side in (1.0, -1.0))
-    odd = 0.5 * (right - left)
-    tilt = float((odd * radius).sum() / (radius * radius).sum()) if level else 0.0
-    return radius, 0.5 * (right + left), float(np.sqrt(np.mean((odd - tilt * radius) ** 2))), tilt
+def folded(position: FloatArray, height: FloatArray, level: bool) -> tuple[FloatArray, FloatArray, float]:
+    """Radii and heights of both sides of a trace together, and their noise, as of a `Fold`."""
+    fold = Fold.of(position, height, level)
+    return fold.radius, fold.height, fold.noise
+
+
+def _without_sentinels(height: FloatArray) -> BoolArray:
+    """Which heights are no sentinel: one extreme value, further from the others than these are apart."""
+    kept = np.ones(len(height), bool)
+    for _ in range(4):
+        values = np.unique(height[kept])
+        if len(values) < 2 * FEWEST:
+            break
+        if values[1] - values[0] > values[-1] - values[1]:
+            kept &= height != values[0]
+        elif values[-1] - values[-2] > values[-2] - values[0]:
+            kept &= height != values[-1]
+        else:
+            break
+    return kept
+
+
+def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[float, float, _Even]:
+    """The middle, the tilt, and the even spline of the whole trace about that middle."""
+    every = slice(None, None, -(-len(position) // MOST_SAMPLES))
+    x, z = position[every], height[every]
+    quarter = 0.25 * float(np.ptp(x))
+    centre = 0.5 * float(x.min() + x.max())
+    even = _best(x, z, (centre - quarter, centre + quarter), np.inf, False)
+    for share in (1.0, LOWEST):
+        rise = even.rise(x)
+        lowest = (np.abs(x - even.middle) <= even.end) & (rise <= share * rise.max())
+        if lowest.sum() < 4 * FEWEST:
+            break
+        # All middles with one window: with a smaller one each spline would fit better.
+        near = min(even.middle - x[lowest].min(), x[lowest].max() - even.middle)
+        around = (even.middle - NEAR * near, even.middle + NEAR * near)
+        even = _best(x[lowest], z[lowest], around, (1.0 - NEAR) * near, level)
+    return (
+        even.middle,
+        even.tilt,
+        _Even.of(position, height - even.tilt * position, even.middle, np.inf, False),
+    )
+
+
+def _best(x: FloatArray, z: FloatArray, ends: tuple[float, float], window: float, level: bool) -> _Even:
+    """The even spline about the best middle between two ends."""
+    from scipy.optimize import minimize_scalar
+
+    middles = np.linspace(*ends, MIDDLES)
+    best = int(np.argmin([_Even.of(x, z, middle, window, level).cost for middle in middles]))
+    bounds = middles[max(best - 1, 0)], middles[min(best + 1, MIDDLES - 1)]
+    found = minimize_scalar(
+        lambda middle: _Even.of(x, z, middle, window, level).cost,
+        bounds=bounds,
+        method="bounded",
+        options={"xatol": 1e-6 * (middles[1] - middles[0])},
+    )
+    return _Even.of(x, z, float(found.x), window, level)
+
+
+@dataclass(frozen=True, eq=False)
+class _Even:
+    """A tilt and an even cubic spline about a middle, fitted to a trace by Tukey's biweight.
+
+    ``cost`` is the logarithm of the misfit over the rise, and what the tilt adds.
+    """
+
+    middle: float
+    end: float
+    tilt: float
+    coefficients: FloatArray
+    cost: float
+
+    @classmethod
+    def of(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Even:
+        """Fit the samples within a window that have another side."""
+        end = float(min(middle - x.min(), x.max() - middle, window))
+        some = np.abs(x - middle) <= end
+        x, z = x[some] - middle, z[some]
+        base = _basis(x, end)
+        columns = np.column_stack([base, x / end]) if level else base
+        weight, span = np.ones(len(x)), float(np.ptp(z)) or 1.0
+        for step in range(STEPS):
+            gram = columns.T @ (weight[:, None] * columns)
+            gram[np.diag_indices_from(gram)] += 1e-9 * len(x) / len(gram)
+            found = np.linalg.solve(gram, columns.T @ (weight * z))
+            size = np.abs(z - columns @ found)
+            scale = max(float(np.median(size)) / 0.6745, FINEST * span)
+            share = np.minimum(size / (TUKEY * scale), 1.0)
+            # Absolute deviations first: squares would follow the outliers.
+            weight = scale / np.maximum(size, scale) if step < STEPS // 2 else (1.0 - share**2) ** 2
+        loss = TUKEY * scale * np.sqrt(np.mean(1.0 - (1.0 - share**2) ** 3) / 3.0)
+        rise = float(np.ptp(base @ found[: base.shape[1]]))
+        tilt = float(found[-1]) / end if level else 0.0
+        cost = np.log(np.hypot(loss, FINEST * span) / max(rise, FINEST * span))
+        cost += TILT_PENALTY * abs(tilt) * end / span
+        return cls(middle, end, tilt, np.asarray(found[: base.shape[1]], np.float64), float(cost))
+
+    def rise(self, x: FloatArray) -> FloatArray:
+        """The even part at positions, above that at the middle."""
+        return np.asarray(self(x) - self(np.full(1, self.middle)))
+
+    def __call__(self, x: FloatArray) -> FloatArray:
+        inside = np.clip(x - self.middle, -self.end, self.end)
+        return np.asarray(_basis(inside, self.end) @ self.coefficients)
+
+
+def _basis(x: FloatArray, end: float) -> FloatArray:
+    """Even cubic splines of x/end at distances x from the middle, shape (k, KNOTS + 1)."""
+    from scipy.interpolate import BSpline
+
+    knots = np.linspace(0.0, 1.0, KNOTS)
+    full = np.concatenate([[0.0] * 3, knots, [1.0] * 3])
+    found = BSpline.design_matrix(np.minimum(np.abs(x) / end, 1.0), full, 3).toarray()
+    # No slope at the middle: the first two are one.
+    return np.column_stack([found[:, 0] + found[:, 1], found[:, 2:]])
+
+
+def _outliers(position: FloatArray, height: FloatArray, middle: float, even: _Even) -> BoolArray:
+    """Which samples stand out of the even spline, and of the samples opposite."""
+    radius = np.abs(position - middle)
+    left = position < middle
+    differs = np.full(len(position), np.nan)
+    for side in (left, ~left):
+        r, z = _merged(radius[~side], height[~side])
+        inside = side & (radius <= r[-1]) & (radius >= r[0])
+        differs[inside] = height[inside] - np.interp(radius[inside], r, z)
+    residual = height - even(position)
+    known = np.isfinite(differs)
+    if not known.any():
+        return np.zeros(len(position), bool)
+    floor = 1e-6 * np.ptp(height)
+    limits = [OUTLIER * max(float(np.median(np.abs(v[known]))) / 0.6745, floor) for v in (residual, differs)]
+    out = known & (np.abs(residual) > limits[0]) & (np.abs(differs) > limits[1])
+    # Of two samples opposite the one nearer to the spline is sound.
+    out &= np.abs(residual) >= 0.5 * np.abs(differs)
+    return out if out.mean() < MOST_OUTLIERS else np.zeros(len(position), bool)
+
+
+def _sides(position: FloatArray, height: FloatArray, middle: float) -> list[tuple[FloatArray, FloatArray]]:
+    """Distances and heights of both sides, ascending, each with the nearest samples across the middle."""
+    found = []
+    for sign in (1.0, -1.0):
+        distance, own = _merged(sign * (position - middle), height)
+        first = max(int(np.searchsorted(distance, 0.0)) - 3, 0)
+        found.append((distance[first:], own[first:]))
+    return found
+
+
+def _merged(distance: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Ascending distances, and the mean of the heights of samples next to one another."""
+    order = np.argsort(distance, kind="stable")
+    distance, height = distance[order], height[order]
+    steps = np.diff(distance)
+    if not steps.any():
+        return distance[:1], height[:1]
+    group = np.append(0, np.cumsum(steps > 0.1 * np.median(steps[steps > 0.0])))
+    count = np.bincount(group)
+    return np.bincount(group, distance) / count, np.bincount(group, height) / count
+
+
+def _cubic(distance: FloatArray, height: FloatArray):  # type: ignore[no-untyped-def]
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(distance, height)
+
+
+def _reached(distance: FloatArray, radius: FloatArray) -> BoolArray:
+    """Which radii are within reach of a sample on each side of them."""
+    after = np.clip(np.searchsorted(distance, radius), 1, len(distance) - 1)
+    return np.asarray(np.diff(distance)[after - 1] <= (1.0 + REACH) * np.median(np.diff(distance)))

@@ -159,6 +159,32 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             _check_shapes(grid, profile, report)
 
 
+#: Largest pressure over E* that no metal sustains, and contact radius over R of a table, far above the limit
+#: of half-spaces.
+LARGEST_PRESSURE, LARGEST_RATIO = 0.1, 0.2
+
+
+def doubts_of_units(grid: PhysicalGrid) -> list[str]:
+    """Contacts at rest that hint at a wrong unit: one larger than its radius, or pressed beyond any metal."""
+    lines: dict[str, str] = {}
+    unit = unit_words(grid.labels.length)
+    for contact in {id(each): each for each in grid.at_rest.contacts.flat}.values():
+        radius, edge = contact.radius, contact.contact_radius
+        profile = contact.profile
+        if not isinstance(profile, str):
+            ratio, pressure = contact.depth / edge, contact.peak_pressure / contact.moduli.normal
+            if ratio > LARGEST_RATIO or (np.isfinite(pressure) and pressure > LARGEST_PRESSURE):
+                found = (
+                    f"profile {profile.name}: a contact radius of {edge:.4g}{unit} over R is {ratio:.3g}, p0"
+                )
+                found += f" over E* is {pressure:.3g}"
+                lines.setdefault("table", f"{found}: are heights and positions in one unit?")
+        elif radius is not None and edge - contact.shape.get("flat_radius", 0.0) > radius:
+            found = f"radius {radius:g}{unit} is smaller than the contact ({edge:.3g}{unit})"
+            lines.setdefault("radius", f"{found}: is the radius in another unit, such as metres?")
+    return list(lines.values())
+
+
 def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Report) -> None:
     """A critical distance beyond its range in the smallest contact."""
     row, length = grid.row(DISTANCE), grid.at_rest.scale("a_H")

@@ -350,3 +350,53 @@ def test_a_file_with_next_to_no_samples_is_named(tmp_path: Path) -> None:
     write(tmp_path / "one.csv", np.array([[200.0, 0.0]]), "normal,tangential")
     with pytest.raises(StudyError, match=r"one\.csv: found 1 samples; allowed: 2 at least"):
         read_signal(tmp_path / "one.csv")
+
+
+def with_a_spike(folder: Path) -> np.ndarray:
+    """A record of 25 cycles of 50 samples, with one sample of 15 times the amplitude in row 513."""
+    phase = 2.0 * np.pi * np.arange(1250) / 50
+    values = smooth(phase) + np.random.default_rng(1).normal(size=(1250, 3)) * [2.0, 0.6, 0.3]
+    write(folder / "clean.csv", values, "normal,tangential,bulk")
+    values[512, 1] = 900.0
+    write(folder / "spike.csv", values, "normal,tangential,bulk")
+    return values
+
+
+def test_a_spike_is_named_and_taken_out_if_asked(tmp_path: Path) -> None:
+    with_a_spike(tmp_path)
+    given = {"recorded_cycles": 25, "absolute": True}
+    with pytest.warns(
+        UserWarning, match=r"spike: tangential 900 in cycle 11, row 513 below .* despike = true"
+    ):
+        spoilt = read_signal(tmp_path / "spike.csv", **given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        clean = read_signal(tmp_path / "clean.csv", **given)
+        found = read_signal(tmp_path / "spike.csv", despike=True, **given)
+    assert np.abs(spoilt.mean_cycle - clean.mean_cycle).max() > 30.0
+    np.testing.assert_allclose(found.mean_cycle, clean.mean_cycle, atol=0.1)
+    with pytest.raises(StudyError, match="despike: found 2 cycles; allowed: 3 recorded cycles at least"):
+        read_signal(tmp_path / "spike.csv", recorded_cycles=2, despike=True)
+
+
+def test_steep_cycles_that_come_a_little_late_have_no_spikes(tmp_path: Path) -> None:
+    late = np.random.default_rng(1).integers(0, 2, 25)
+    square = np.concatenate([np.roll(np.repeat([60.0, -60.0], 25), each) for each in late])
+    write(tmp_path / "square.csv", np.stack([np.full(1250, 200.0), square], axis=1), "normal,tangential")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_signal(tmp_path / "square.csv", recorded_cycles=25)
+
+
+def test_a_record_of_many_cycles_read_as_one_is_told(tmp_path: Path) -> None:
+    with_a_spike(tmp_path)
+    for name in ("clean", "spike"):
+        with pytest.warns(UserWarning, match=f"{name}: the record repeats 25 times: recorded_cycles = 25[?]"):
+            read_signal(tmp_path / f"{name}.csv")
+    # The period of the normal load and of the tangential one: together they do not repeat.
+    phase = 2.0 * np.pi * np.arange(500) / 500
+    both = np.stack([20.0 * np.sin(5.0 * phase), 60.0 * np.sin(7.0 * phase)], axis=1)
+    write(tmp_path / "both.csv", both, "normal,tangential")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_signal(tmp_path / "both.csv")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
+from folders import DATA
 
 import swtstudy
 from swtstudy import StudyError, read_trace
@@ -51,7 +54,7 @@ def test_one_grain_of_dust_in_the_middle_does_not_shift_all_heights() -> None:
 
 def test_a_trace_may_go_either_way() -> None:
     x, z = trace("flat", 1e-4, 0.004)
-    np.testing.assert_allclose(folded(-x, z, level=True)[1], folded(x, z, level=True)[1], atol=1e-11)
+    np.testing.assert_allclose(folded(-x, z, level=True)[1], folded(x, z, level=True)[1], atol=1e-8)
 
 
 def test_a_trace_is_a_profile_of_a_contact(tmp_path: Path) -> None:
@@ -139,3 +142,99 @@ def test_a_trace_at_one_position_is_told(tmp_path: Path) -> None:
     (tmp_path / "still.csv").write_text("position,height\n" + "1,0\n" * 40)
     with pytest.raises(StudyError, match=r"still.csv: found 40 points at one position; allowed: a trace"):
         read_trace(tmp_path / "still.csv")
+
+
+#: What the contacts of the tests below have in common: a contact radius of 0.7.
+GIVEN = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "normal_force": 200.0, "friction": 0.5}
+GIVEN |= {"normal_force_amplitude": 20.0, "tangential_force_amplitude": 60.0, "phase": 1.0}
+#: SWT of the clean trace of `pad`.
+CLEAN = 0.28933
+
+
+def pad() -> tuple[np.ndarray, np.ndarray]:
+    """A trace across a flat with rounded edges: positions every 0.01, heights to 1e-8."""
+    return np.loadtxt(DATA / "trace_of_pad.csv", delimiter=",", skiprows=1).T
+
+
+def read(folder: Path, x: np.ndarray, z: np.ndarray) -> tuple[swtstudy.TabulatedProfile, list[str]]:
+    """The profile of a trace, and what is told of it."""
+    rows = "\n".join(f"{a:.9g},{b:.9g}" for a, b in zip(x, z, strict=True))
+    (folder / "pad.csv").write_text(f"position,height\n{rows}\n")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        profile = read_trace(folder / "pad.csv")
+    return profile, [str(each.message) for each in told]
+
+
+def swt(profile: swtstudy.TabulatedProfile) -> float:
+    return swtstudy.physical(profile=profile, **GIVEN).solve(rtol=1e-3).SWT.values[0]
+
+
+def test_a_clean_trace_is_told_nothing_of(tmp_path: Path) -> None:
+    profile, told = read(tmp_path, *pad())
+    assert told == []
+    assert swt(profile) == pytest.approx(CLEAN, rel=1e-3)
+
+
+@pytest.mark.parametrize("place", [-1.8, -0.9, 0.2, 0.8, 1.69])
+@pytest.mark.parametrize(
+    ("kind", "samples"), [("dust", 6), ("dust", 1), ("pit", 6), ("zero", 8), ("sentinel", 8)]
+)
+def test_dust_pits_and_dropouts_anywhere_are_set_aside(
+    tmp_path: Path, place: float, kind: str, samples: int
+) -> None:
+    x, z = pad()
+    first = int(np.searchsorted(x, place))
+    some = slice(first, first + samples)
+    if kind in ("dust", "pit"):
+        z[some] += 2e-3 if kind == "dust" else -2e-3
+    else:
+        z[some] = 0.0 if kind == "zero" else -9999.0
+    profile, told = read(tmp_path, x, z)
+    clean = read(tmp_path, *pad())[0]
+    off = np.interp(clean.radius, profile.radius, profile.height) - clean.height
+    assert np.abs(off[clean.radius < 0.8]).max() < 1e-6
+    if (kind, place) != ("zero", 0.2):  # there the heights are 0
+        rows = f"rows {first + 1} to {first + samples}" if samples > 1 else f"row {first + 1}"
+        plural = "s" * (samples > 1)
+        words = f"{samples} sample{plural} set aside that the other side does not have: {rows}"
+        assert told[0] == f"pad: {words} below the header"
+
+
+def test_dust_far_outside_of_the_contact_does_not_change_swt(tmp_path: Path) -> None:
+    x, z = pad()
+    z[367:373] += 2e-3
+    assert swt(read(tmp_path, x, z)[0]) == pytest.approx(CLEAN, rel=1e-3)
+
+
+@pytest.mark.parametrize(("count", "shift"), [(101, 2.0), (201, 2.0), (201, 0.3333), (401, 0.01)])
+def test_the_zero_of_positions_does_not_matter(tmp_path: Path, count: int, shift: float) -> None:
+    x = np.linspace(-2.0, 2.0, count)
+    profile, told = read(tmp_path, x + shift, x**2 / 100.0)
+    assert told == []
+    exact = swtstudy.physical(radius=50.0, **GIVEN).solve(rtol=1e-4).SWT.values[0]
+    found = swtstudy.physical(profile=profile, **GIVEN).solve(rtol=1e-4).SWT.values[0]
+    assert found == pytest.approx(exact, rel=1e-3)
+
+
+@pytest.mark.parametrize("place", [-1.4, -0.6, -0.25, 0.3, 0.9])
+def test_a_gap_is_told_and_bridged_by_the_other_side(tmp_path: Path, place: float) -> None:
+    x, z = pad()
+    lost = (x > place) & (x < place + 0.5)
+    profile, told = read(tmp_path, x[~lost], z[~lost])
+    assert len(told) == 1
+    ends = x[np.flatnonzero(lost)[[0, -1]] + [-1, 1]]
+    assert told[0] == (
+        f"pad: a gap of {np.diff(ends)[0]:.4g} in the positions, from {ends[0]:.4g} to {ends[1]:.4g}, "
+        "where most steps are 0.01: the heights there are unknown"
+    )
+    # A gap across the middle has no other side.
+    assert swt(profile) == pytest.approx(CLEAN, rel=2e-3 if place * (place + 0.5) > 0.0 else 0.1)
+
+
+def test_a_trace_of_which_much_is_unused_is_told(tmp_path: Path) -> None:
+    x, z = pad()
+    profile, told = read(tmp_path, x[x < 0.9], z[x < 0.9])
+    assert len(told) == 1
+    assert re.match(r"pad: the middle is at .*, so that only 6\d% of the trace has two sides", told[0])
+    assert swt(profile) == pytest.approx(CLEAN, rel=2e-3)
