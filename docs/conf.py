@@ -27,6 +27,7 @@ myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 # The notebook is shown with the outputs that are committed; a test holds them against a run.
 nb_execution_mode = "off"
+nb_render_markdown_format = "myst"  # CommonMark has no tables
 default_role = "py:obj"
 nitpicky = True
 # Types of attributes that have no page of their own.

@@ -107,8 +107,10 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
         click.echo(str(path))
 
 
-#: Commands that make everything to be checked: the audit is not part of the suite.
-EVERYTHING = "swtstudy run --all && swtstudy audit parameter_box"
+#: Commands that make everything to be checked: audits are not part of the suite.
+EVERYTHING = (
+    "swtstudy run --all && swtstudy audit parameter_box && swtstudy audit figure3 figure4 --points 100"
+)
 
 
 @click.command(epilog=examples(f"{EVERYTHING} && swtstudy check"))

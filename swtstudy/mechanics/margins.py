@@ -41,12 +41,17 @@ class Margins(Rows):
     force_ratio
         Largest |F_x|/(μ F_N) that is prescribed: there is no equilibrium where it is above 1; NaN where
         the tangential force is not prescribed.
+    slide
+        By how much the tangential displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus
+        that limit if the depth is constant. 0 without gross slip; NaN where the bodies part or the
+        tangential force is prescribed.
     """
 
     largest_radius: FloatArray
     slip_width: FloatArray
     bulk_shift: FloatArray
     force_ratio: FloatArray
+    slide: FloatArray
 
     @classmethod
     def of(cls, points: Points) -> Margins:
@@ -70,8 +75,12 @@ def _of_alike(points: Points, prescribed: Load) -> Margins:
     ends = np.maximum(np.stack([stick, load.largest_normal], axis=1), 0.0)
     stick_radius, largest = coordinate.radius(ends).T
     width = np.where(stick >= 0.0, largest - stick_radius, np.nan)
-    ratio = _force_ratio(load) if points.control.tangential_force else np.full(len(points), np.nan)
-    return Margins(largest, width, bulk_shift(points), ratio)
+    unknown = np.full(len(points), np.nan)
+    if points.control.tangential_force:
+        return Margins(largest, width, bulk_shift(points), _force_ratio(load), unknown)
+    touches = load.normal(load.turning_instants()).min(axis=1) > 0.0
+    slide = np.where(touches, np.maximum(-stick, 0.0), np.nan)
+    return Margins(largest, width, bulk_shift(points), unknown, slide)
 
 
 def _force_ratio(load: Load) -> FloatArray:

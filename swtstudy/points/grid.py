@@ -149,6 +149,11 @@ class Grid:
         return np.full(self.size, np.nan)
 
     @property
+    def slip_scales(self) -> FloatArray:
+        """μ E* δ0/(G* a_H) of each point, NaN where no length is known; shape (size,)."""
+        return np.full(self.size, np.nan)
+
+    @property
     def strain_shares(self) -> FloatArray:
         """Strain of each point's body over the mean of both bodies, under equal tractions; shape (size,)."""
         return np.ones(self.size)

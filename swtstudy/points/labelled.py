@@ -28,7 +28,7 @@ from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attribute
 _LONGEST_NAME = 24
 
 #: Data variables that results have where something is given that they are about.
-MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio")
+MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio", "slide_ratio")
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
 #: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
@@ -84,6 +84,13 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "of a table over that of the paraboloid with its contact radius and depth at rest",
         "units": "1",
         "symbol": r"a_\mathrm{max}/R",
+    },
+    "slide_ratio": {
+        "long_name": "slide over contact radius",
+        "comment": "by how much the tangential displacement exceeds the limit of partial slip, over the "
+        "largest contact radius of a cycle; 0 without gross slip, NaN where the bodies part",
+        "units": "1",
+        "symbol": r"(u_\mathrm{A} - u_\mathrm{slip})/a_\mathrm{max}",
     },
     "critical_x": {
         "long_name": "critical point x/a_H",
@@ -244,7 +251,7 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
     if not names:
         return {}
     every = Margins.joined([Margins.of(batch) for batch in points.batches])
-    radius, width, shift, ratio = vars(every.take(points.index)).values()
+    radius, width, shift, ratio, slide = vars(every.take(points.index)).values()
     if "bulk_shift" in names:
         shift = shift * grid.strain_shares
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -255,4 +262,6 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
         }
     if "radius_ratio" in names:
         found["radius_ratio"] = radius * grid.curvatures
+    if "slide_ratio" in names:
+        found["slide_ratio"] = slide * grid.slip_scales / radius
     return {name: found[name] for name in names}

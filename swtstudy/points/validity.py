@@ -66,6 +66,13 @@ LIMITS = (
     ),
     Limit("radius_ratio", 0.1, "contact too large for half-spaces", "contact radius over R", "half-spaces"),
     Limit(
+        "slide_ratio",
+        0.1,
+        "slide too long for a contact that stays in place",
+        "slide over contact radius",
+        "slide",
+    ),
+    Limit(
         "bulk_shift_ratio",
         0.1,
         "shift of the stick zone by bulk strain too large to be left out",

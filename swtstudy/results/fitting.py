@@ -74,8 +74,8 @@ def fit(
         A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the rounds
         of the load to a crack; a row for each test. Tests without a crack have no life: leave them out.
     y
-        "cycles_volume", "cycles_point" or "cycles_line": of which mean. The latter two straight down. By
-        Fatemi and Socie these with "FS_" before them.
+        Name of the predicted life: "cycles_volume", "cycles_point" or "cycles_line", the latter two straight
+        down; with ``FS_`` before the name, a life by the criterion of Fatemi and Socie.
     friction
         Whether friction is fitted, too; the study's is where that begins.
     confidence

@@ -16,6 +16,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "The paper": (
         *(f"figure{number}" for number in range(3, 9)),
         *("frequencies", "other_frequencies", "friction", "poisson_ratio", "tangential_amplitude"),
+        "tangential_amplitude_sample",
     ),
     "Loads": ("contour", "force_control", "loops", "bulk_stress"),
     "Plane contacts": ("plane_contacts",),

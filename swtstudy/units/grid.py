@@ -231,7 +231,7 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def margins(self) -> tuple[str, ...]:
         """See `Grid.margins`."""
-        return (*super().margins, "radius_ratio")
+        return (*super().margins, "radius_ratio", *("slide_ratio",) * (not self.control.tangential_force))
 
     @property
     def curvatures(self) -> FloatArray:
@@ -243,6 +243,11 @@ class PhysicalGrid(ContactDetails, Grid):
                 )
             )
         )
+
+    @property
+    def slip_scales(self) -> FloatArray:
+        """See `Grid.slip_scales`."""
+        return self._of_points(self.at_rest.each(lambda contact: contact.slip_scale / contact.length_scale))
 
     @property
     def strain_shares(self) -> FloatArray:

@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 from memory import harmonic, tangential_force
 from numpy.typing import NDArray
-from oracles.jaeger import JaegerContact
-from oracles.memory_diagram import MemoryDiagram
 from oracles.springs import bimodal, polygon, spring_forces
 from scipy.integrate import trapezoid
 
@@ -20,6 +18,8 @@ from swtstudy.mechanics.control.coordinate import DepthCoordinate
 from swtstudy.mechanics.events.stretches import Nodes
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.stress.line import SurfaceLine
+from swtstudy.paper.formalisms.jaeger import JaegerContact
+from swtstudy.paper.formalisms.memory_diagram import MemoryDiagram
 
 Array = NDArray[np.float64]
 

@@ -324,6 +324,10 @@ def statements() -> None:
     said = "over all of the paper's studies {} % of the points slide as a whole once a cycle"
     says(said, *numbers("statements.md", "gross slip {}%"))
     assert solve(rtol=1e-2).regime == REGIMES.index("partial_slip")  # Table 1's own point
+    falls, curves = numbers("statements.md", "| s falls on {} of {} random curves")
+    (most,) = numbers("statements.md", f"| s falls on {falls:g} of {curves:g} random curves, by up to {{}}%")
+    says("s falls with it on {} of {} random curves, by up to {} %", falls, curves, most)
+    says("{} of them in gross slip", *numbers("statements.md", "in gross slip s falls on {} of"))
 
 
 def extremes() -> None:

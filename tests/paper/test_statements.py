@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import PHASES, made_up
+from made_up import PHASES, made_up, made_up_audit
 
-from swtstudy.paper.statements import face, parameters, phase, waviness
+from swtstudy.paper.statements import critical_point, face, formalisms, parameters, phase, waviness
 from swtstudy.paper.statements.statement import NotInArchiveError, at
 
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
@@ -219,6 +219,94 @@ def test_parameters():
     strong = made_up(lambda friction, poisson_ratio: 1 - poisson_ratio, **axes)
     assert not parameters.poisson_ratio_is_weak(strong).holds
     assert not parameters.poisson_ratio_is_intricate(strong).holds
+
+
+def random_curves(falls: dict[int, float], regime: int) -> xr.Dataset:
+    """Twenty curves that rise, except for those that end with a fall, in a regime."""
+    curves = made_up(
+        lambda sample, tangential_amplitude: tangential_amplitude + 0 * sample,
+        sample=np.arange(20.0),
+        tangential_amplitude=[0.4, 0.8, 1.2],
+    )
+    for number, fall in falls.items():
+        curves.s[number, 2] = 0.8 * (1.0 - fall)
+        curves.regime[number, 2] = regime
+    return curves
+
+
+@pytest.mark.parametrize(
+    ("falls", "regime", "holds"),
+    [
+        ({}, 1, (True, True)),
+        ({3: 0.2}, 1, (False, True)),
+        ({3: 0.01, 4: 0.01}, 1, (False, False)),
+        ({number: 0.04 for number in range(20)}, 2, (False, True)),
+        ({3: 0.06}, 2, (False, False)),
+    ],
+)
+def test_a_fall_with_the_tangential_amplitude(falls, regime, holds):
+    curves = random_curves(falls, regime)
+    always, mostly = (
+        test(curves)
+        for test in (parameters.rises_with_tangential_amplitude, parameters.rises_in_partial_slip)
+    )
+    assert (always.holds, mostly.holds) == holds
+    words = f"s falls on {len(falls) or 'none'} of 20 random curves"
+    assert always.measured.startswith(words)
+    assert f"{'in gross slip' if regime == 2 else 'up to gross slip'} {words}" in mostly.measured
+    # A fall within the error is none.
+    curves["s_error"] = curves.s_error + 1.0
+    assert parameters.rises_with_tangential_amplitude(curves).holds
+
+
+@pytest.mark.parametrize(("share", "holds"), [(1.0, True), (0.5, True), (1.001, False)])
+def test_the_critical_point_is_inside_of_the_contact(share, holds):
+    figures = [made_up(lambda normal_amplitude: 1 + 0 * normal_amplitude, normal_amplitude=[0.0, 0.75])] * 2
+    for figure in figures:
+        figure["critical_x"] = -share * np.sqrt(1.0 + figure.normal_amplitude)
+    audit = made_up_audit(off_line=1)
+    assert critical_point.inside_contact(*figures, audit, audit).holds == holds
+    audit["verdict"][0] = audit.verdict.attrs["flag_meanings"].split().index("surface")
+    finding = critical_point.inside_contact(*figures, audit, audit)
+    assert not finding.holds
+    assert "beneath the surface at 2 of 8 randomly audited points" in finding.measured
+
+
+@pytest.mark.parametrize(("power", "holds"), [(-1.0, True), (-2.1, False)])
+def test_a_sharp_punch_is_the_limit_of_a_small_radius(power, holds):
+    """At fixed b and δ0 SWT goes with s (b/a_H)², and R with (b/a_H)^−2."""
+    annulus = made_up(
+        lambda profile, friction, flat_radius: friction * flat_radius**power,
+        profile=["rounded_punch"],
+        friction=[0.1, 0.3],
+        flat_radius=[0.1, 1.0, 10.0],
+    )
+    finding = face.sharp_edges_are_worst(annulus)
+    assert finding.holds == holds
+    assert ("at the end like R^-0.50 to R^-0.50" in finding.measured) == holds
+
+
+@pytest.mark.parametrize(("third", "holds"), [(0.2, True), (0.35, False)])
+def test_long_cycles_matter_little(third, holds):
+    depths = {1.0: 0.4, 0.5: 0.3, 1.5: 0.1, 1 / 3: third, 2 / 3: 0.1}
+    finding = phase.long_cycles_matter_little(of_ratio(depths, {1.0: 2, 0.5: 1, 1.5: 3, 1 / 3: 1, 2 / 3: 2}))
+    assert finding.holds == holds
+    assert "q = 1: 0.86, 2: 0.58, 3: " in finding.measured
+
+
+def test_formalisms_agree_and_a_wrong_one_would_not(monkeypatch):
+    finding = formalisms.formalisms_agree()
+    assert finding.holds
+    depth, _ = formalisms.random_path(0)
+    assert depth.min() < 0.0 < depth.max()
+    right = formalisms.march_springs
+
+    def late(g, depth, displacement, periods):
+        w, tau = right(g, depth, displacement, periods)
+        return w, np.concatenate([tau[:1], tau[:-1]])
+
+    monkeypatch.setattr(formalisms, "march_springs", late)
+    assert not formalisms.formalisms_agree().holds
 
 
 def test_what_an_archive_lacks_is_named():

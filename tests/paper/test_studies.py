@@ -145,6 +145,22 @@ def test_s_rises_with_the_tangential_amplitude():
     assert (study.s.diff("tangential_amplitude") > 0).all()
 
 
+def test_s_may_fall_with_the_tangential_amplitude():
+    """In gross slip, and, seldom, before."""
+    slides = swtstudy.solve(
+        poisson_ratio=0.128464, friction=0.150587, normal_amplitude=0.156876, frequency_ratio="1/2",
+        phase=2.614443, tangential_amplitude=[0.9, 1.2], rtol=1e-5,
+    )  # fmt: skip
+    np.testing.assert_allclose(slides.s, [0.076415, 0.075428], atol=2e-6)
+    assert slides.regime.values.tolist() == [2, 2]
+    slips = swtstudy.solve(
+        poisson_ratio=0.020429, friction=0.242863, normal_amplitude=0.224349, frequency_ratio="1/2",
+        phase=1.385340, tangential_amplitude=[0.55, 0.625], rtol=1e-5,
+    )  # fmt: skip
+    np.testing.assert_allclose(slips.s, [0.127339, 0.123662], atol=1e-5)
+    assert slips.regime.values.tolist() == [1, 1]
+
+
 def test_s_falls_by_a_half_over_the_poisson_ratio():
     s = few("poisson_ratio", friction=[0.3], poisson_ratio=[0, 0.25, 0.5]).s.squeeze()
     assert (s.diff("poisson_ratio") < 0).all()

@@ -188,6 +188,7 @@ def test_every_variable_of_results_has_a_comment():
         "bulk_shift_ratio": "which s leaves out, over the width of the slip zone",
         "prescribed_force_ratio": "above 1 there is no equilibrium",
         "radius_ratio": "half the width in plane contacts, over the radius R",
+        "slide_ratio": "exceeds the limit of partial slip, over the largest contact radius of a cycle",
         "critical_x": "in units of a_H = sqrt(R delta0)",
         "critical_angle": "angle of the normal of the critical plane against the x axis, in (-90, 90]",
         "regime": "over the stationary cycle",

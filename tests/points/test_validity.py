@@ -55,6 +55,22 @@ def test_contact_radius_over_r(rig):
     assert "contact too large for half-spaces" in physical(**own).solve(1e-2).swt.validity()[0]
 
 
+def test_slide_over_the_contact_radius(rig):
+    own = {"young_modulus": 73.1e3, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5, "depth": 0.01}
+    limit, radius = 0.5 * 0.01 * (2.0 - 0.3) / (2.0 - 2.0 * 0.3), np.sqrt(0.01 * 50.0)
+    for amplitude in (0.9 * limit, 2.0 * limit, limit + 0.2 * radius):
+        found = physical(**own, tangential_amplitude=amplitude).solve(1e-2)
+        expected = max(amplitude - limit, 0.0) / radius
+        np.testing.assert_allclose(found.slide_ratio, expected, rtol=1e-9)
+        lines = [line for line in found.swt.validity() if line.startswith("slide too long")]
+        assert len(lines) == (expected > 0.1)
+    lost = physical(**own, normal_amplitude=0.012, tangential_amplitude=0.01).solve(1e-2)
+    assert np.isnan(lost.slide_ratio).all()
+    # Without units no radius is known; a prescribed force lets nothing slide.
+    assert "slide_ratio" not in swtstudy.solve(tangential_amplitude=2.0, rtol=1e-2)
+    assert "slide_ratio" not in rig
+
+
 def test_the_yield_ratio_is_that_of_the_table(rig):
     """At Q = 0.6 μP and μ = 0.5 a sphere with ν = 0.3 begins to yield at p0 = 1.30 of the yield strength."""
     at = rig.sel(tangential_force_amplitude=60)

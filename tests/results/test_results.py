@@ -57,7 +57,7 @@ def test_xarrays_own_plot_says_what_it_shows():
     assert axes.get_ylabel() == "critical plane angle [degree]"
 
 
-MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio")
+MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio", "slide_ratio")
 
 
 def test_what_a_reader_is_told_of_each_variable():
@@ -84,6 +84,7 @@ def test_what_a_reader_is_told_of_each_variable():
         "bulk_shift_ratio": "e/(a - c)",
         "prescribed_force_ratio": r"\max |F_x|/(\mu F_N)",
         "radius_ratio": r"a_\mathrm{max}/R",
+        "slide_ratio": r"(u_\mathrm{A} - u_\mathrm{slip})/a_\mathrm{max}",
         "critical_x": "x/a_H",
         "critical_angle": r"\varphi",
     }

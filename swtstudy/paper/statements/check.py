@@ -14,11 +14,12 @@ from pathlib import Path
 import xarray as xr
 
 from swtstudy.paper.audit import AUDIT_PREFIX
-from swtstudy.paper.statements import critical_point, face, parameters, phase, waviness
+from swtstudy.paper.statements import critical_point, face, formalisms, parameters, phase, waviness
 from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Statement
 
-#: All statements, in the order of the figures.
+#: All statements, in the order of the paper.
 STATEMENTS: tuple[Statement, ...] = (
+    *formalisms.STATEMENTS,
     *critical_point.STATEMENTS,
     *parameters.STATEMENTS,
     *phase.STATEMENTS,

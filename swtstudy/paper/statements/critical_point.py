@@ -16,6 +16,7 @@ from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.load.bimodal import load_of
 from swtstudy.mechanics.points import REGIMES, FloatArray, Points
 from swtstudy.paper.audit import AUDIT_PREFIX
+from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.paper.statements.statement import Finding, Statement
 from swtstudy.points.canonical import SHARED_COLUMNS, group_rows, points_from
 
@@ -50,6 +51,8 @@ def _radius(points: Points) -> FloatArray:
 _BASICALLY_ALL = 0.95
 #: "Well outside" the zone of permanent stick: |x| over its radius.
 _WELL_OUTSIDE = 1.1
+#: Rounding of a position at the very edge, relative.
+_ROUNDING = 1e-9
 #: "Close to the x axis", degrees.
 _ABOUT_TEN_DEGREES = 10.0
 
@@ -82,6 +85,26 @@ def on_the_line(audit: xr.Dataset) -> Finding:
             f"ν ≥ {float(finite.poisson_ratio.values[left].min()):.2f}"
         )
     return Finding(measured, share >= _BASICALLY_ALL)
+
+
+def inside_contact(figure3: xr.Dataset, figure4: xr.Dataset, *audits: xr.Dataset) -> Finding:
+    """Position of the critical point over the largest contact radius, and depth of the body's maximum."""
+    share = np.concatenate([_share_of_contact(archive).ravel() for archive in (figure3, figure4)])
+    audited = [audit.isel(sample=np.isfinite(audit.excess.values)) for audit in audits]
+    verdicts = np.concatenate([audit.verdict.values for audit in audited])
+    beneath = int((verdicts == VERDICTS.index("surface")).sum())
+    inside = share <= 1.0 + _ROUNDING
+    measured = (
+        f"|x| ≤ a_max at {inside.sum()} of {share.size} points, |x|/a_max from {share.min():.3f} to "
+        f"{share.max():.3f}; beneath the surface at {beneath} of {verdicts.size} randomly audited points"
+    )
+    return Finding(measured, bool(inside.all()) and beneath == 0)
+
+
+def _share_of_contact(archive: xr.Dataset) -> FloatArray:
+    """|x| over the largest radius of the contact in the cycle; g(a) = a² for the paraboloid."""
+    largest = np.sqrt(1.0 + archive.normal_amplitude)
+    return np.asarray((abs(archive.critical_x) / largest).values)
 
 
 def outside_of_stick(*archives: xr.Dataset) -> Finding:
@@ -138,6 +161,13 @@ STATEMENTS = (
         "at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%",
         on_the_line,
         (f"{AUDIT_PREFIX}parameter_box",),
+    ),
+    Statement(
+        "Figures 3 and 4",
+        "The critical point lies on the surface, within the largest contact.",
+        "|x| ≤ a_max at all points, and the maximum of the body beneath the surface at none of those audited",
+        inside_contact,
+        ("figure3", "figure4", f"{AUDIT_PREFIX}figure3", f"{AUDIT_PREFIX}figure4"),
     ),
     Statement(
         "Section 4.1",

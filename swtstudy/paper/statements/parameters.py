@@ -11,12 +11,16 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
+from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.statements.statement import Finding, Statement, largest_change, listed, with_dims
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
 
 #: Poisson ratios of most metals.
 _METALS = slice(0.25, 0.35)
+_AMPLITUDE = "tangential_amplitude"
+#: "Few" curves, and a fall that is "little".
+_FEW, _LITTLE = 0.05, 0.05
 
 
 def _rises(archive: xr.Dataset, dim: str, symbol: str) -> Finding:
@@ -29,7 +33,45 @@ def _rises(archive: xr.Dataset, dim: str, symbol: str) -> Finding:
 
 
 rises_with_friction = partial(_rises, dim="friction", symbol="μ")
-rises_with_tangential_amplitude = partial(_rises, dim="tangential_amplitude", symbol="G*uA/(μE*δ0)")
+
+
+def rises_with_tangential_amplitude(sample: xr.Dataset) -> Finding:
+    """Falls of s along curves of a random sample, whatever the regime."""
+    falls = _falls(sample)
+    return Finding(_falls_in_words("s", falls), not (falls > 0.0).any())
+
+
+def rises_in_partial_slip(sample: xr.Dataset) -> Finding:
+    """Falls of s along the same curves, up to gross slip and in gross slip."""
+    falls = _falls(sample)
+    slides = sample.regime == REGIMES.index("gross_slip")
+    before, within = falls.where(~slides, 0.0), falls.where(slides, 0.0)
+    measured = (
+        f"{_falls_in_words('up to gross slip s', before)}; {_falls_in_words('in gross slip s', within)}"
+    )
+    holds = _share_of_curves(before) <= _FEW and float(within.max()) <= _LITTLE
+    return Finding(measured, holds)
+
+
+def _falls(sample: xr.Dataset) -> xr.DataArray:
+    """How far s, with its error, is below its largest value at any smaller amplitude, relative; else 0."""
+    ordered = with_dims(sample, _AMPLITUDE).sortby(_AMPLITUDE)
+    largest = (ordered.s - ordered.s_error).cumulative(_AMPLITUDE).max()
+    return ((largest - ordered.s - ordered.s_error) / abs(largest)).clip(min=0.0)
+
+
+def _share_of_curves(falls: xr.DataArray) -> float:
+    """Share of the curves on which s falls anywhere."""
+    return float((falls > 0.0).any(_AMPLITUDE).mean())
+
+
+def _falls_in_words(subject: str, falls: xr.DataArray) -> str:
+    """On how many curves s falls, and by how much."""
+    curves = (falls > 0.0).any(_AMPLITUDE)
+    if not curves.any():
+        return f"{subject} falls on none of {curves.size} random curves"
+    count, most = int(curves.sum()), float(falls.max())
+    return f"{subject} falls on {count} of {curves.size} random curves, by up to {most:.1%}"
 
 
 def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:
@@ -66,9 +108,17 @@ STATEMENTS = (
     Statement(
         "Section 4.1",
         "s rises with the amplitude of the tangential oscillation.",
-        "s never falls beyond its error, on any curve",
+        "s never falls beyond its error, on any curve of a random sample",
         rises_with_tangential_amplitude,
-        ("tangential_amplitude",),
+        ("tangential_amplitude_sample",),
+    ),
+    Statement(
+        "Section 4.1",
+        "The same up to gross slip, for basically all loads; in gross slip s hardly falls.",
+        "up to gross slip s falls on at most 5% of the curves; in gross slip nowhere by more than 5% of an "
+        "earlier value",
+        rises_in_partial_slip,
+        ("tangential_amplitude_sample",),
     ),
     Statement(
         "Section 4.1",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from fractions import Fraction
 
 import numpy as np
 import xarray as xr
@@ -91,6 +92,24 @@ def others_matter_little(figure4: xr.Dataset, others: xr.Dataset) -> Finding:
         f"{_by_amplitude(ratios)}; the three: {least.values[-1]:.2f} or more",
         bool((ratios < least.values.reshape(-1, 1)).all()),
     )
+
+
+def long_cycles_matter_little(frequencies: xr.Dataset) -> Finding:
+    """Variation over ψ by the denominator q of ω2/ω1, which the length 2πq/ω1 of the full cycle follows."""
+    variation = _ratios_by_amplitude_and_frequency(frequencies) - 1.0
+    denominators = [
+        Fraction(ratio).limit_denominator(100).denominator for ratio in variation.frequency_ratio.values
+    ]
+    largest = variation.groupby(xr.DataArray(denominators, dims="frequency_ratio", name="q")).max()
+    rows = (
+        f"δA/δ0 = {float(row.normal_amplitude):g}: q = "
+        + ", ".join(
+            f"{q}: {value:.2f}" for q, value in zip(row.q.values.tolist(), row.values.tolist(), strict=True)
+        )
+        for row in largest.transpose("normal_amplitude", "q")[::-1]
+    )
+    measured = f"largest max/min − 1 over ψ; {'; '.join(rows)}"
+    return Finding(measured, bool((largest.diff("q") < 0.0).all()))
 
 
 def period_shrinks(*archives: xr.Dataset) -> Finding:
@@ -183,6 +202,13 @@ STATEMENTS = (
         "max/min over ψ is smaller than at any of 1/4, 1/2 and 3/2, for both δA/δ0",
         others_matter_little,
         ("figure4", "other_frequencies"),
+    ),
+    Statement(
+        "Section 4.2",
+        "The longer the full cycle, 2πq/ω1 at ω2/ω1 = p/q, the less the phase matters.",
+        "the largest max/min − 1 over ψ of all ratios with one q falls with every step of q, for both δA/δ0",
+        long_cycles_matter_little,
+        ("frequencies",),
     ),
     Statement(
         "Figure 4",

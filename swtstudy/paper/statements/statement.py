@@ -49,7 +49,8 @@ class Statement:
     test
         Called with the archives of the studies, in their order.
     studies
-        Names of the studies whose archives it is tested on; without any that of its figure, such as figure3.
+        Names of the studies whose archives it is tested on. If omitted: the figure's own study, such as
+        figure3, or none outside of the figures.
     """
 
     place: str
@@ -59,7 +60,7 @@ class Statement:
     studies: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        if not self.studies:
+        if not self.studies and self.place.startswith("Figure"):
             object.__setattr__(self, "studies", (self.place.replace(" ", "").lower(),))
 
 

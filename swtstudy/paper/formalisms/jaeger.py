@@ -11,9 +11,8 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from swtstudy.mechanics.points import FloatArray
 
 
 @dataclass
@@ -71,7 +70,11 @@ class JaegerContact:
             total[d] = total.get(d, 0.0) + c
         self.terms = sorted(((d, c) for d, c in total.items() if c != 0.0 and d > 0.0), reverse=True)
 
-    def traction(self, r: Array) -> Array:
+    def springs(self, g: FloatArray) -> FloatArray:
+        """Tangential force over μ of the equivalent springs at depths ``g``: Σ c (D − g) where D > g."""
+        return np.sum([np.zeros_like(g), *(c * np.maximum(d - g, 0.0) for d, c in self.terms)], axis=0)
+
+    def traction(self, r: FloatArray) -> FloatArray:
         """q/μ in E* √(δ0/R) by Hertz's pressures."""
         hertz = (c * 2.0 / np.pi * np.sqrt(np.maximum(d - r * r, 0.0)) for d, c in self.terms)
         return np.sum([np.zeros_like(r), *hertz], axis=0)

@@ -10,10 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-Array = NDArray[np.float64]
+from swtstudy.mechanics.points import FloatArray
 
 
 @dataclass
@@ -22,8 +21,8 @@ class MemoryDiagram:
 
     depth: float
     displacement: float
-    edge: Array = field(default_factory=lambda: np.zeros(1))
-    value: Array = field(default_factory=lambda: np.zeros(0))
+    edge: FloatArray = field(default_factory=lambda: np.zeros(1))
+    value: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self) -> None:
         if self.depth > 0.0:
@@ -66,7 +65,12 @@ class MemoryDiagram:
         self.edge = edge if keep.any() else np.array([0.0, depth])
         self.value = np.append(self.value[keep], [sense] if stick < depth else [])
 
-    def traction(self, r: Array) -> Array:
+    def springs(self, g: FloatArray) -> FloatArray:
+        """Tangential force over μ of the equivalent springs at depths ``g``: ∫ D dη from g outwards."""
+        outer = np.maximum(self.edge[:, None] - g, 0.0)
+        return np.asarray(self.value @ np.diff(outer, axis=0))
+
+    def traction(self, r: FloatArray) -> FloatArray:
         """q/μ in E* √(δ0/R): flat punches with ∂p/∂η = 1/(π √(η − r²)), as a paraboloid has η = a²."""
         root = np.sqrt(np.maximum(self.edge[:, None] - r * r, 0.0))
         return 2.0 / np.pi * (self.value @ np.diff(root, axis=0))
