@@ -64,8 +64,8 @@ WHOLE = House(
     "swtstudy",
     ("vocabulary",),
     (
-        *("mechanics", "points", "solving", "units", "study", "archive", "results", "fields", "figures"),
-        *("contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
+        *("kernel", "mechanics", "points", "solving", "units", "study", "archive", "results", "fields"),
+        *("figures", "contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
     ),
 )
 MECHANICS = House(

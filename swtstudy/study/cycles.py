@@ -103,7 +103,7 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
 
 
 def repeats(time: FloatArray, values: FloatArray) -> float | None:
-    """How often a record (k, d) repeats itself; None if it does not, or holds less than two cycles."""
+    """Number of times a record (k, d) repeats itself; None if it does not, or holds less than two cycles."""
     size = len(time)
     if size < FEWEST_SAMPLES:
         return None

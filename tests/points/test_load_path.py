@@ -321,7 +321,8 @@ def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, word
     (tmp_path / "hole.csv").write_text("normal,tangential\n0,1\n0\n")
     (tmp_path / "nan.csv").write_text("normal,tangential\n0,1\n0,nan\n")
     if "long" in table:
-        (tmp_path / "long.csv").write_text("normal,tangential\n" + "0,1\n1,2\n" * 60_000)
+        rows = "".join(f"{k},{k * k}\n" for k in range(120_000))
+        (tmp_path / "long.csv").write_text("normal,tangential\n" + rows)
     with pytest.raises(StudyError) as caught:
         Study.from_text(STUDY + table, "study", tmp_path)
     found = [str(mistake) for mistake in caught.value.mistakes]

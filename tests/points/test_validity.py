@@ -245,6 +245,7 @@ def test_a_point_of_a_sample_has_its_number():
     assert line.endswith("1 of 2 points: tangential_force_amplitude 1.2 exceeds 1, in μ F_N at sample = 1")
 
 
+@pytest.mark.filterwarnings("default:.*smaller than the contact")
 def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):
     file = tmp_path / "metres.toml"
     # A radius in metres for one in millimetres.
@@ -253,6 +254,7 @@ def test_the_command_line_says_it_at_the_end_of_a_run(tmp_path):
     )
     done = CliRunner().invoke(main, ["run", str(file), "--results", str(tmp_path), "--workers", "1"])
     assert done.exit_code == 0
+    assert "radius 0.05 mm is smaller than the contact" in done.stderr
     lines = [line for line in done.stderr.splitlines() if line.startswith("validity: ")]
     assert any("too large for half-spaces: contact radius over R up to" in line for line in lines)
     assert any("known for 100 to 10⁷" in line for line in lines)
@@ -333,6 +335,7 @@ def test_a_force_that_is_too_large_is_told_in_its_own_unit():
     assert line == "no equilibrium: tangential_force_amplitude 101 exceeds μ F_N = 100"
 
 
+@pytest.mark.filterwarnings("ignore:Dundurs")
 @pytest.mark.parametrize("profile", ["paraboloid", "cylinder"])
 @pytest.mark.parametrize(("young", "poisson"), [((70e3, 200e3), (0.45, 0.45)), ((200e3, 70e3), (0.44, 0.45))])
 def test_a_softer_specimen_shifts_the_stick_zone_further(profile, young, poisson):

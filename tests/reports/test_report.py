@@ -384,6 +384,7 @@ def test_what_has_a_name_is_no_place(name: str, said: str) -> None:
     assert said in re.sub("<.*?>", "", found)
 
 
+@pytest.mark.filterwarnings("ignore:Dundurs")
 def test_bodies_are_called_by_their_names() -> None:
     contacts = swtstudy.physical(
         young_modulus=[210e3, 150e3], poisson_ratio=0.3, radius=10.0, friction=0.5, normal_force=100.0,

@@ -54,7 +54,7 @@ def rises_in_partial_slip(sample: xr.Dataset) -> Finding:
 
 
 def _falls(sample: xr.Dataset) -> xr.DataArray:
-    """How far s, with its error, is below its largest value at any smaller amplitude, relative; else 0."""
+    """Relative distance of s, with its error, below its largest value at any smaller amplitude; else 0."""
     ordered = with_dims(sample, _AMPLITUDE).sortby(_AMPLITUDE)
     largest = (ordered.s - ordered.s_error).cumulative(_AMPLITUDE).max()
     return ((largest - ordered.s - ordered.s_error) / abs(largest)).clip(min=0.0)
