@@ -1,0 +1,7 @@
+"""One parameter point, from its load to s, as compiled loops in the order of the paper's section 3.
+
+`load` and `profile` hold what is given, as data. `contact` solves one load cycle in the memory diagram,
+`growth` lays the diagram on the radius of the profile, `surface` and `history` give the stress cycle at a
+position of the surface line, `planes` the critical plane there, `line` the largest value along the line.
+`point` puts the steps together.
+"""

@@ -1,0 +1,313 @@
+"""The stationary load cycle of the contact, in the coordinate of the memory diagram alone.
+
+The spring at coordinate G has the offset o = u - τ, the displacement at which it would be free. Friction
+(|τ| ≤ w) keeps it within
+
+    α + G ≤ o ≤ β - G,    α = v - n,  β = v + n,
+
+so that α pushes o up where one way slips, β pushes it down where the other way slips, and new ground gets
+o = v. At each instant the diagram o(G) is a stack of few pieces from the centre to the edge G = n:
+
+    CONSTANT  o           UP  α_k + G           DOWN  β_k - G           GROWN  v(t′) with n(t′) = G
+
+Each piece knows the piece beneath it, so that one tree of pieces holds the diagrams of all instants. Between
+events the state is smooth: a stretch of time in which the edge moves, and perhaps one slip front.
+"""
+
+import numpy as np
+
+from swtstudy.kernel.chebyshev import FINEST
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at, turning_points
+
+CONSTANT, UP, DOWN, GROWN = 0, 1, 2, 3
+#: No piece: beneath the lowest one, and where the whole contact slips.
+NONE = -1
+#: What pushes the springs in a stretch: α, β, nothing (stick), or no contact.
+ALPHA, STICK, BETA, OPEN = 1, 0, -1, 2
+
+MAX_PIECES, MAX_STRETCHES, MAX_EVENTS = 8190, 8190, 6151
+CYCLE = np.dtype(
+    [
+        ("pieces", "i8"),
+        ("stretches", "i8"),
+        ("events", "i8"),
+        ("overflow", "i8"),  # 1: more pieces or stretches than there is room for
+        ("gross_slip", "i8"),
+        ("lift_off", "i8"),
+        ("any_slip", "i8"),
+        ("largest", "f8"),  # largest and smallest coordinate of the edge
+        ("smallest", "f8"),
+        ("event", "f8", (MAX_EVENTS,)),
+        ("beneath", "i8", (MAX_PIECES,)),
+        ("kind", "i8", (MAX_PIECES,)),
+        ("used", "i8", (MAX_PIECES,)),  # 1: in the diagram at some instant of the cycle
+        ("level", "f8", (MAX_PIECES,)),  # o, α_k or β_k
+        ("born", "f8", (MAX_PIECES, 2)),  # GROWN: the time it grew in
+        ("start", "f8", (MAX_PIECES,)),  # coordinate of the lower end
+        ("start_s", "f8", (MAX_PIECES,)),  # its place on the profile
+        ("time", "f8", (MAX_STRETCHES, 2)),  # begin and end of the stretches
+        ("piece", "i8", (MAX_STRETCHES,)),  # the piece that holds the front
+        ("push", "i8", (MAX_STRETCHES,)),  # ALPHA, BETA, STICK or OPEN
+        ("edge", "f8", (MAX_STRETCHES, 2)),  # coordinate of the edge at both ends
+        ("front", "f8", (MAX_STRETCHES, 2)),  # and of the front; that of the edge in stick
+        ("intervals", "i8", (MAX_STRETCHES,)),  # between the instants whose places are known
+        ("interpolated", "i8", (MAX_STRETCHES,)),  # 1: places at any instant follow from these
+        ("place", "f8", (MAX_STRETCHES, FINEST + 1, 2)),  # s of edge and front at Lobatto points of time
+    ]
+)
+#: Where unloading retraces growth this closely, nothing slips: v - o(n) is rounding.
+RETRACED = 1e-12
+#: No stretch of time is shorter.
+SHORTEST = 1e-13
+
+
+@jit
+def offset(C, L, i, G):
+    """o(G) on piece i."""
+    kind = C.kind[i]
+    if kind == GROWN:
+        return load_at(L, instant_of(L, NORMAL, G, C.born[i, 0], C.born[i, 1]))[1]
+    return C.level[i] + (G if kind == UP else -G if kind == DOWN else 0.0)
+
+
+@jit
+def front_on(C, L, i, push, level, top):
+    """Coordinate on piece i, up to top, where o - G = α (push ALPHA) or o + G = β (push BETA).
+
+    On a GROWN piece o - G was α, and o + G was β, when the ground at G touched.
+    """
+    kind = C.kind[i]
+    if kind == CONSTANT:
+        G = push * (C.level[i] - level)
+    elif kind == GROWN:
+        which = DIFFERENCE if push == ALPHA else SUM
+        G = load_at(L, instant_of(L, which, level, C.born[i, 0], C.born[i, 1]))[0]
+    elif (kind == DOWN) == (push == ALPHA):
+        G = 0.5 * push * (C.level[i] - level)
+    else:
+        G = top  # the whole piece slips at once, when its level is reached
+    return min(max(G, C.start[i]), top)
+
+
+@jit
+def add_piece(C, beneath, kind, level, start):
+    """Index of a new piece."""
+    i = C.pieces
+    if i + 1 >= MAX_PIECES:
+        C.overflow = 1
+        return i
+    C.pieces += 1
+    C.beneath[i], C.kind[i], C.level[i], C.start[i], C.used[i] = beneath, kind, level, start, 0
+    return i
+
+
+@jit
+def add_stretch(C, begin, end, piece, push, edge_begin, edge_end, front_begin, front_end):
+    """Append a smooth stretch of time."""
+    k = C.stretches
+    if k + 1 >= MAX_STRETCHES:
+        C.overflow = 1
+        return
+    C.stretches += 1
+    C.piece[k], C.push[k] = piece, push
+    C.time[k, 0], C.time[k, 1] = begin, end
+    C.edge[k, 0], C.edge[k, 1] = edge_begin, edge_end
+    C.front[k, 0], C.front[k, 1] = front_begin, front_end
+
+
+@jit
+def first_diagram(C, L, T, m):
+    """Event at which the cycle starts, and the diagram there.
+
+    At the instant where α is largest, every spring that ever slips has just been pushed up, o = α_max + G,
+    and those that never do have o = clip(0, α_max + G, β_min - G). From here one cycle is the stationary
+    one, exactly. A contact that lifts off remembers nothing.
+    """
+    largest, alpha_max, beta_min = 0, -1e300, 1e300
+    for i in range(m - 1):
+        n, v = load_at(L, T[i])
+        if load_at(L, 0.5 * (T[i] + T[i + 1]))[0] < 0.0:
+            return i, add_piece(C, NONE, CONSTANT, v, 0.0)
+        if v - n > alpha_max:
+            alpha_max, largest = v - n, i
+        beta_min = min(beta_min, v + n)
+    if alpha_max >= beta_min:  # gross slip
+        return largest, add_piece(C, NONE, UP, alpha_max, 0.0)
+    n = load_at(L, T[largest])[0]
+    top, start = NONE, 0.0
+    if beta_min < 0.0:  # at the centre o = β_min - G
+        top, start = add_piece(C, NONE, DOWN, beta_min, 0.0), 0.5 * (beta_min - alpha_max)
+    elif alpha_max < 0.0:  # at the centre o = 0
+        top, start = add_piece(C, NONE, CONSTANT, 0.0, 0.0), -alpha_max
+        if beta_min < -alpha_max:
+            top, start = add_piece(C, top, DOWN, beta_min, beta_min), 0.5 * (beta_min - alpha_max)
+    if start < n:
+        top = add_piece(C, top, UP, alpha_max, start)
+    return largest, top
+
+
+@jit
+def grow(C, L, top, begin, end):
+    """Growth in stick: new ground keeps the load at which it touched."""
+    n0, n1 = max(load_at(L, begin)[0], 0.0), load_at(L, end)[0]
+    beneath = C.beneath[top] if C.start[top] >= n0 else top
+    top = add_piece(C, beneath, GROWN, 0.0, n0)
+    C.born[top, 0], C.born[top, 1] = begin, end
+    add_stretch(C, begin, end, top, STICK, n0, n1, n0, n1)
+    return top
+
+
+@jit
+def slip(C, L, top, push, begin, end):
+    """A slip front moves inwards from the edge until `end`, or until the retreating edge catches it.
+
+    Returns the new top piece, the instant reached, and whether the front was caught.
+    """
+    which = DIFFERENCE if push == ALPHA else SUM
+    n_begin, n_end = load_at(L, begin)[0], load_at(L, end)
+    level = n_end[1] - push * n_end[0]
+    retreats = n_end[0] < n_begin
+    t, front = begin, n_begin
+    while not C.overflow:
+        n0 = load_at(L, t)[0]
+        if top == NONE:
+            if end > t:
+                add_stretch(C, t, end, NONE, push, n0, n_end[0], 0.0, 0.0)
+            return add_piece(C, NONE, UP if push == ALPHA else DOWN, level, 0.0), end, False
+        start = C.start[top]
+        whole = offset(C, L, top, start) - push * start
+        passes = push * (level - whole) > 0.0
+        stop = instant_of(L, which, whole, t, end) if passes else end
+        G = start if passes else front_on(C, L, top, push, level, front)
+        n1 = load_at(L, stop)[0]
+        if retreats and n1 < G - 1e-12:  # push · (v - o(n)) falls through 0
+            low, high = t, stop
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                n, v = load_at(L, middle)
+                if n >= start and push * (v - offset(C, L, top, n)) > 0.0:
+                    low = middle
+                else:
+                    high = middle
+            if low > t + SHORTEST:
+                n1 = load_at(L, low)[0]
+                add_stretch(C, t, low, top, push, n0, n1, front, n1)
+            return top, low, True
+        if stop > t + SHORTEST:
+            add_stretch(C, t, stop, top, push, n0, n1, front, G)
+        t, front = stop, G
+        if passes:
+            top = C.beneath[top]
+            continue
+        if n1 > G:
+            top = add_piece(C, top, UP if push == ALPHA else DOWN, level, G)
+        return top, end, False
+    return top, end, False
+
+
+@jit
+def retreat(C, L, top, begin, end):
+    """The edge retreats and nothing slips: unloading retraces what grew."""
+    t, n = begin, load_at(L, begin)[0]
+    n_end = load_at(L, end)[0]
+    while C.start[top] > n_end and C.beneath[top] != NONE:
+        start = C.start[top]
+        stop = instant_of(L, NORMAL, start, t, end)
+        if stop > t + SHORTEST:
+            add_stretch(C, t, stop, top, STICK, n, start, n, start)
+            t, n = stop, start
+        top = C.beneath[top]
+    if end > t + SHORTEST:
+        add_stretch(C, t, end, top, STICK, n, n_end, n, n_end)
+    return top
+
+
+@jit
+def piece_at(C, top, G):
+    """The piece of the diagram under top that holds G."""
+    while C.start[top] > G and C.beneath[top] != NONE:
+        top = C.beneath[top]
+    return top
+
+
+@jit
+def unload(C, L, top, begin, end):
+    """The edge retreats faster than v moves: the ground there slips as its memory says.
+
+    Returns the new top piece.
+    """
+    largest = 0.0
+    for j in range(1, 4):
+        n, v = load_at(L, begin + 0.25 * j * (end - begin))
+        largest = max(largest, abs(v - offset(C, L, piece_at(C, top, n), n)))
+    if largest <= RETRACED:
+        return retreat(C, L, top, begin, end)
+    n, v = load_at(L, begin + 1e-3 * (end - begin))
+    push = ALPHA if v >= offset(C, L, piece_at(C, top, n), n) else BETA
+    t = begin
+    for _ in range(100):
+        top, t, caught = slip(C, L, top, push, t, end)
+        if not caught:
+            return top
+        push = -push
+    C.overflow = 1
+    return top
+
+
+@jit
+def solve_cycle(C, L):
+    """One stationary load cycle; half of it where the other half is its mirror image."""
+    C.pieces, C.stretches, C.overflow = 0, 0, 0
+    T = C.event
+    m = turning_points(L, T)
+    C.events = m
+    first, top = first_diagram(C, L, T, m)
+    for step in range(m - 1):
+        e = (first + step) % (m - 1)
+        turn = L.period if first + step >= m - 1 else 0.0
+        begin, end = T[e] + turn, T[e + 1] + turn
+        if (L.mirrored and begin > T[first] + 0.5 * L.period - 1e-7) or C.overflow:
+            break
+        n, v, dn, dv, ddn, ddv = rates_at(L, 0.5 * (begin + end))
+        if n < 0.0:
+            v_end = load_at(L, end)[1]
+            add_stretch(C, begin, end, NONE, OPEN, 0.0, 0.0, 0.0, 0.0)
+            top = add_piece(C, NONE, CONSTANT, v_end, 0.0)
+        elif dn > abs(dv):
+            top = grow(C, L, top, begin, end)
+        elif -dn > abs(dv):
+            top = unload(C, L, top, begin, end)
+        elif dn == 0.0 and dv == 0.0:
+            continue
+        else:
+            push = ALPHA if dv > 0.0 else BETA
+            top, t, caught = slip(C, L, top, push, begin, end)
+            if caught:
+                top = unload(C, L, top, t, end)
+    if C.stretches == 0:  # nothing moves
+        n = load_at(L, 0.0)[0]
+        add_stretch(C, 0.0, L.period, top, STICK, n, n, n, n)
+    mark_used(C)
+
+
+@jit
+def mark_used(C):
+    """Mark the pieces of the stationary cycle, and note what happens in it."""
+    C.largest, C.smallest = 0.0, 1e300
+    C.gross_slip, C.lift_off, C.any_slip = 0, 0, 0
+    for i in range(C.pieces):
+        C.used[i] = 0
+    for k in range(C.stretches):
+        C.largest = max(C.largest, C.edge[k, 0], C.edge[k, 1])
+        C.smallest = min(C.smallest, C.edge[k, 0], C.edge[k, 1])
+        if C.push[k] == OPEN:
+            C.lift_off = 1
+        elif C.push[k] != STICK:
+            C.any_slip = 1
+            if C.piece[k] == NONE:
+                C.gross_slip = 1
+        i = C.piece[k]
+        while i != NONE and C.used[i] == 0:
+            C.used[i] = 1
+            i = C.beneath[i]

@@ -1,0 +1,141 @@
+"""The memory diagram on the radius of a profile: starts of pieces, what grew, places of edge and front."""
+
+import numpy as np
+
+from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric, fit, panel_of, tail
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
+from swtstudy.kernel.load import NORMAL, instant_of, load_at, rates_at
+from swtstudy.kernel.profile import coordinate_at, density_at, place_of
+
+MAX_GROWN = 8191
+#: No panel is thinner: its share of the tractions is the root of its width. Where both loads turn nearly at
+#: the same instant the slope changes from one way of slip to the other within as little.
+THINNEST = 1e-12
+#: Places are interpolated over a stretch where the last coefficients of their series are this share of them.
+INTERPOLATED = 1e-9
+GROWTH = np.dtype(
+    [
+        ("panels", "i8"),
+        ("first", "i8", (MAX_PIECES,)),  # panels of a piece that grew
+        ("last", "i8", (MAX_PIECES,)),
+        ("begin", "f8", (MAX_GROWN,)),  # ends of the panels in s
+        ("end", "f8", (MAX_GROWN,)),
+        ("density", "f8", (MAX_GROWN, ORDER)),  # do/ds
+    ]
+)
+
+
+@jit
+def lay_out(R, C, P, L, tolerance):
+    """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front."""
+    R.panels = 0
+    for i in range(C.pieces):
+        if C.used[i]:
+            C.start_s[i] = place_of(P, C.start[i])
+            if C.kind[i] == GROWN:
+                tabulate_growth(R, C, P, L, i, tolerance)
+    for k in range(C.stretches):
+        tabulate_places(C, P, L, k)
+
+
+@jit
+def tabulate_growth(R, C, P, L, i, tolerance):
+    """Panels of do/ds = (dv/dn) dG/ds of one piece, halved until the series of dv/dn has died out."""
+    R.first[i] = R.panels
+    begin, end = C.born[i, 0], C.born[i, 1]
+    n0, v0 = load_at(L, begin)
+    n1, v1 = load_at(L, end)
+    lowest, highest = place_of(P, n0), place_of(P, n1)
+    waiting = np.empty((512, 2))
+    slope, values, series = np.empty(ORDER), np.empty(ORDER), np.empty(ORDER)
+    m = 0
+    # The profile is smooth within its panels only.
+    for p in range(panel_of(P.begin, 0, P.panels, highest), panel_of(P.begin, 0, P.panels, lowest) - 1, -1):
+        waiting[m, 0], waiting[m, 1] = max(lowest, P.begin[p]), min(highest, P.end[p])
+        if waiting[m, 1] > waiting[m, 0]:
+            m += 1
+    while m > 0:
+        m -= 1
+        a, b = waiting[m, 0], waiting[m, 1]
+        t = begin
+        for j in range(ORDER - 1, -1, -1):
+            s = a + 0.5 * (b - a) * (GAUSS[j] + 1.0)
+            if L.sides > 0:
+                slope[j] = (v1 - v0) / (n1 - n0)
+            else:
+                t = instant_of(L, NORMAL, coordinate_at(P, s), t, end)
+                n, v, dn, dv, ddn, ddv = rates_at(L, t)
+                slope[j] = min(max(dv / dn, -1.0), 1.0) if dn > 0.0 else 0.0
+            values[j] = slope[j] * density_at(P, s)
+        fit(slope, series)
+        rough = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) > tolerance
+        if rough and b - a > THINNEST and m < 500 and R.panels < MAX_GROWN - 512:
+            middle = 0.5 * (a + b)
+            waiting[m + 1, 0], waiting[m + 1, 1] = a, middle
+            waiting[m, 0], waiting[m, 1] = middle, b
+            m += 2
+            continue
+        if R.panels >= MAX_GROWN:
+            C.overflow = 1
+            return
+        R.begin[R.panels], R.end[R.panels] = a, b
+        fit(values, R.density[R.panels])
+        R.panels += 1
+    R.last[i] = R.panels
+
+
+@jit
+def places_at(C, P, L, k, t, weight):
+    """Places s of the edge and of the front at an instant of stretch k; weight has FINEST + 1 places."""
+    if C.interpolated[k]:
+        begin, end, intervals = C.time[k, 0], C.time[k, 1], C.intervals[k]
+        barycentric(2.0 * (t - begin) / (end - begin) - 1.0, intervals, weight)
+        step = FINEST // intervals
+        edge, front = 0.0, 0.0
+        for j in range(intervals + 1):
+            edge += weight[j] * C.place[k, j * step, 0]
+            front += weight[j] * C.place[k, j * step, 1]
+        return edge, front
+    return solved_places(C, P, L, k, t)
+
+
+@jit
+def solved_places(C, P, L, k, t):
+    """Places s of the edge and of the front at an instant of stretch k, from the load and the diagram."""
+    push, i = C.push[k], C.piece[k]
+    if push == OPEN:
+        return 0.0, 0.0
+    n, v = load_at(L, t)
+    edge = place_of(P, n)
+    if push == STICK:
+        return edge, edge
+    if i == NONE:
+        return edge, 0.0
+    return edge, place_of(P, front_on(C, L, i, push, v - push * n, n))
+
+
+@jit
+def tabulate_places(C, P, L, k):
+    """Tabulate places of edge and front over stretch k, until their series give them at any instant."""
+    begin, end = C.time[k, 0], C.time[k, 1]
+    values = np.empty((2, FINEST + 1))
+    for e in range(2):
+        C.place[k, e * FINEST, 0] = place_of(P, C.edge[k, e])
+        C.place[k, e * FINEST, 1] = place_of(P, C.front[k, e])
+    scale = max(C.place[k, 0, 0], C.place[k, FINEST, 0])
+    known, intervals = 1, 4
+    while True:
+        step = FINEST // intervals
+        for j in range(step, FINEST, step):
+            if j % (FINEST // known) != 0:
+                t = begin + 0.5 * (end - begin) * (LOBATTO[j] + 1.0)
+                C.place[k, j, 0], C.place[k, j, 1] = solved_places(C, P, L, k, t)
+        C.intervals[k] = known = intervals
+        for j in range(intervals + 1):
+            values[0, j], values[1, j] = C.place[k, j * step, 0], C.place[k, j * step, 1]
+        rough = max(tail(values[0], intervals), tail(values[1], intervals))
+        C.interpolated[k] = 1 if rough <= INTERPOLATED * scale else 0
+        if C.interpolated[k] or intervals == FINEST:
+            return
+        intervals *= 2

@@ -1,0 +1,293 @@
+"""The stress cycle at one position of the surface line, at instants from which it can be interpolated.
+
+Within a stretch of the cycle the stress at x is smooth but where the edge or the slip front passes x: there
+it has a root cusp in time. So a stretch has up to three parts at x. Each part has its instants at Lobatto
+points of a variable in which root cusps at its ends are smooth; its series dies out exponentially.
+"""
+
+from math import pi
+
+import numpy as np
+
+from swtstudy.kernel.chebyshev import FINEST, LOBATTO
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, STICK, UP, offset
+from swtstudy.kernel.growth import places_at
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of
+from swtstudy.kernel.profile import force_at
+from swtstudy.kernel.surface import hertz, running, scale_at, tabulate
+
+MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
+#: Intervals of a part at first.
+#: Row and panel of the profile in the tables at x; no literal, for which Numba would compile anew.
+FIRST = np.int64(0)
+COARSEST = np.int64(4)
+#: Instants are kept free for one round of doubled parts.
+ROOM = 2 * FINEST + 2
+HISTORY = np.dtype(
+    [
+        ("instants", "i8"),
+        ("parts", "i8"),
+        ("x", "f8"),
+        ("X", "f8"),  # √|x² - b²|
+        ("G", "f8"),  # coordinate of the spring at x; negative on the face, infinite far outside
+        ("all_outside", "i8"),
+        ("stretch", "i8", (MAX_PARTS,)),
+        ("first", "i8", (MAX_PARTS,)),  # its first instant
+        ("intervals", "i8", (MAX_PARTS,)),
+        ("mirror", "i8", (MAX_PARTS,)),  # 1: of the mirrored half of the cycle
+        ("cusps", "i8", (MAX_PARTS,)),  # 0 none, 1 at its begin, 2 at its end, 3 both
+        ("time", "f8", (MAX_PARTS, 2)),
+        ("places", "f8", (MAX_PARTS, 2, 2)),  # s of edge and front, at begin and end
+        ("weight", "f8", (FINEST + 1,)),
+        ("p", "f8", (MAX_INSTANTS,)),  # pressure
+        ("within", "f8", (MAX_INSTANTS,)),  # (1-2ν) P/(2πx²), P the load within x
+        ("xx", "f8", (MAX_INSTANTS,)),  # of the tangential load, at +x
+        ("yy", "f8", (MAX_INSTANTS,)),
+        ("q", "f8", (MAX_INSTANTS,)),
+        (
+            "up_to_start",
+            "f8",
+            (MAX_PIECES, 3),
+        ),  # ∫ (do/dG - its own slope) up to the start of a piece: T1, T3, B
+    ]
+)
+
+
+def _spaced():
+    """Shape (4, FINEST + 1): instants on [-1, 1] of a part with cusps at none, begin, end, both."""
+    y = LOBATTO
+    return np.array([y, 0.5 * (1 + y) ** 2 - 1, 1 - 0.5 * (1 - y) ** 2, np.sin(0.5 * pi * y)])
+
+
+SPACED = _spaced()
+
+
+@jit
+def functionals(P, K, s, H):
+    """T1, T3, B, V of the profile up to s."""
+    if P.is_paraboloid:
+        return hertz(s, H.x)
+    return running(K, FIRST, s, H.X, H.all_outside)
+
+
+@jit
+def slope_of(C, i):
+    """do/dG of a piece that did not grow."""
+    if i == NONE or C.kind[i] == GROWN:
+        return 0.0
+    return 1.0 if C.kind[i] == UP else -1.0 if C.kind[i] == DOWN else 0.0
+
+
+@jit
+def integrate_pieces(H, C, R, P, K, largest):
+    """Tabulate the profile and what grew at x, and ∫ o′ (T1, T3, B) up to the start of each piece."""
+    k = FIRST
+    b = P.flat_radius
+    if not P.is_paraboloid:
+        k = tabulate(K, FIRST, FIRST, P.begin[:], P.end[:], P.density[:], FIRST, P.panels, largest, b, H.x)
+    for i in range(C.pieces):
+        if C.used[i] == 0:
+            continue
+        if C.kind[i] == GROWN:
+            first, last = R.first[i], R.last[i]
+            k = tabulate(K, 1 + i, k, R.begin[:], R.end[:], R.density[:], first, last, 1e300, b, H.x)
+        beneath, s = C.beneath[i], C.start_s[i]
+        t1, t3, b1, v1 = functionals(P, K, s, H)
+        o1, o3, ob = 0.0, 0.0, 0.0
+        if beneath != NONE:
+            o1, o3, ob = H.up_to_start[beneath, 0], H.up_to_start[beneath, 1], H.up_to_start[beneath, 2]
+            if C.kind[beneath] == GROWN:
+                g1, g3, gb, gv = running(K, 1 + beneath, s, H.X, H.all_outside)
+                o1 += g1
+                o3 += g3
+                ob += gb
+        jump = slope_of(C, beneath) - slope_of(C, i)
+        H.up_to_start[i, 0], H.up_to_start[i, 1], H.up_to_start[i, 2] = (
+            o1 + jump * t1,
+            o3 + jump * t3,
+            ob + jump * b1,
+        )
+
+
+@jit
+def stress(H, m, C, P, K, k, edge, front, nu, mu):
+    """Write instant m: the stress at x in stretch k with its edge and front at these places s.
+
+    Pressure and σ_xx of the normal load and of the tangential load are the sums of section 3 of the paper
+    over the pieces of the diagram, each a slope times a running integral.
+    """
+    push, i = C.push[k], C.piece[k]
+    if push == OPEN or edge <= 0.0:
+        H.p[m], H.within[m], H.xx[m], H.yy[m], H.q[m] = 0.0, 0.0, 0.0, 0.0, 0.0
+        return
+    n1, n3, nb, nv = functionals(P, K, edge, H)
+    o1, o3, ob = push * n1, push * n3, push * nb  # ∫ o′ beyond the front
+    if i != NONE:
+        o1 += H.up_to_start[i, 0]
+        o3 += H.up_to_start[i, 1]
+        ob += H.up_to_start[i, 2]
+        if C.kind[i] == GROWN:
+            g1, g3, gb, gv = running(K, 1 + i, front, H.X, H.all_outside)
+            o1 += g1
+            o3 += g3
+            ob += gb
+        jump = slope_of(C, i) - push
+        if jump != 0.0:
+            if push != STICK:
+                n1, n3, f_b, f_v = functionals(P, K, front, H)
+            else:
+                f_b = nb
+            o1 += jump * n1
+            o3 += jump * n3
+            ob += jump * f_b
+    friction = mu / pi
+    H.p[m] = nb / pi
+    if H.all_outside == 0:
+        nv += force_at(P, min(edge, H.X)) / (H.x * H.x)
+    H.within[m] = (1.0 - 2.0 * nu) / pi * nv
+    H.xx[m] = -friction * ((1.0 + nu) * o1 - nu * o3)
+    H.yy[m] = -friction * nu * o3
+    H.q[m] = friction * ob
+
+
+@jit
+def sample(H, z, intervals, C, P, L, K, nu, mu):
+    """Sample part z at the Lobatto points of so many intervals; instants that it had before are copied."""
+    k, cusps = H.stretch[z], H.cusps[z]
+    begin, end = H.time[z, 0], H.time[z, 1]
+    whole = cusps == 0 and begin == C.time[k, 0] and end == C.time[k, 1] and intervals <= C.intervals[k]
+    old, known = H.first[z], H.intervals[z]
+    m = H.instants
+    step = FINEST // intervals
+    for j in range(intervals + 1):
+        if known > 0 and 2 * (j // 2) == j:
+            i = old + j // 2
+            sign = -1.0 if H.mirror[z] else 1.0
+            H.p[m + j], H.within[m + j] = H.p[i], H.within[i]
+            H.xx[m + j], H.yy[m + j], H.q[m + j] = sign * H.xx[i], sign * H.yy[i], sign * H.q[i]
+            continue
+        if j == 0 or j == intervals:
+            edge, front = H.places[z, j // intervals, 0], H.places[z, j // intervals, 1]
+        elif whole:
+            edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
+        else:
+            t = begin + 0.5 * (end - begin) * (SPACED[cusps, j * step] + 1.0)
+            edge, front = places_at(C, P, L, k, t, H.weight)
+        stress(H, m + j, C, P, K, k, edge, front, nu, mu)
+    H.first[z], H.intervals[z] = m, intervals
+    H.instants = m + intervals + 1
+    if known > 0 and H.mirror[z]:
+        flip(H, m, H.instants, m)
+
+
+@jit
+def flip(H, a, b, to):
+    """Copy instants a to b to where the mirrored load has them: the tangential stress changes its sign."""
+    for i in range(b - a):
+        H.p[to + i], H.within[to + i] = H.p[a + i], H.within[a + i]
+        H.xx[to + i], H.yy[to + i], H.q[to + i] = -H.xx[a + i], -H.yy[a + i], -H.q[a + i]
+
+
+@jit
+def refine(H, z, C, P, L, K, nu, mu):
+    """Double the intervals of part z."""
+    sample(H, z, 2 * H.intervals[z], C, P, L, K, nu, mu)
+
+
+@jit
+def approaches(G, at_begin, at_end):
+    """1 if a motion between two coordinates begins near G, 2 if it ends near G, 3 if both, else 0."""
+    near = 0.25 * abs(at_end - at_begin)
+    return (1 if abs(at_begin - G) <= near else 0) + (2 if abs(at_end - G) <= near else 0)
+
+
+@jit
+def add_part(H, C, k, begin, end, edge_begin, edge_end, front_begin, front_end, cusps):
+    """A new part of stretch k, not yet sampled; returns its index."""
+    z = H.parts
+    H.parts += 1
+    H.stretch[z], H.mirror[z], H.intervals[z], H.cusps[z] = k, 0, 0, cusps
+    H.time[z, 0], H.time[z, 1] = begin, end
+    H.places[z, 0, 0], H.places[z, 1, 0] = edge_begin, edge_end
+    H.places[z, 0, 1], H.places[z, 1, 1] = front_begin, front_end
+    return z
+
+
+@jit
+def split(H, C, P, L, k):
+    """Append the parts of stretch k: it is cut where its edge and its front pass x."""
+    begin, end = C.time[k, 0], C.time[k, 1]
+    push, i, G = C.push[k], C.piece[k], H.G
+    edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
+    edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
+    if push == OPEN:
+        add_part(H, C, k, begin, end, edge, edge_end, front, front_end, 0)
+        return
+    at_edge, at_front, near = end, end, approaches(G, C.edge[k, 0], C.edge[k, 1])
+    if (C.edge[k, 0] - G) * (C.edge[k, 1] - G) < 0.0:
+        at_edge = instant_of(L, NORMAL, G, begin, end)
+    if push != STICK and i != NONE:
+        near |= approaches(G, C.front[k, 0], C.front[k, 1])
+        if (C.front[k, 0] - G) * (C.front[k, 1] - G) < 0.0:
+            which = DIFFERENCE if push == ALPHA else SUM
+            at_front = instant_of(L, which, offset(C, L, i, G) - push * G, begin, end)
+    if C.edge[k, 0] <= 0.0:  # touch-down
+        near |= 1
+    if C.edge[k, 1] <= 0.0:
+        near |= 2
+    t, cusps = begin, near & 1
+    for turn in range(3):
+        stop = min(at_edge, at_front) if turn == 0 else max(at_edge, at_front) if turn == 1 else end
+        if stop - t < 1e-13:
+            continue
+        e, f = edge_end, front_end
+        if stop < end:
+            e, f = places_at(C, P, L, k, stop, H.weight)
+            if stop == at_edge:
+                e = H.X
+            if stop == at_front:
+                f = H.X
+        add_part(H, C, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
+        t, edge, front, cusps = stop, e, f, 1
+
+
+@jit
+def sample_cycle(H, C, R, P, K, L, x, G, largest, nu, mu):
+    """All parts of the cycle at x, coarsely; the mirror image of half a cycle is the other half.
+
+    Parameters
+    ----------
+    x, G
+        Position, and the coordinate of the spring there.
+    largest
+        Place s of the largest contact.
+    """
+    H.instants, H.parts, H.x, H.G = 0, 0, x, G
+    H.X, H.all_outside = scale_at(x, P.flat_radius)
+    integrate_pieces(H, C, R, P, K, largest)
+    for k in range(C.stretches):
+        if H.parts + 3 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
+            C.overflow = 1
+            return
+        before = H.parts
+        split(H, C, P, L, k)
+        for z in range(before, H.parts):
+            sample(H, z, COARSEST, C, P, L, K, nu, mu)
+    if L.mirrored:
+        parts, instants = H.parts, H.instants
+        for y in range(parts):
+            z = H.parts
+            H.parts += 1
+            H.stretch[z], H.mirror[z], H.cusps[z], H.intervals[z] = (
+                H.stretch[y],
+                1,
+                H.cusps[y],
+                H.intervals[y],
+            )
+            H.first[z] = H.first[y] + instants
+            H.time[z, 0], H.time[z, 1] = H.time[y, 0], H.time[y, 1]
+            for e in range(2):
+                H.places[z, e, 0], H.places[z, e, 1] = H.places[y, e, 0], H.places[y, e, 1]
+        flip(H, 0, instants, instants)
+        H.instants = 2 * instants

@@ -1,0 +1,310 @@
+"""The load cycle (7), (8) as data: a sum of harmonics, or a closed polygon, in normal and tangential load.
+
+The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the tangential load v a
+displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
+(`swtstudy.kernel.contact`). Time runs over [0, period): 2π for harmonics, the number of sides for a polygon.
+"""
+
+from math import cos, sin, sqrt
+
+import numpy as np
+
+from swtstudy.kernel.compiled import jit, new_record
+
+#: The four functions of time: n, v, α = v - n, β = v + n.
+NORMAL, TANGENTIAL, DIFFERENCE, SUM = np.arange(4)
+
+MAX_HARMONICS, MAX_VERTICES = 64, 2001
+LOAD = np.dtype(
+    [
+        ("sides", "i8"),  # of a polygon; 0 for harmonics
+        ("terms", "i8"),
+        ("fastest", "i8"),  # largest order of the harmonics
+        ("mirrored", "i8"),  # 1: n(t + π) = n(t) and v(t + π) = -v(t)
+        ("period", "f8"),
+        ("rest", "f8", (2,)),  # mean of n and v
+        ("order", "i8", (MAX_HARMONICS,)),
+        ("cosine", "f8", (2, MAX_HARMONICS)),
+        ("sine", "f8", (2, MAX_HARMONICS)),
+        ("vertex", "f8", (2, MAX_VERTICES)),  # of n and v; the first one once more at the end
+    ]
+)
+#: Cells of the fastest harmonic in which turning points are searched.
+CELLS = 24
+#: Instants closer than this share of the period are one.
+SAME_INSTANT = 1e-10
+
+
+def bimodal(normal_amplitude, frequency_ratio, tangential_amplitude, phase):
+    """Load of the paper: n = 1 + δ_A sin(qt + ψ), v = u_A sin(pt), with ω2/ω1 = p/q in lowest terms."""
+    p, q = frequency_ratio.numerator, frequency_ratio.denominator
+    load = new_record(LOAD)
+    load["fastest"], load["mirrored"], load["period"] = max(p, q), q % 2 == 0, 2.0 * np.pi
+    load["rest"][0] = 1.0
+    load["terms"] = 1 if p == q else 2
+    load["order"][:2] = q, p
+    load["cosine"][0, 0] = normal_amplitude * np.sin(phase)
+    load["sine"][0, 0] = normal_amplitude * np.cos(phase)
+    load["sine"][1, load["terms"] - 1] = tangential_amplitude
+    return load
+
+
+def polygon(normal, tangential):
+    """Load along a closed polygon through vertices, each of shape (k,)."""
+    load = new_record(LOAD)
+    sides = len(normal)
+    load["sides"], load["period"] = sides, sides
+    for coordinate, values in enumerate((normal, tangential)):
+        load["vertex"][coordinate, :sides] = values
+        load["vertex"][coordinate, sides] = values[0]
+    return load
+
+
+@jit
+def power(c, s, k):
+    """Cos kt and sin kt from c = cos t and s = sin t: the k-th power of a complex number."""
+    if k == 1:
+        return c, s
+    x, y = 1.0, 0.0
+    while k > 0:
+        if k & 1:
+            x, y = x * c - y * s, x * s + y * c
+        c, s = c * c - s * s, 2.0 * c * s
+        k >>= 1
+    return x, y
+
+
+@jit
+def load_at(L, t):
+    """N and v at one instant."""
+    if L.sides > 0:
+        side = int(t)
+        share = t - side
+        if side >= L.sides:
+            side -= L.sides
+        n = L.vertex[0, side] + share * (L.vertex[0, side + 1] - L.vertex[0, side])
+        v = L.vertex[1, side] + share * (L.vertex[1, side + 1] - L.vertex[1, side])
+        return n, v
+    n, v = L.rest[0], L.rest[1]
+    x, y = cos(t), sin(t)
+    for i in range(L.terms):
+        c, s = power(x, y, L.order[i])
+        n += L.cosine[0, i] * c + L.sine[0, i] * s
+        v += L.cosine[1, i] * c + L.sine[1, i] * s
+    return n, v
+
+
+@jit
+def rates_at(L, t):
+    """N, v and their first and second derivatives: n, v, n′, v′, n″, v″."""
+    if L.sides > 0:
+        side = int(t)
+        n, v = load_at(L, t)
+        if side >= L.sides:
+            side -= L.sides
+        dn = L.vertex[0, side + 1] - L.vertex[0, side]
+        dv = L.vertex[1, side + 1] - L.vertex[1, side]
+        return n, v, dn, dv, 0.0, 0.0
+    n, v, dn, dv, ddn, ddv = L.rest[0], L.rest[1], 0.0, 0.0, 0.0, 0.0
+    x, y = cos(t), sin(t)
+    for i in range(L.terms):
+        k = float(L.order[i])
+        c, s = power(x, y, L.order[i])
+        term = L.cosine[0, i] * c + L.sine[0, i] * s
+        n += term
+        ddn -= k * k * term
+        dn += k * (L.sine[0, i] * c - L.cosine[0, i] * s)
+        term = L.cosine[1, i] * c + L.sine[1, i] * s
+        v += term
+        ddv -= k * k * term
+        dv += k * (L.sine[1, i] * c - L.cosine[1, i] * s)
+    return n, v, dn, dv, ddn, ddv
+
+
+@jit
+def function_at(L, which, t):
+    """One of n, v, α, β and its rate."""
+    n, v, dn, dv, ddn, ddv = rates_at(L, t)
+    if which == NORMAL:
+        return n, dn
+    if which == TANGENTIAL:
+        return v, dv
+    if which == DIFFERENCE:
+        return v - n, dv - dn
+    return v + n, dv + dn
+
+
+@jit
+def value_at(L, which, t):
+    """One of n, v, α, β."""
+    n, v = load_at(L, t)
+    if which == NORMAL:
+        return n
+    if which == TANGENTIAL:
+        return v
+    if which == DIFFERENCE:
+        return v - n
+    return v + n
+
+
+@jit
+def instant_of(L, which, level, begin, end):
+    """Instant in [begin, end] at which a function that is monotone there passes a level.
+
+    Newton's method within a bracket, to rounding: the sign of v - o(n) hangs on it where unloading retraces
+    the growth.
+    """
+    at_begin = value_at(L, which, begin) - level
+    at_end = value_at(L, which, end) - level
+    if at_begin * at_end > 0.0:
+        return begin if abs(at_begin) < abs(at_end) else end
+    if at_begin == at_end:
+        return begin
+    share = -at_begin / (at_end - at_begin)
+    if L.sides > 0:
+        return begin + (end - begin) * share
+    rate_begin = function_at(L, which, begin)[1]
+    rate_end = function_at(L, which, end)[1]
+    t = begin + (end - begin) * share
+    if abs(rate_begin) * (end - begin) < 0.2 * abs(at_end - at_begin):  # starts like a parabola
+        t = begin + (end - begin) * sqrt(share)
+    elif abs(rate_end) * (end - begin) < 0.2 * abs(at_end - at_begin):
+        t = end - (end - begin) * sqrt(1.0 - share)
+    for _ in range(60):
+        f, rate = function_at(L, which, t)
+        f -= level
+        if f == 0.0:
+            return t
+        if f * at_begin > 0.0:
+            begin = t
+        else:
+            end = t
+        new = t - f / rate if rate != 0.0 else 0.5 * (begin + end)
+        if not (new > begin and new < end):
+            new = 0.5 * (begin + end)
+        moved = abs(new - t)
+        t = new
+        if moved < 1e-13:
+            break
+    return t
+
+
+@jit
+def event_function(L, which, t):
+    """Value and rate of n′, v′, α′ or β′ (which 0 to 3) or of n itself (4): their roots are events."""
+    n, v, dn, dv, ddn, ddv = rates_at(L, t)
+    if which == NORMAL:
+        return dn, ddn
+    if which == TANGENTIAL:
+        return dv, ddv
+    if which == DIFFERENCE:
+        return dv - dn, ddv - ddn
+    if which == SUM:
+        return dv + dn, ddv + ddn
+    return n, dn
+
+
+@jit
+def event_root(L, which, of_rate, a, b):
+    """Root of an event function, or of its rate, whose signs at a and b differ: Illinois' method."""
+    fa = event_function(L, which, a)[1 if of_rate else 0]
+    fb = event_function(L, which, b)[1 if of_rate else 0]
+    for _ in range(80):
+        if fb == 0.0 or fa == fb:
+            break
+        c = b - fb * (b - a) / (fb - fa)
+        f = event_function(L, which, c)[1 if of_rate else 0]
+        if f * fb < 0.0:
+            a, fa = b, fb
+        else:
+            fa *= 0.5
+        done = abs(c - b) < 1e-14 * (1.0 + abs(c)) or f == 0.0
+        b, fb = c, f
+        if done:
+            break
+    return b
+
+
+@jit
+def distinct(z, count, gap):
+    """Sort the first values of z, drop those closer than gap to the one before; returns how many are left."""
+    step = count // 2
+    while step > 0:  # Shell's method: Numba takes seconds to compile a sort
+        for i in range(step, count):
+            value, j = z[i], i
+            while j >= step and z[j - step] > value:
+                z[j] = z[j - step]
+                j -= step
+            z[j] = value
+        step //= 2
+    kept = 1
+    for i in range(1, count):
+        if z[i] - z[kept - 1] > gap:
+            z[kept] = z[i]
+            kept += 1
+    return kept
+
+
+@jit
+def is_constant(L, which):
+    """True if n, v, α or β is constant up to rounding; its turning points would be noise."""
+    largest, scale = 0.0, 0.0
+    for i in range(L.terms):
+        for of in (L.cosine, L.sine):
+            n, v = of[0, i], of[1, i]
+            f = (
+                n
+                if which == NORMAL
+                else v
+                if which == TANGENTIAL
+                else v - n
+                if which == DIFFERENCE
+                else v + n
+            )
+            largest = max(largest, abs(f))
+            scale = max(scale, abs(n), abs(v))
+    return largest <= 1e-14 * scale
+
+
+@jit
+def turning_points(L, out):
+    """Write the sorted instants at which n, v, α or β turn or n passes 0; returns how many.
+
+    The first one is 0 and the last one the period.
+    """
+    m = 0
+    if L.sides > 0:
+        for j in range(L.sides + 1):
+            out[m] = j
+            m += 1
+            if j < L.sides and L.vertex[0, j] * L.vertex[0, j + 1] < 0.0:
+                out[m] = j + L.vertex[0, j] / (L.vertex[0, j] - L.vertex[0, j + 1])
+                m += 1
+        return m
+    cells = CELLS * L.fastest
+    step = L.period / cells
+    out[0], out[1] = 0.0, L.period
+    m = 2
+    for which in range(5):
+        if which < 4 and is_constant(L, which):
+            continue
+        before, rate_before = event_function(L, which, 0.0)
+        for j in range(1, cells + 1):
+            a, b = (j - 1) * step, j * step
+            now, rate = event_function(L, which, b)
+            up = now >= 0.0
+            if (before >= 0.0) != up:
+                out[m] = event_root(L, which, False, a, b)
+                m += 1
+            elif (rate_before >= 0.0) != (rate >= 0.0) and (
+                rate_before < 0.0
+            ) == up:  # perhaps two in one cell
+                c = event_root(L, which, True, a, b)
+                if (event_function(L, which, c)[0] >= 0.0) != up:
+                    out[m] = event_root(L, which, False, a, c)
+                    out[m + 1] = event_root(L, which, False, c, b)
+                    m += 2
+            before, rate_before = now, rate
+    m = distinct(out, m, SAME_INSTANT * L.period)
+    out[m - 1] = L.period
+    return m

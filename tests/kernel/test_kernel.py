@@ -1,0 +1,184 @@
+"""The compiled kernel: values in closed form, recorded values, and the same values without a compiler."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from folders import ROOT
+
+import swtstudy
+from swtstudy.kernel.batch import solve_batch
+
+pytestmark = pytest.mark.xdist_group("kernel")
+TABLE_1 = {
+    "poisson_ratio": [0.3],
+    "friction": [0.3],
+    "normal_amplitude": [0.75],
+    "tangential_amplitude": [5 / 6],
+}
+
+
+def solve_one(name: str = "paraboloid", **given: object) -> np.void:
+    """One point; what is not given is as in Table 1, with loads in phase and of one frequency."""
+    arguments: dict[str, object] = TABLE_1 | {"frequency_ratio": [1], "phase": [0.0]}
+    return solve_batch(name, **(arguments | given))[0]  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize(("nu", "mu", "U"), [(0.3, 0.3, 5 / 6), (0.1, 0.8, 0.3), (0.45, 0.5, 0.6)])
+def test_constant_normal_load_is_cattaneo_mindlin(nu: float, mu: float, U: float, rtol: float) -> None:
+    theta = np.arcsin(np.sqrt(1.0 - U))
+    one = (np.pi / 2 - theta) / 2 + np.sin(2 * theta) / 4
+    other = (np.pi / 2 - theta) / 8 + np.sin(4 * theta) / 32
+    x, y = 2 * mu * (one + nu * other), 2 * nu * mu * (one - other)
+    s = (4 / np.pi**2) * ((1 - 2 * nu) / 3 + x) * (x - nu * y) / (1 - nu**2)
+    found = solve_one(
+        poisson_ratio=[nu], friction=[mu], normal_amplitude=[0.0], tangential_amplitude=[U], rtol=rtol
+    )
+    assert abs(found["s"] - s) <= found["s_error"] <= rtol * s
+    assert abs(found["critical_x"]) == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("given", "s"),
+    [
+        ({}, 0.155137),
+        (
+            {"friction": [0.5], "normal_amplitude": [0.5], "tangential_amplitude": [0.35], "phase": [1.1]}
+            | {"in_force": True},
+            0.1238493,
+        ),
+        # Maxima within half a wave of the tangential load, where it turns as the contact grows.
+        (
+            {"poisson_ratio": [0.303093], "friction": [0.551323], "normal_amplitude": [0.159597]}
+            | {"tangential_amplitude": [0.00695342], "phase": [1.38303], "frequency_ratio": ["7/2"]},
+            0.016958,
+        ),
+        (
+            {"poisson_ratio": [0.473292027], "friction": [0.786048526], "normal_amplitude": [0.0711952675]}
+            | {"tangential_amplitude": [0.00765546352], "phase": [5.34499867], "frequency_ratio": ["7/3"]},
+            0.0110759416,
+        ),
+        (
+            {"poisson_ratio": [0.474451158], "friction": [0.562014958], "normal_amplitude": [0.314495667]}
+            | {"tangential_amplitude": [0.00179822349], "phase": [0.720519484], "frequency_ratio": [5]},
+            0.00124041143,
+        ),
+        (
+            {"poisson_ratio": [0.480959063], "friction": [0.652829181], "normal_amplitude": [0.492215259]}
+            | {"tangential_amplitude": [0.0912375257], "phase": [1.98295504], "frequency_ratio": ["7/3"]},
+            0.0801615816,
+        ),
+    ],
+    ids=["Table 1", "forces", "7/2", "7/3, small motion", "5", "7/3"],
+)
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_recorded_values(given: dict[str, object], s: float, rtol: float) -> None:
+    found = solve_one(**given, rtol=rtol)
+    digits = 0.5 * 10.0 ** -len(f"{s}".split(".")[1])
+    assert abs(found["s"] - s) <= found["s_error"] + digits + 3e-5 * s
+
+
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [
+        ("rounded_punch", {"flat_radius": 0.5}),
+        ("truncated_paraboloid", {"flat_radius": 0.5}),
+        ("wavy_paraboloid", {"waviness_amplitude": 0.05, "wavelength": 5.0}),
+    ],
+)
+@pytest.mark.parametrize("forces", [False, True])
+def test_profiles_are_those_of_the_package(name: str, shape: dict[str, float], forces: bool) -> None:
+    amplitudes = {"normal": 0.5, "tangential": 0.3}
+    kind = "_force_amplitude" if forces else "_amplitude"
+    given = {key + kind: value for key, value in amplitudes.items()}
+    known = swtstudy.solve(profile=name, phase=2.0, friction=0.5, **given, **shape, rtol=1e-6)
+    found = solve_one(
+        name,
+        friction=[0.5],
+        phase=[2.0],
+        normal_amplitude=[0.5],
+        tangential_amplitude=[0.3],
+        shape={key: [value] for key, value in shape.items()},
+        in_force=forces,
+        rtol=1e-6,
+    )
+    assert found["s"] == pytest.approx(float(known.s), rel=3e-6)
+    assert found["critical_x"] == pytest.approx(float(known.critical_x), abs=1e-3)
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.0, np.pi])
+@pytest.mark.parametrize("ratio", [1, 2])
+def test_a_polygon_on_the_cycle_is_nearly_the_cycle(phase: float, ratio: int) -> None:
+    t = 2.0 * np.pi * np.arange(1200) / 1200
+    loop = 1.0 + 0.75 * np.sin(t + phase), 0.5 * np.sin(ratio * t)
+    polygon = solve_batch("paraboloid", [0.3], [0.3], loops=[loop])[0]
+    cycle = solve_one(tangential_amplitude=[0.5], frequency_ratio=[ratio], phase=[phase])
+    assert polygon["s"] == pytest.approx(cycle["s"], rel=2e-4)
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-13, -1e-12, 1e-11, 1e-9])
+def test_unloading_that_retraces_growth(shift: float) -> None:
+    at = {"frequency_ratio": ["1/2"], "tangential_amplitude": [0.3]}
+    found = solve_one(**at, phase=[1.5 * np.pi + shift], rtol=1e-6)
+    # The front stays near the edge, by the root of what the phase is off.
+    assert found["s"] == pytest.approx(0.02698515, rel=2e-6 + 2.0 * np.sqrt(abs(shift)))
+
+
+def test_a_value_depends_on_its_point_alone() -> None:
+    phase = np.linspace(0.0, 6.0, 7)
+    many = {key: values * 7 for key, values in TABLE_1.items()}
+    together = solve_batch("paraboloid", **many, frequency_ratio=[1] * 7, phase=phase)  # type: ignore[arg-type]
+    alone = [solve_one(phase=[each]) for each in phase[::-1]]
+    assert np.array(alone[::-1], together.dtype).tobytes() == together.tobytes()
+
+
+def test_a_tighter_tolerance_is_kept() -> None:
+    found = [
+        solve_one(phase=[2.3], frequency_ratio=["3/2"], rtol=rtol) for rtol in (1e-2, 1e-3, 1e-4, 1e-5, 1e-7)
+    ]
+    for each in found[:-1]:
+        assert abs(each["s"] - found[-1]["s"]) <= each["s_error"]
+    assert np.all(np.diff([each["s_error"] for each in found]) < 0.0)
+
+
+CODE = """
+from swtstudy.kernel.batch import solve_batch
+found = solve_batch("rounded_punch", [0.3], [0.4], [0.5], [0.3], [1], [2.0], shape={"flat_radius": [0.5]})[0]
+print(*(float(found[name]) for name in ("s", "critical_x", "critical_angle")))
+"""
+
+
+@pytest.mark.slow
+def test_without_a_compiler_values_are_the_same() -> None:
+    shape = {"flat_radius": [0.5]}
+    found = solve_batch("rounded_punch", [0.3], [0.4], [0.5], [0.3], [1], [2.0], shape=shape)[0]
+    values = printed(CODE, NUMBA_DISABLE_JIT="1")
+    assert [float(value) for value in values] == pytest.approx(
+        [found[name] for name in ("s", "critical_x", "critical_angle")], rel=1e-10
+    )
+
+
+@pytest.mark.slow
+def test_compiled_code_of_other_sources_is_not_used(tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "swtstudy", tmp_path / "swtstudy")
+    environment = {"PYTHONPATH": str(tmp_path), "NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    before = printed(CODE, cwd=tmp_path, **environment)
+    load = tmp_path / "swtstudy" / "kernel" / "surface.py"
+    load.write_text(load.read_text().replace("2.0 * sqrt(share) * half", "2.1 * sqrt(share) * half"))
+    assert printed(CODE, cwd=tmp_path, **environment)[0] != before[0]
+
+
+def printed(code: str, cwd: Path = ROOT, **environment: str) -> list[str]:
+    """What a process of its own prints."""
+    run = [sys.executable, "-c", code]
+    done = subprocess.run(
+        run, cwd=cwd, env=os.environ | environment, capture_output=True, text=True, check=True
+    )
+    return done.stdout.split()
