@@ -10,11 +10,15 @@ from __future__ import annotations
 import csv
 import gzip
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 import swtstudy
 
@@ -105,3 +109,61 @@ def profile(name: str) -> object:
     """The table of a name, or the name itself if the profile is built in."""
     tables = _defined("profiles.json")
     return swtstudy.TabulatedProfile(name, **tables[name]) if name in tables else name
+
+
+def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str, NDArray[np.float64]]:
+    """What the solver finds at points, in their order: s, s_error and critical_x of each; NaN without an s.
+
+    Points with the same parameters are run as the sample of a study, at a tenth of the cost of `solve` for each.
+    """
+    found = {name: np.full(len(several), np.nan) for name in ("s", "s_error", "critical_x")}
+    groups: dict[tuple[str, ...], list[int]] = {}
+    for k, point in enumerate(several):
+        of = point.arguments
+        kind = (_name(of["profile"]), of.get("criterion", ""), "load" if "load" in of else "", *of)
+        groups.setdefault(kind, []).append(k)
+    with TemporaryDirectory() as folder:
+        for number, group in enumerate(groups.values()):
+            study = swtstudy.Study.from_text(_study([several[k].arguments for k in group], rtol))
+            result = swtstudy.run(study, Path(folder) / f"{number}.nc", workers=workers)
+            for name, values in found.items():
+                values[group] = result[name].values
+    return found
+
+
+def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
+    """The text of a study whose sample is the points; JSON's numbers, texts and lists are those of TOML."""
+    columns = {name: [arguments[name] for arguments in several] for name in several[0]}
+    fixed = {name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns}
+    lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
+    for values, file, key in ((columns.get("load", []), "loads", "vertices"), ([fixed["profile"]], "profiles", "")):
+        for name in dict.fromkeys(value.name for value in values if not isinstance(value, str)):
+            of = _defined(f"{file}.json")[name]
+            table = {key: of} if key else of
+            lines += [f"[{file}.{json.dumps(name)}]", *_keys(table)]
+    lines += ["[fixed]", *_keys(fixed), "[sample.points]", *_keys(columns)]
+    return "\n".join(lines)
+
+
+def _keys(table: dict[str, Any]) -> list[str]:
+    return [f"{name} = {json.dumps(value, default=_name)}" for name, value in table.items()]
+
+
+def _name(of: Any) -> str:
+    return str(getattr(of, "name", of))
+
+
+def excess(point: Point, s: float, s_error: float) -> tuple[float, float]:
+    """By how much a solver's s exceeds a point's, relative; and the same beyond both errors, 0 within them.
+
+    Where there is no equilibrium, any s is infinitely high, and no s at other points infinitely low.
+    """
+    if point.kind == "no_equilibrium":
+        return (np.inf, np.inf) if np.isfinite(s) else (0.0, 0.0)
+    if not np.isfinite(s):
+        return -np.inf, -np.inf
+    off, allowed = s - point.s, s_error + point.error
+    scale = max(point.s, s, point.error)
+    if point.kind == "at_least":
+        off = min(off, 0.0)
+    return off / scale, np.sign(off) * max(abs(off) - allowed, 0.0) / scale
