@@ -167,3 +167,17 @@ def excess(point: Point, s: float, s_error: float) -> tuple[float, float]:
     if point.kind == "at_least":
         off = min(off, 0.0)
     return off / scale, np.sign(off) * max(abs(off) - allowed, 0.0) / scale
+
+
+#: Relative share of s that counts as equal: records have 11 digits.
+ROUNDING = 1e-7
+
+
+def verdict(point: Point, s: float, s_error: float) -> str:
+    """Compare a solver's s with the record: "right", "low" or "high" beyond both errors."""
+    if point.kind == "no_equilibrium":
+        return "right" if s != s else "high"
+    allowed = s_error + point.error + ROUNDING * point.s
+    if not s >= point.s - allowed:
+        return "low"
+    return "high" if point.kind == "value" and s > point.s + allowed else "right"
