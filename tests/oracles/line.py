@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import pi
 from typing import Any
 
@@ -86,18 +87,19 @@ class Profile:
                 return cls(m, b, strip, waves, s, m(s), depth, load, mean)
             end *= 1.15
 
-    def coordinate(self, force: bool) -> tuple[Array, Array]:
-        """Depth or load at the nodes, and its derivative over s."""
-        if force and not self.strip:
-            return self.load, self.m_at / self.mean
+    @cached_property
+    def coordinates(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Depth, and load, at the nodes, each with its derivative over s."""
         slope = self.m_at / np.maximum(np.hypot(self.s, self.b), 1e-300)
         if self.b == 0.0:
             slope[0] = 0.0 if slope[1] < slope[2] else slope[1]
-        return self.depth, slope / self.mean if self.strip else slope
+        if self.strip:
+            return ((self.depth, slope / self.mean),) * 2
+        return (self.depth, slope), (self.load, self.m_at / self.mean)
 
     def s_at(self, force: bool, value: Array) -> Array:
         """s at depths or loads, by Newton's method on cubics."""
-        known, slope = self.coordinate(force)
+        known, slope = self.coordinates[force]
         value = np.clip(value, 0.0, known[-1])
         k = np.clip(np.searchsorted(known, value, "right") - 1, 0, CELLS - 1)
         low, step = self.s[k], self.s[k + 1] - self.s[k]
@@ -110,7 +112,7 @@ class Profile:
 
     def value_at(self, force: bool, s: Array) -> Array:
         """Depth or load at s."""
-        known, slope = self.coordinate(force)
+        known, slope = self.coordinates[force]
         k = np.clip((np.sqrt(s / self.s[-1]) * CELLS).astype(int), 0, CELLS - 1)
         step = self.s[k + 1] - self.s[k]
         x = np.clip((s - self.s[k]) / step, 0.0, 1.0)
@@ -574,37 +576,69 @@ def _planes(count: int) -> Array:
     return pi * (np.arange(count) / count - 0.5)
 
 
-def line_s(arguments: Mapping[str, Any], share: float = 0.97, kept: int = 6) -> tuple[float, float, float]:
+def line_s(arguments: Mapping[str, Any], share: float = 0.95) -> tuple[float, float, float]:
     """s of a point, the signed x of the critical point and the angle of its plane, degrees.
 
     Parameters
     ----------
     arguments
         Those of `swtstudy.solve`; a table has radius and height, a loop has vertices.
-    share, kept
-        Peaks of the first look that are looked at closer: above this share of the highest, so many at most.
+    share
+        Peaks of the first look above this share of the highest are looked at more closely.
     """
     line = Line(arguments)
+    peaks, cusps = _peaks(line)
+    looks = [peak for peak in peaks[: KEPT[0]] if peak.height >= share * peaks[0].height]
+    for kept in KEPT:
+        looks = sorted(looks, key=lambda look: -look.height)[:kept]
+        looks = [_closer(line, look, cusps) for look in looks]
+    # Coarser instants of earlier rounds may be too high.
+    found = [(look.height, look.x * look.side, float(np.degrees(look.angle))) for look in looks]
+    return max([*found, (line.far() if line.bulk else 0.0, np.nan, 0.0)])
+
+
+#: Peaks that are looked at in each round.
+KEPT = 24, 10, 4, 3, 3, 2, 2, 2
+#: Planes of the first look.
+PLANES = 48
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A high value at x > 0 or on the side −1, and the ranges of x and of the plane's angle about it."""
+
+    height: float
+    side: float
+    x: float
+    down: float
+    up: float
+    angle: float
+    turn: float
+    instants: int
+
+
+def _peaks(line: Line) -> tuple[list[Peak], Array]:
+    """The local maxima of a plain grid of positions and planes, from the highest, and the cusps."""
     intervals = _intervals(line.course, 200, None, 0.0)
-    r, steps = _positions(line, intervals)
-    angles = _planes(32)
+    r, cusps = _positions(line, intervals)
+    angles = _planes(PLANES)
     looked = np.concatenate(
         [line.values(line.stress(intervals, part, 8), angles, False) for part in _parts(r, intervals)], axis=1
     )
-    best = (line.far() if line.bulk else 0.0, np.nan, 0.0)
-    peaks: list[tuple[float, int, int, float]] = []
-    for side in (0, 1):
-        top = np.pad(looked[side].max(axis=-1), 1, constant_values=-1.0)
+    peaks = []
+    for side, values in zip((1.0, -1.0), looked, strict=True):
+        # Parabolas over the angle: a ridge of positions may lie between two planes.
+        before, after = np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)
+        is_top = (values >= before) & (values >= after)
+        bend = np.where(is_top, np.minimum(before - 2.0 * values + after, -1e-300), -1.0)
+        heights = np.where(is_top, values - (after - before) ** 2 / (8.0 * bend), -1.0)
+        turns = np.where(is_top, (before - after) / (2.0 * bend) * (pi / PLANES), 0.0)
+        top = np.pad(heights.max(axis=1), 1, constant_values=-1.0)
         for k in np.flatnonzero((top[1:-1] >= top[:-2]) & (top[1:-1] >= top[2:])):
-            # Planes far from each other may be as high.
-            over = np.pad(looked[side, k], 1, mode="wrap")
-            for j in np.flatnonzero((over[1:-1] >= over[:-2]) & (over[1:-1] >= over[2:])):
-                peaks.append((float(looked[side, k, j]), side, int(k), float(angles[j])))
-    peaks.sort(reverse=True)
-    for height, side, k, angle in peaks[:kept]:
-        if height >= share * peaks[0][0]:
-            best = max(best, _closer(line, r, steps, k, side, angle))
-    return best
+            down, up = r[k] - r[max(k - 2, 0)], r[min(k + 2, r.size - 1)] - r[k]
+            for j in np.flatnonzero(is_top[k]):
+                peaks.append(Peak(heights[k, j], side, r[k], down, up, angles[j] + turns[k, j], pi / PLANES, 12))
+    return sorted(peaks, key=lambda peak: -peak.height), cusps
 
 
 def _parts(r: Array, intervals: list[Interval]) -> Iterator[Array]:
@@ -631,25 +665,22 @@ def _positions(line: Line, intervals: list[Interval]) -> tuple[Array, Array]:
     return np.concatenate([r, [largest], beyond]), cusps
 
 
-def _closer(
-    line: Line, r: Array, cusps: Array, k: int, side: int, angle: float
-) -> tuple[float, float, float]:
-    """The largest value near a place and a plane, on ever closer grids."""
-    low, x, high = r[max(k - 2, 0)], r[k], r[min(k + 2, r.size - 1)]
-    down, up, turn, count = x - low, high - x, pi / 32, 12
-    best = (0.0, np.nan, 0.0)
-    for _ in range(6):
-        low, high = max(x - down, r[0]), x + up
-        within = cusps[(cusps > low) & (cusps < high)]
-        at = np.unique(np.concatenate([np.linspace(low, x, 7), np.linspace(x, high, 7), within]))
-        about = float(line.coordinate(np.array([x]))[0])
-        reach = float(np.ptp(line.coordinate(at)))
-        intervals = _intervals(line.course, 600, about, reach)
-        angles = angle + turn * np.linspace(-1.0, 1.0, 11)
-        values = line.values(line.stress(intervals, at, count), angles, True)[side]
-        i, j = np.unravel_index(values.argmax(), values.shape)
-        found = float(values[i, j]), float(at[i] * (1.0 - 2.0 * side)), float(np.degrees(angles[j]))
-        best = max(best, found)
-        x, angle = float(at[i]), float(angles[j])
-        down, up, turn, count = 0.25 * down, 0.25 * up, 0.3 * turn, min(count + 8, 32)
-    return best
+def _closer(line: Line, peak: Peak, cusps: Array) -> Peak:
+    """The highest place of a finer grid about a peak, and narrower ranges about it."""
+    low, high = max(peak.x - peak.down, 1e-4 * cusps[-1]), peak.x + peak.up
+    within = cusps[(cusps > low) & (cusps < high)]
+    at = np.unique(np.concatenate([np.linspace(low, peak.x, 7), np.linspace(peak.x, high, 7), within]))
+    about = float(line.coordinate(np.array([peak.x]))[0])
+    intervals = _intervals(line.course, 600, about, float(np.ptp(line.coordinate(at))))
+    angles = peak.angle + peak.turn * np.linspace(-1.0, 1.0, 11)
+    values = line.values(line.stress(intervals, at, peak.instants), angles, True)[int(peak.side < 0.0)]
+    i, j = np.unravel_index(values.argmax(), values.shape)
+    return Peak(
+        float(values[i, j]),
+        peak.side,
+        float(at[i]),
+        *(np.array([peak.down, peak.up]) * (0.25 if 0 < i < at.size - 1 else 1.0)),
+        float(angles[j]),
+        peak.turn * (0.3 if 0 < j < angles.size - 1 else 1.0),
+        min(peak.instants + 8, 32),
+    )
