@@ -1,0 +1,183 @@
+"""Recorded values of s that any solver has to reproduce (`tests/data/truth`), as arguments of `solve`.
+
+Each row of ``line_*.csv.gz`` holds all parameters of a point under their public names, the value, its own
+error and how it was obtained. ``loads.json`` and ``profiles.json`` hold the loops and tables that the columns
+``load`` and ``profile`` name. A column is empty where a point does not use the parameter.
+"""
+
+from __future__ import annotations
+
+import csv
+import gzip
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import swtstudy
+
+FOLDER = Path(__file__).parent / "data" / "truth"
+#: Columns that describe a point and are no parameters of `solve`.
+ABOUT = ("scene", "control", "kind", "s", "error", "critical_x", "critical_angle", "source")
+#: Parameters that are text; all others are numbers.
+TEXT = ("profile", "frequency_ratio", "load", "criterion")
+
+
+@dataclass(frozen=True)
+class Point:
+    """A recorded point.
+
+    Attributes
+    ----------
+    name
+        Scene and number of the row in its scene: "forces 17".
+    scene
+        What the point was drawn from.
+    arguments
+        The arguments of `swtstudy.solve`, without those that have no meaning for the point.
+    kind
+        "value", "at_least" if the recorded value is a lower bound, or "no_equilibrium" without one.
+    s, error
+        The value and its absolute error, –; NaN without a value, error 0 if it is unknown.
+    critical_x, critical_angle
+        Position in a_H, and angle of the plane's normal to x in degrees; NaN if unknown.
+    source
+        How the value was obtained.
+    """
+
+    name: str
+    scene: str
+    arguments: dict[str, Any]
+    kind: str
+    s: float
+    error: float
+    critical_x: float
+    critical_angle: float
+    source: str
+
+
+@cache
+def points(pattern: str = "line_*") -> dict[str, tuple[Point, ...]]:
+    """The recorded points by scene, of the files whose names match a pattern."""
+    found: dict[str, list[Point]] = {}
+    for file in sorted(FOLDER.glob(f"{pattern}.csv.gz")):
+        for row in rows(file):
+            scene = found.setdefault(row["scene"], [])
+            scene.append(_point(row, f"{row['scene']} {len(scene)}"))
+    return {scene: tuple(several) for scene, several in found.items()}
+
+
+def rows(file: Path) -> Iterator[dict[str, str]]:
+    """The rows of a compressed CSV file."""
+    with gzip.open(file, "rt", encoding="utf-8", newline="") as text:
+        yield from csv.DictReader(text)
+
+
+def _point(row: dict[str, str], name: str) -> Point:
+    arguments: dict[str, Any] = {
+        key: value if key in TEXT else float(value)
+        for key, value in row.items()
+        if value and key not in ABOUT
+    }
+    if "load" in arguments:
+        arguments["load"] = load(arguments["load"])
+    arguments["profile"] = profile(arguments["profile"])
+    s, x, angle = (float(row[key] or "nan") for key in ("s", "critical_x", "critical_angle"))
+    error = float(row["error"] or 0.0)
+    return Point(name, row["scene"], arguments, row["kind"], s, error, x, angle, row["source"])
+
+
+@cache
+def _defined(file: str) -> dict[str, Any]:
+    return dict(json.loads((FOLDER / file).read_text(encoding="utf-8")))
+
+
+@cache
+def load(name: str) -> object:
+    """The loop of a name: its vertices are the loads' deviations from the mean over the amplitudes."""
+    return swtstudy.LoadPath(name, _defined("loads.json")[name])
+
+
+@cache
+def profile(name: str) -> object:
+    """The table of a name, or the name itself if the profile is built in."""
+    tables = _defined("profiles.json")
+    return swtstudy.TabulatedProfile(name, **tables[name]) if name in tables else name
+
+
+def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str, NDArray[np.float64]]:
+    """What the solver finds at points, in their order: s, s_error and critical_x of each; NaN without an s.
+
+    Points with the same parameters are run as the sample of a study, at a tenth of the cost of `solve` for each.
+    """
+    found = {name: np.full(len(several), np.nan) for name in ("s", "s_error", "critical_x")}
+    groups: dict[tuple[str, ...], list[int]] = {}
+    for k, point in enumerate(several):
+        of = point.arguments
+        kind = (_name(of["profile"]), of.get("criterion", ""), "load" if "load" in of else "", *of)
+        groups.setdefault(kind, []).append(k)
+    with TemporaryDirectory() as folder:
+        for number, group in enumerate(groups.values()):
+            study = swtstudy.Study.from_text(_study([several[k].arguments for k in group], rtol))
+            result = swtstudy.run(study, Path(folder) / f"{number}.nc", workers=workers)
+            for name, values in found.items():
+                values[group] = result[name].values
+    return found
+
+
+def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
+    """The text of a study whose sample is the points; JSON's numbers, texts and lists are those of TOML."""
+    columns = {name: [arguments[name] for arguments in several] for name in several[0]}
+    fixed = {name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns}
+    lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
+    for values, file, key in ((columns.get("load", []), "loads", "vertices"), ([fixed["profile"]], "profiles", "")):
+        for name in dict.fromkeys(value.name for value in values if not isinstance(value, str)):
+            of = _defined(f"{file}.json")[name]
+            table = {key: of} if key else of
+            lines += [f"[{file}.{json.dumps(name)}]", *_keys(table)]
+    lines += ["[fixed]", *_keys(fixed), "[sample.points]", *_keys(columns)]
+    return "\n".join(lines)
+
+
+def _keys(table: dict[str, Any]) -> list[str]:
+    return [f"{name} = {json.dumps(value, default=_name)}" for name, value in table.items()]
+
+
+def _name(of: Any) -> str:
+    return str(getattr(of, "name", of))
+
+
+def excess(point: Point, s: float, s_error: float) -> tuple[float, float]:
+    """By how much a solver's s exceeds a point's, relative; and the same beyond both errors, 0 within them.
+
+    Where there is no equilibrium, any s is infinitely high, and no s at other points infinitely low.
+    """
+    if point.kind == "no_equilibrium":
+        return (np.inf, np.inf) if np.isfinite(s) else (0.0, 0.0)
+    if not np.isfinite(s):
+        return -np.inf, -np.inf
+    off, allowed = s - point.s, s_error + point.error
+    scale = max(point.s, s, point.error)
+    if point.kind == "at_least":
+        off = min(off, 0.0)
+    return off / scale, np.sign(off) * max(abs(off) - allowed, 0.0) / scale
+
+
+#: Relative share of s that counts as equal: records have 11 digits.
+ROUNDING = 1e-7
+
+
+def verdict(point: Point, s: float, s_error: float) -> str:
+    """Compare a solver's s with the record: "right", "low" or "high" beyond both errors."""
+    if point.kind == "no_equilibrium":
+        return "right" if s != s else "high"
+    allowed = s_error + point.error + ROUNDING * point.s
+    if not s >= point.s - allowed:
+        return "low"
+    return "high" if point.kind == "value" and s > point.s + allowed else "right"
