@@ -246,7 +246,7 @@ def split(H, C, P, L, k):
             e, f = places_at(C, P, L, k, stop, H.weight)
             if stop == at_edge:
                 e = H.X
-            if stop == at_front:
+            if stop == at_front or (stop == at_edge and push == STICK):
                 f = H.X
         add_part(H, C, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
         t, edge, front, cusps = stop, e, f, 1
