@@ -312,3 +312,62 @@ def test_equilibrium_and_compatibility() -> None:
         laplacian = sum(derivative(i, i) for i in range(3))
         hessian = np.array([[derivative(i, j).trace() for j in range(3)] for i in range(3)])
         assert np.abs((1 + ν) * laplacian + hessian).max() < 2e-4
+
+
+@pytest.mark.parametrize(("p", "q"), [(1, 1), (2, 1), (4, 1), (1, 3), (2, 3)])
+def test_half_a_tangential_period_later_the_other_side_has_the_same_s(p: int, q: int) -> None:
+    """Turned round, the tangential load is itself half a period later: the normal one has gone on by πq/p."""
+    phase = 0.7 + np.pi * q / p * np.arange(3)
+    found = [swtstudy.solve(rtol=1e-6, **of_load(0.6, 0.5, float(ψ), p, q)) for ψ in phase]
+    for one in found[1:]:
+        assert float(one.s) == pytest.approx(float(found[0].s), rel=3e-6)
+    sides = np.sign([float(one.critical_x) for one in found])
+    assert sides.tolist() == (sides[0] * np.array([1.0, -1.0, 1.0])).tolist()
+
+
+def slip_work(pull: float, count: int = 4000) -> float:
+    """Work per cycle by the local slip of Cattaneo and Mindlin's strip, over μP_0 · μδ0.
+
+    From +Q to −Q the shear in the slip zone turns from μp to −μp, and q − q_before is twice that of a
+    contact that moves for the first time by Q: ∮ = 2 ∫ 2 μp · slip dx over one side, twice, one way and back.
+    """
+    c = np.sqrt(1.0 - pull)
+    # Slip is what the displacements by the change of the shear lack to those of the stick zone:
+    # u′ = −(2/π) ∫ q ds/(x − s), of √(a² − s²): −2 x within, −2 (x − √(x² − a²)) beyond; the pressure is ½ √.
+    x = c + (1.0 - c) * (np.arange(count) + 0.5) / count
+    gradient = -2.0 * (0.5 * np.sqrt(x * x - c * c))
+    slip = 2.0 * np.cumsum(gradient) * (1.0 - c) / count
+    pressure = 0.5 * np.sqrt(1.0 - x * x)
+    one_way = 2.0 * float((np.abs(slip) * pressure).sum()) * (1.0 - c) / count
+    return 2.0 * one_way / (0.25 * np.pi)
+
+
+def test_quantities_of_a_cylinder() -> None:
+    """Work by the local slip; c = √(1 − Q/(μP)); at most 1.4 P_0 with half-width √1.4."""
+    pull = np.array([0.3, 0.6, 0.9])
+    names = ["dissipation", "stick_radius", "force_ratio", "contact_radius"]
+    strip = {"profile": "cylinder", "quantities": names, "rtol": 0.1, "friction": 0.4}
+    still = swtstudy.solve(normal_force_amplitude=0.0, tangential_force_amplitude=pull, **strip)
+    np.testing.assert_allclose(still.dissipation, [slip_work(each) for each in pull], rtol=1e-3)
+    assert float(still.dissipation[1]) == pytest.approx(0.0420060 / (0.25 * np.pi), rel=1e-5)
+    assert (still.dissipation_error < 1e-5 * still.dissipation).all()
+    np.testing.assert_allclose(still.stick_radius, np.sqrt(1.0 - pull), rtol=1e-12)
+    np.testing.assert_allclose(still.force_ratio, pull, rtol=1e-9)
+    moving = swtstudy.solve(normal_force_amplitude=0.4, tangential_force_amplitude=0.2, phase=1.0, **strip)
+    assert float(moving.contact_radius) == pytest.approx(np.sqrt(1.4), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", INDENTERS)
+def test_s_is_swt_of_the_stress_there_and_no_place_of_the_line_has_more(name: str) -> None:
+    given = {"profile": name, **INDENTERS[name].shape, "phase": 0.9, "friction": 0.6, "normal_amplitude": 0.5}
+    found = swtstudy.solve(rtol=1e-5, **given)
+    x = float(found.critical_x)
+    history = swtstudy.stress_field(x, 0.0, 0.0, **given)
+    stress = np.stack([history[f"sigma_{each}"].values for each in COMPONENTS], axis=-1)
+    swt, normal = swtstudy.swt_of_history(stress, 0.3, 1.0 - 0.3**2)
+    assert float(swt) == pytest.approx(float(found.s), rel=1e-3)
+    assert abs(normal[1]) < 1e-3
+    angle = np.degrees(np.arctan2(normal[2], normal[0]))
+    assert abs((angle - float(found.critical_angle) + 90.0) % 180.0 - 90.0) < 1.0
+    line = swtstudy.swt_field(np.linspace(-1.6, 1.6, 161), 0.0, 0.0, **given)
+    assert float(line.s_local.max()) <= float(found.s) * (1.0 + 1e-3)
