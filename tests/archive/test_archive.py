@@ -9,7 +9,7 @@ import pytest
 import stand_in
 import xarray as xr
 from click.testing import CliRunner
-from solved import Points, Solution
+from stand_in import Points, Solution
 
 import swtstudy
 from swtstudy import Study, open_results, run
