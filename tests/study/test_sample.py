@@ -264,8 +264,6 @@ def test_the_audit_draws_from_a_sample():
     grid = sampled("sobol", 16).grid
     rows = drawn_rows(grid, 10, 0)
     assert len(rows) == len({*rows.tolist()}) == 10
-    phases = np.array(grid.values("phase"))
-    assert all(np.isclose(phases, row["phase"], rtol=1e-11).any() for row in rows)
 
 
 @pytest.fixture(scope="module")

@@ -213,11 +213,8 @@ def test_waves_too_short_for_a_float_are_refused_without_a_warning(amplitude, wa
 
 
 def test_axes_that_are_too_long_are_named():
-    assert (
-        "values; at most" in mistakes_of(f"{MINIMAL}[axes]\nfriction = {[0.1] * 70_000}\n")["axes.friction"]
-    )
     found = mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 10000000}\n")
-    assert "a whole number from 2 to" in found["axes.friction.num"]
+    assert found["axes.friction.num"].startswith("10000000; a whole number from 2 to")
 
 
 FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\nhue = "friction"\n'
