@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.contact.cycle import Cycle
+from swtstudy.mechanics.contact.cycle import Cycle, solve_cycle
 from swtstudy.mechanics.contact.memory import GROWTH
+from swtstudy.mechanics.control.diagram import diagram
 from swtstudy.mechanics.load.bimodal import BimodalLoad
+from swtstudy.mechanics.load.load import Load
+from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
 
@@ -79,3 +83,16 @@ def slopes(cycle: Cycle, instant: float) -> list[tuple[float, float, Callable[[f
     if depth > front:
         found.append((front, depth, lambda g: -float(sign)))
     return found
+
+
+def prescribed_scene(
+    load: Load,
+    control: Control,
+    poisson_ratio: NDArray[np.float64],
+    friction: NDArray[np.float64],
+    profile: str = "paraboloid",
+    shape: Mapping[str, NDArray[np.float64]] | None = None,
+) -> Scene:
+    """The scenes of n loads, which need be none of points."""
+    in_diagram, coordinate = diagram(control, profile, dict(shape or {}), load)
+    return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)

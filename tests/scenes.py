@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from math import gcd
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from solved import Points
 
-from swtstudy.mechanics import Points
-from swtstudy.mechanics.contact.cycle import solve_cycle
-from swtstudy.mechanics.control.diagram import diagram
-from swtstudy.mechanics.indenter import check_shape
-from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.choices import FAMILIES, family_of, is_plane
 from swtstudy.vocabulary.parameters import Control
 
@@ -94,8 +89,6 @@ def random_shape(
     shape = {name: DRAWN[name](rng, count) for name in family_of(profile).shape}
     if profile == "wavy_cylinder":  # it is compact from 3.99 on
         shape["wavelength"] += 0.4
-    for k, d in enumerate(normal_amplitude):
-        assert check_shape(profile, {name: values[k] for name, values in shape.items()}, 1.0 + d) is None
     return dict(shape)
 
 
@@ -149,16 +142,3 @@ def random_plane_points(seed: int, count: int, profile: str) -> Points:
         bulk_stress_phase=rng.uniform(0.0, 6.0, count),
         **random_shape(rng, count, profile, normal),
     )
-
-
-def prescribed_scene(
-    load: Load,
-    control: Control,
-    poisson_ratio: NDArray[np.float64],
-    friction: NDArray[np.float64],
-    profile: str = "paraboloid",
-    shape: Mapping[str, NDArray[np.float64]] | None = None,
-) -> Scene:
-    """The scenes of n loads, which need be none of points."""
-    in_diagram, coordinate = diagram(control, profile, dict(shape or {}), load)
-    return Scene(solve_cycle(in_diagram), coordinate, poisson_ratio, friction)

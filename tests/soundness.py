@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike
-
-from swtstudy.mechanics import REGIMES, Points, Solution, solve_points
-from swtstudy.mechanics.indenter import make_profile
+from solved import REGIMES, Points, Solution, results_of, solve_points
 
 RTOL = 1e-4
 #: s that is only rounding.
@@ -23,8 +21,7 @@ SHAPES: dict[str, dict[str, float]] = {
 def sound(batch: Points, rtol: float = RTOL, rounding: ArrayLike = 0.0) -> Solution:
     """Solve and check what must hold of every result; ``rounding`` may add to the relative error."""
     found = solve_points(batch, rtol)
-    largest_depth = 1.0 + batch.normal_amplitude
-    largest = make_profile(batch.profile, batch.shape, largest_depth).radius(largest_depth[:, None])[:, 0]
+    largest = results_of(batch, 0.1, quantities=["contact_radius"]).contact_radius.values
     finite = found.regime != REGIMES.index("not_finite")
     assert batch.profile == "truncated_paraboloid" or np.all(finite)
     for values in (found.s, found.s_error):

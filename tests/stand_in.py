@@ -4,12 +4,18 @@ from __future__ import annotations
 
 import os
 import signal
+import tempfile
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
+from swtstudy import Study, run
 from swtstudy.mechanics.points import Points, Solution
+
+#: Where a stand-in goes when there is no argument for it: on the command line and in a search.
+SOLVER = "swtstudy.mechanics.solve_points"
 
 
 def smooth(points: Points, rtol: float) -> Solution:
@@ -110,3 +116,11 @@ class Interrupting(Counting):
         if self.points >= self.after:
             raise KeyboardInterrupt
         return super().__call__(points, rtol)
+
+
+def distinct(study: Study) -> int:
+    """How many points a run of a study computes: equal ones count once."""
+    counting = Counting()
+    with tempfile.TemporaryDirectory() as folder:
+        run(study, Path(folder) / "counted.nc", workers=1, solver=counting)
+    return counting.points

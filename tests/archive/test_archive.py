@@ -9,12 +9,12 @@ import pytest
 import stand_in
 import xarray as xr
 from click.testing import CliRunner
+from stand_in import Points, Solution
 
 import swtstudy
 from swtstudy import Study, open_results, run
 from swtstudy.archive.paths import LockedError
 from swtstudy.cli import main
-from swtstudy.mechanics.points import Points, Solution
 from swtstudy.vocabulary.files import check_writable, replacing
 from swtstudy.vocabulary.parameters import PARAMETERS
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 import stand_in
 from click.testing import CliRunner
+from solved import FAILED, MISSING
 
 from swtstudy import open_results, run
 from swtstudy.archive.netcdf import save
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
-from swtstudy.points.records import FAILED, MISSING
 
 
 @pytest.mark.quick(6)

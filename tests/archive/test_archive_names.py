@@ -53,7 +53,7 @@ def test_the_longest_name_leaves_archive_and_figure(small_text, tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     stem = "n" * 241
     Path(f"{stem}.toml").write_text(small_text)
-    monkeypatch.setattr("swtstudy.mechanics.solve_points", stand_in.smooth)
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     result = CliRunner().invoke(main, ["run", f"{stem}.toml"])
     assert result.exit_code == 0, result.output
     assert {path.name for path in Path("results").iterdir()} == {f"{stem}.nc", f"{stem}.png"}

@@ -15,12 +15,12 @@ from click.testing import CliRunner
 from command import call
 from curves import curves, whole
 from folders import STUDIES
+from solved import MISSING
 
 import swtstudy
 from swtstudy import Study, run
 from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
-from swtstudy.points.records import MISSING
 from swtstudy.study.schema import study_schema
 from swtstudy.study.template import template, template_with_units
 from swtstudy.vocabulary.choices import FAMILIES, is_plane
@@ -337,26 +337,22 @@ def test_merge_leaves_gaps_only_when_told(tmp_path):
 def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
     from functools import partial
 
-    from swtstudy import mechanics
-
     study.write_text(
         study.read_text().replace("[axes]", "[axes]\nfriction = [0.2, 0.3]\n").split("[figure]")[0]
     )
-    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    monkeypatch.setattr(stand_in.SOLVER, partial(stand_in.fail_at, 0.2))
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 3
     assert "8 points failed" in result.stderr
     assert "an injected failure" in result.stderr
     assert "friction=0.2" in result.stderr
-    monkeypatch.setattr(mechanics, "solve_points", stand_in.smooth)
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     assert call("run", study, "--results", tmp_path).exit_code == 3
     assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
 
 
 def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
-    from swtstudy import mechanics
-
-    monkeypatch.setattr(mechanics, "solve_points", stand_in.Interrupting(0))
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.Interrupting(0))
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr
@@ -364,7 +360,6 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    from swtstudy import mechanics
     from swtstudy.runner import job
 
     def ctrl_c(*_):
@@ -375,7 +370,7 @@ def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, m
         return before(*arguments)
 
     before = job._saved
-    monkeypatch.setattr(mechanics, "solve_points", ctrl_c)
+    monkeypatch.setattr(stand_in.SOLVER, ctrl_c)
     monkeypatch.setattr(job, "_saved", saved)
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
@@ -681,9 +676,7 @@ def test_run_says_what_it_needs(tmp_path, monkeypatch):
 def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
     from functools import partial
 
-    from swtstudy import mechanics
-
-    monkeypatch.setattr(mechanics, "solve_points", partial(stand_in.fail_at, 0.2))
+    monkeypatch.setattr(stand_in.SOLVER, partial(stand_in.fail_at, 0.2))
     study = tmp_path / "failing.toml"
     phases = "phase = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]"
     study.write_text(f'title = "t"\n[fixed]\nfriction = 0.2\n[axes]\n{phases}\n')

@@ -10,12 +10,12 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from folders import RESULTS
+from solved import REGIMES
 
 import swtstudy
 from swtstudy.cli import _SECTIONS, main
 from swtstudy.cli.points import WHY
 from swtstudy.cli.terminal import aligned, cut, fitted, of_markdown, wrapped
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S
 from swtstudy.runner.collector import ProgressBar, line
 from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
@@ -132,7 +132,7 @@ def test_a_regime_without_s_is_explained(arguments: list[str], name: str | None)
 
 
 def test_every_regime_without_s_has_an_explanation() -> None:
-    assert {*WHY} == {*WITHOUT_S}
+    assert {*WHY} == {"not_finite", "no_equilibrium"}
     assert {*WHY} <= {*REGIMES}
 
 

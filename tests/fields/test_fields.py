@@ -9,21 +9,10 @@ import pytest
 import xarray as xr
 from ContactMechanics.ReferenceSolutions import Hertz
 from scenes import each_profile, random_points
-from scenes import points as batch
 from scipy.integrate import simpson
 
 import swtstudy
 from swtstudy.fields import stress
-from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body import body
-from swtstudy.mechanics.body.body import nodes_at
-from swtstudy.mechanics.body.body_maximum import _cartesian, _folded, _off_ring, _Search, body_maximum
-from swtstudy.mechanics.events.stretches import Nodes
-from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.stress.history import stresses
-from swtstudy.mechanics.stress.line import SurfaceLine
-from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.vocabulary.mistakes import StudyError
 
 
@@ -118,14 +107,6 @@ def test_memory_does_not_grow_with_the_square_of_the_instants():
     assert largest_memory(lambda: swtstudy.swt_field(line, 0.0, 0.1, frequency_ratio="7/8")) < 60e6
 
 
-def test_planes_are_searched_for_some_points_at_a_time(monkeypatch):
-    line, depth = [0.4, 0.9], np.linspace(0.0, 1.0, 100)
-    at_once = swtstudy.swt_field(line, 0.0, depth)
-    monkeypatch.setattr(body, "VALUES", 1000)
-    assert largest_memory(partial(swtstudy.swt_field, line, 0.0, depth)) < 8e6
-    xr.testing.assert_allclose(swtstudy.swt_field(line, 0.0, depth), at_once, rtol=1e-9)
-
-
 def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():
     x, y, z = np.meshgrid([-1.2, 0.4], [0.3, 0.9], [0.1, 0.7], indexing="ij")
     field = swtstudy.stress_field(
@@ -143,23 +124,6 @@ ALL_PROFILES = [
     {"profile": "truncated_paraboloid", "flat_radius": 0.5},
     {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5},
 ]
-
-
-@pytest.mark.parametrize("profile", ALL_PROFILES)
-def test_field_on_the_surface_is_that_of_the_line(profile):
-    """By cells of springs and by the profile's primitives: two ways, here in a cycle with growth in stick."""
-    parameters = {"phase": 0.6, "frequency_ratio": "3/2", **profile}
-    scene = read_scene(parameters)
-    instant = np.linspace(0.05, 2 * np.pi, 6)
-    r = np.array([[0.05, 0.3, 0.51, 0.9, 1.3, 1.7]])
-    nodes = nodes_at(scene, instant)
-    index = np.broadcast_to(np.arange(instant.size), (1, r.size, instant.size))
-    line = SurfaceLine(scene.cycle, scene.coordinate, r, 9.0)
-    history = line.history(Nodes(nodes.interval[None], instant[None], index))
-    expected = stresses(history, scene.poisson_ratio, scene.friction, 1.0)
-    field = swtstudy.stress_field(r[0], 0.0, 0.0, time=2 * instant, **parameters)
-    for name, values in zip(("xx", "yy", "zz", "xz"), expected, strict=True):
-        np.testing.assert_allclose(field[f"sigma_{name}"], values[0].T, rtol=0, atol=3e-8)
 
 
 @pytest.mark.parametrize("profile", ALL_PROFILES)
@@ -336,48 +300,6 @@ def test_nonlocal_values_tend_to_s():
             swtstudy.solve(critical_distance=wrong)
 
 
-def one_point(**changes):
-    values = {
-        "poisson_ratio": 0.3,
-        "friction": 0.3,
-        "normal_amplitude": 0.5,
-        "tangential_amplitude": 0.1,
-        "phase": 0.6,
-    } | changes
-    arrays = {name: np.array([value]) for name, value in values.items()}
-    return Points("paraboloid", p=np.array([1]), q=np.array([1]), **arrays)
-
-
-def test_maximum_of_the_body():
-    """For an incompressible body and a narrow slip zone it is off the line, at the edge of the contact."""
-    solved = swtstudy.solve(
-        poisson_ratio=0.5, normal_amplitude=0.5, tangential_amplitude=0.1, phase=0.6, rtol=1e-5
-    )
-    found, at_line = body_maximum(scene_of(one_point(poisson_ratio=0.5)), float(solved.critical_x))
-    assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-4)
-    assert found.position[2] == 0.0
-    assert np.hypot(*found.position[:2]) == pytest.approx(abs(float(solved.critical_x)), rel=5e-3)
-    assert abs(found.position[1]) > 0.1
-    assert found.swt > 1.005 * float(solved.s)
-
-
-@pytest.mark.slow
-def test_maximum_of_the_body_off_the_line_close_to_the_edge_of_a_flat_face():
-    """Nearer to the edge than the search comes elsewhere: on the circle through the line's own maximum."""
-    point = batch(
-        "truncated_paraboloid", 0.4956, 0.10406, 0.90926, 0.59157, 0.498168, p=2, q=3, flat_radius=1.931156
-    )
-    solved = solve_points(point, 1e-5)
-    x = float(solved.critical_x[0])
-    assert 0.0 < abs(x) - 1.931156 < 1e-3
-    found, at_line = body_maximum(scene_of(point), x)
-    gain = float(solved.s_surface[0] / solved.s[0])
-    assert gain > 1.01
-    # Beside the edge the two ways to the circle differ by a hundredth.
-    assert found.swt / float(at_line.swt) == pytest.approx(gain, abs=1e-2)
-    assert abs(found.position[1]) > 0.5
-
-
 CURVED = [
     {"profile": "paraboloid", "phase": 2.0},
     {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 2.0},
@@ -455,46 +377,6 @@ def test_slip_of_an_oscillating_sphere_is_mindlins(instant, sense):
     assert float(states.contact_radius) == pytest.approx(1.0)
     slip = 2 if sense > 0 else 3
     assert states.state.values.tolist() == [1, 1, slip, slip, 0]
-
-
-def test_places_of_the_search_over_the_body():
-    """Radius, angle and depth: mirrored into r ≥ 0, 0 ≤ θ ≤ π, z ≥ 0, which swt is symmetric in."""
-    places = np.array([[0.5, -0.3, 0.2], [-0.5, 0.3, -0.1], [0.4, np.pi + 0.2, 0.0], [0.4, 6.0, 0.0]])
-    expected = [
-        [0.5, 0.3, 0.2],
-        [0.5, np.pi - 0.3, 0.0],
-        [0.4, np.pi - 0.2, 0.0],
-        [0.4, 2 * np.pi - 6.0, 0.0],
-    ]
-    np.testing.assert_allclose(_folded(places), expected)
-    x, y, z = _cartesian(np.array([[0.5, np.pi, 0.1], [0.5, np.pi / 6, 0.0], [0.5, 0.0, 0.0]]))
-    np.testing.assert_allclose(x, [-0.5, 0.5 * np.sqrt(0.75), 0.5])
-    np.testing.assert_allclose(y, [0.0, 0.25, 0.0], rtol=1e-15, atol=0.0)
-    np.testing.assert_array_equal(z, [0.1, 0.0, 0.0])
-
-
-def test_the_search_keeps_off_the_edge_of_a_flat_face():
-    scene = read_scene({"profile": "truncated_paraboloid", "flat_radius": 0.5})
-    search = _Search(scene, 1.3, 0.01)
-    places = np.array([[r, 0.7, 0.1] for r in (0.3, 0.485, 0.495, 0.5, 0.505, 0.515, 1.2)])
-    found = _off_ring(search, places)
-    np.testing.assert_allclose(found[:, 0], [0.3, 0.485, 0.49, 0.51, 0.51, 0.515, 1.2])
-    np.testing.assert_array_equal(found[:, 1:], places[:, 1:])
-    smooth = _Search(read_scene({}), 1.3, 0.01)
-    near_axis = np.array([[0.005, 0.7, 0.1]])
-    np.testing.assert_array_equal(_off_ring(smooth, near_axis), near_axis)
-
-
-def test_the_lines_own_maximum_is_looked_at_on_its_side():
-    """Here at x = 0.5; at x = −0.5 swt is another."""
-    parameters = {"normal_amplitude": 0.75, "tangential_amplitude": 0.1, "phase": 0.0}
-    solved = swtstudy.solve(rtol=1e-4, **parameters)
-    assert float(solved.critical_x) == pytest.approx(0.5, abs=1e-3)
-    found, at_line = body_maximum(scene_of(one_point(**parameters)), float(solved.critical_x))
-    assert float(at_line.swt) == pytest.approx(float(solved.s), rel=1e-3)
-    assert found.swt >= at_line.swt
-    assert found.position == pytest.approx([0.5, 0.0, 0.0], abs=1e-2)
-    assert abs(swt_at(-0.5, 0.0, 0.0, parameters) / float(solved.s) - 1.0) > 0.1
 
 
 @pytest.mark.parametrize("field", [swtstudy.stress_field, swtstudy.swt_field, swtstudy.slip_map])

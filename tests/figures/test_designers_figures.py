@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from folders import RESULTS
 from made_up import made_up
+from solved import REGIMES
 
 import swtstudy
 from swtstudy import Study, open_results
 from swtstudy.figures.draw import draw
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.study.figure import FigureLayout
 
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 19), np.linspace(0.1, 0.9, 17)

@@ -8,6 +8,7 @@ from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
+from solved import REGIMES
 
 import swtstudy
 from swtstudy.figures.draw import draw
@@ -15,7 +16,6 @@ from swtstudy.figures.lines import hue_scale, in_equal_ratios, mark_regimes
 from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
 from swtstudy.figures.style import STYLE
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.study.figure import FigureLayout
 
 

@@ -11,16 +11,13 @@ import xarray as xr
 from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, each_profile, points, random_points, take
 from scipy.spatial.transform import Rotation
+from solved import Points, Solution, solve_points
 from test_critical_plane_3d import rotated
 from test_values import ALIGNED
 
 import swtstudy
-from swtstudy.mechanics import Points, Solution, solve_points
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.planes.all_planes import swt_of_history
-from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy import swt_of_history
 from swtstudy.paper.reference import textbook_s
-from swtstudy.points.reading import read_grid
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
@@ -156,40 +153,6 @@ def test_a_maximum_outside_of_the_contact_is_found() -> None:
     assert dense.critical_x == pytest.approx(found.critical_x[0], rel=2e-2)
 
 
-def test_where_the_bulk_stress_presses_the_circle_is_higher_than_the_line() -> None:
-    """On the line it takes the tension away; beside it, on planes that turn with the place, it does less."""
-    point = with_bulk(points("paraboloid", 0.16, 0.3, 0.4, 0.7, 0.5), 0.01, -0.3, 0.0)
-    found = solve_points(point)
-    body, _ = body_maximum(scene_of(point), float(found.critical_x[0]))
-    assert found.s_surface[0] > 1.015 * found.s[0]
-    assert found.s_surface[0] == pytest.approx(body.swt, rel=5e-3)
-
-
-@pytest.mark.parametrize(("nu", "friction"), [pytest.param(0.38, 0.05, marks=pytest.mark.slow), (0.2, 0.0)])
-def test_where_it_leaves_no_tension_on_the_line_the_circle_has_some(nu: float, friction: float) -> None:
-    """The pressure's own tension is radial: across the bulk stress it is what it was."""
-    pressed = with_bulk(points("paraboloid", nu, friction, 0.2, 0.9, 1.3), 0.0, -0.3, 0.0, 0.65)
-    found = solve_points(pressed)
-    assert found.s[0] < 1e-4 * found.s_surface[0]
-    scene, plain = scene_of(pressed), solve_points(replace(pressed, bulk_stress_mean=np.zeros(1)))
-    body, _ = body_maximum(scene, float(found.critical_x[0]))
-    # With friction the body's is somewhat outside of the smallest contact.
-    assert found.s_surface[0] == pytest.approx(body.swt, rel=0.03 if friction else 1e-7)
-    if friction == 0.0:
-        # Then it is as high as it was on the line.
-        assert found.s_surface[0] == pytest.approx(float(plain.s[0]), rel=1e-2)
-
-
-@pytest.mark.slow
-def test_the_body_says_the_same_as_the_line() -> None:
-    batch = random_bulk(2, random_points(2, 3, largest_term=2))
-    line = solve_points(batch, 1e-6)
-    for k in range(3):
-        body, at_line = body_maximum(scene_of(take(batch, k)), float(line.critical_x[k]))
-        assert at_line.swt == pytest.approx(line.s[k], rel=2e-5)
-        assert body.swt >= line.s[k] * (1.0 - 1e-5)
-
-
 PARAMETERS: dict[str, Any] = {"normal_amplitude": 0.5, "phase": 0.7, "frequency_ratio": "3/2"}
 
 
@@ -256,48 +219,6 @@ def test_symmetries_of_an_oscillating_bulk_stress(p: int, q: int) -> None:
     # Neither of the two alone is one.
     alone = solve_points(replace(batch, phase=phase + np.pi / p), 1e-6).s
     assert np.abs(alone / found.s - 1.0).max() > 1e-3
-
-
-def canonical(**parameters: Any) -> tuple[Array, NDArray[np.bool_]]:
-    grid, mistakes = read_grid(parameters, {})
-    assert grid is not None, mistakes
-    rows, flags = grid.canonical()
-    return rows[0], flags[0]
-
-
-@pytest.mark.parametrize(
-    ("ratio", "p", "odd"), [("1", 1, True), ("2", 2, True), ("1/2", 1, False), ("3/2", 3, False)]
-)
-def test_canonical_rows_know_the_symmetries(ratio: str, p: int, odd: bool) -> None:
-    def row(phase: float, bulk: float, amplitude: float = 0.1) -> tuple[Array, NDArray[np.bool_]]:
-        own = {"bulk_stress_amplitude": amplitude, "bulk_stress_mean": 0.1, "bulk_stress_phase": bulk}
-        return canonical(frequency_ratio=ratio, phase=phase, **own)
-
-    first, flag = row(0.3, 1.0)
-    for phase, bulk, flips in (
-        (0.3 + 2 * np.pi / p, 1.0, False),
-        (0.3 - 4 * np.pi / p, 1.0 + 2 * np.pi, False),
-        (0.3 + (np.pi / p if odd else 0.0), 1.0 + np.pi, True),
-        (0.3 - (np.pi / p if odd else 0.0), 1.0 - 3 * np.pi, True),
-    ):
-        other, mirrored = row(phase, bulk)
-        np.testing.assert_array_equal(other, first)
-        assert mirrored == flag ^ flips
-    assert (row(0.3 + np.pi / p, 1.0)[0] != first).any()
-    # A constant one has no phase, and the symmetry of the contact.
-    steady, _ = row(0.3, 1.0, 0.0)
-    np.testing.assert_array_equal(row(0.3 + (1 if odd else 2) * np.pi / p, 2.5, 0.0)[0], steady)
-
-
-def test_a_constant_normal_load_leaves_the_phase_of_the_bulk_stress_alone() -> None:
-    own = {"normal_amplitude": 0.0, "bulk_stress_amplitude": 0.1, "frequency_ratio": "2/3"}
-    first, flag = canonical(phase=1.0, bulk_stress_phase=0.5, **own)
-    other, mirrored = canonical(phase=2.0, bulk_stress_phase=0.5 + np.pi, **own)
-    np.testing.assert_array_equal(first, other)
-    assert mirrored != flag
-    solved = swtstudy.solve(bulk_stress_phase=[0.5, 0.5 + np.pi, 1.5], **own)
-    assert float(solved.s[0]) == float(solved.s[1])
-    assert float(solved.critical_x[0]) == -float(solved.critical_x[1])
 
 
 def test_points_without_bulk_stress_do_not_change_beside_others() -> None:
@@ -423,27 +344,6 @@ def test_a_loop_has_no_frequency_for_it() -> None:
         swtstudy.solve(load=loop, bulk_stress_amplitude=0.1)
     raised = swtstudy.solve(load=loop, bulk_stress_mean=[0.0, 0.05]).s
     assert float(raised[1]) > 1.1 * float(raised[0])
-
-
-@pytest.mark.slow
-def test_the_search_of_the_body_leaves_the_contact_and_knows_the_far_field() -> None:
-    """Wherever it starts: from inside of the contact, or from no place at all."""
-    at = points("paraboloid", 0.4354, 0.1805, 0.3087, 1.0453, 3.6127, 2, 1)
-    point = with_bulk(at, 0.395, -0.0686, 5.3333, 0.4)
-    found = solve_points(point, 1e-6)
-    body, _ = body_maximum(scene_of(point), 0.3)
-    assert body.swt == pytest.approx(found.s[0], rel=1e-3)
-    assert body.position[0] == pytest.approx(found.critical_x[0], rel=2e-3)
-    # Pressure takes the tension of the bulk stress away, and nothing else moves: at ν = 1/2 it adds none.
-    alone = with_bulk(points("paraboloid", 0.5, 0.0, 0.0, 0.0), 0.2, 0.1, 0.0, 0.3)
-    assert np.isnan(solve_points(alone).critical_x[0])
-    expected = swt(np.array(0.3), np.array(0.2), 0.5, 0.3)
-    for start in (0.5, np.nan):
-        body, at_line = body_maximum(scene_of(alone), start)
-        assert body.swt == pytest.approx(float(expected), rel=1e-12)
-        assert body.position.tolist() == [np.inf, 0.0, 0.0]
-        assert body.normal.tolist() == [1.0, 0.0, 0.0]
-    assert float(at_line.swt) == body.swt
 
 
 @pytest.mark.slow

@@ -12,13 +12,13 @@ from brute_shear import brute
 from click.testing import CliRunner
 from numpy.typing import NDArray
 from scenes import plane_points, points, random_plane_points, random_points, take
+from solved import Points, Solution, solve_points
 
 import swtstudy
 from swtstudy.archive.parts import _LAYOUT
 from swtstudy.cli import main
 from swtstudy.fields.one_point import read_scene
 from swtstudy.figures.draw import draw
-from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.arrays import hemisphere
@@ -26,7 +26,6 @@ from swtstudy.mechanics.planes.all_planes import smallest_sphere, swt_of_history
 from swtstudy.mechanics.planes.criterion import CRITERIA, FatemiSocie, Findley
 from swtstudy.mechanics.planes.swing import SHEAR_STRESS
 from swtstudy.mechanics.planes.weights import symmetric_tensor
-from swtstudy.mechanics.points import Points, Solution
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.points.grid import complete
 from swtstudy.reports.parts import section

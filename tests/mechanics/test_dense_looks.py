@@ -2,17 +2,11 @@
 
 import importlib
 import sys
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from folders import RESULTS, STUDIES
-from scenes import points
-
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.audit.point import dense_look
-from swtstudy.vocabulary.parameters import Control
+from solved import solve_points
 
 sys.path.append(str(STUDIES / "checks"))
 overlooked = importlib.import_module("overlooked")
@@ -44,16 +38,3 @@ def test_the_law_reaches_small_motions() -> None:
     drawn = overlooked.drawn("displacements", 1, 0)
     assert drawn.tangential_amplitude.min() < 3e-3
     assert drawn.normal_amplitude.min() < 0.02
-
-
-@pytest.mark.parametrize("profile", ["rounded_punch", "truncated_paraboloid", "rounded_flat"])
-def test_wide_faces_are_resolved(profile: str) -> None:
-    """Pads are some ten times as wide as the ring, or strip, around their faces."""
-    shape = "flat_half_width" if profile == "rounded_flat" else "flat_radius"
-    batch = points(profile, 0.3, 0.5, [0.3, 0.05], [0.5, 0.02], [0.7, 1.9], **{shape: [30.0, 100.0]})
-    if profile == "rounded_flat":
-        batch = replace(batch, control=Control(True, True))
-    found = solve_points(batch, 1e-4)
-    for k in range(2):
-        dense, _ = dense_look(scene_of(batch.take(np.array([k]))), 64, 32)
-        assert found.s[k] == pytest.approx(dense, rel=1e-4)

@@ -8,57 +8,14 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 from scenes import points
+from solved import Points, solve_points
 from soundness import regime_names, sound
-
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.line.look import Look, Resolution
-from swtstudy.mechanics.line.refine import refine
-from swtstudy.mechanics.line.singular_edge import _swt
-from swtstudy.mechanics.planes.criterion import SWT
-from swtstudy.mechanics.stress.scene import Scene, scene_of
-
-
-def split_scene(batch: Points) -> Scene:
-    return scene_of(batch).split_at_breakpoints()
 
 
 def truncated(
     friction: ArrayLike, normal: ArrayLike, tangential: float, phase: float, flat_radius: ArrayLike
 ) -> Points:
     return points("truncated_paraboloid", 0.3, friction, normal, tangential, phase, flat_radius=flat_radius)
-
-
-TEARS = {
-    "gross slip, μ > 1": (1.05, 0.75, 2.0, 0.7, 0.5),
-    "gross slip, μ = 1": (1.0, 0.75, 2.0, 0.7, 2.0),
-    "Table 1, where u + δ falls below 0": (1.2, 0.75, 5 / 6, 0.0, 2.0),
-    "no gross slip, narrowly": (1.2, 0.5, 0.8, 0.1, 1.0),
-    "lift-off": (0.3, 1.2, 1.0, 1.0, 1.0),
-    "the contact is a point for an instant": (0.3, 1.0, 1.0, 1.0, 1.0),
-    "lift-off that slides a little": (0.05, 1.1875, 0.05, 0.0, 1.0),
-}
-
-
-@pytest.mark.quick(3)
-@pytest.mark.parametrize("values", TEARS.values(), ids=TEARS)
-def test_not_finite(values: tuple[float, ...]) -> None:
-    batch = truncated(*values)
-    found = sound(batch)
-    assert regime_names(found) == ["not_finite"]
-    assert np.isnan(found.s[0])
-    # And so it is: per decade of ε swt grows by no less the nearer to the edge.
-    epsilon = 10.0 ** -np.arange(2.0, 10.0, 2.0)
-    position = batch.shape["flat_radius"][0] * (1.0 + epsilon)[None]
-    tops = []
-    for side in (1.0, -1.0):
-        for plane in (0.0, 0.5 * np.pi, -0.5 * np.pi):
-            start = np.full(position.shape, plane)
-            tops.append(
-                refine(split_scene(batch), position, np.array([side]), start, Resolution(8, 4, 24))[0][0]
-            )
-    growth = np.diff(np.max(tops, axis=0))
-    assert growth[-1] > 0.0
-    assert growth[-1] > 0.9 * growth[-2]
 
 
 FINITE = {
@@ -74,21 +31,6 @@ FINITE = {
 @pytest.mark.parametrize("values", FINITE.values(), ids=FINITE)
 def test_finite(values: tuple[float, ...]) -> None:
     assert regime_names(sound(truncated(*values))) != ["not_finite"]
-
-
-@pytest.mark.parametrize(("side", "start"), [(1.0, 1.5), (1.0, -1.5), (-1.0, 1.5), (-1.0, -1.5)])
-def test_the_limit_agrees_with_the_stress_beside_it(side: float, start: float) -> None:
-    # ε = e^−18: what the limit leaves out is of the order ε, and r still holds ε to seven digits.
-    scene = split_scene(truncated(0.95, 0.75, 2.0, 0.7, 1.0))
-    position = np.array([[1.0 + np.exp(-18.0)]])
-    swt, angle = _swt(scene, -np.log(position - 1.0), side, start, 24, 24)
-    # By brute force: all instants, no interpolation.
-    planes = scene.planes(Look.at(scene, position, 300, 24).history, side)
-    tops = []
-    for double_angle in angle[0, 0] + np.linspace(-0.05, 0.05, 201):
-        stress, strain = planes.on_plane(np.array([[double_angle]]))
-        tops.append(SWT.of_maxima(stress.max(-1), strain.max(-1), -strain.min(-1))[0, 0])
-    assert swt[0, 0] == pytest.approx(max(tops), rel=1e-5)
 
 
 @pytest.mark.quick(1)
@@ -153,36 +95,6 @@ def pulled(mean: float, amplitude: float = 0.0, phase: float = 0.0, **other: flo
     own = {"friction": 0.0, "normal": 1.2, "tangential": 1.0, "phase": 1.0, "flat_radius": 1.0} | other
     bulk = {"bulk_stress_mean": mean, "bulk_stress_amplitude": amplitude, "bulk_stress_phase": phase}
     return replace(truncated(**own), **{name: np.array([value]) for name, value in bulk.items()})
-
-
-#: The contact is lost while φ + 1 is within 0.586 of 3π/2, whose sine is 0.553.
-LOST = {
-    "a constant pull": (pulled(0.05), True),
-    "a constant push": (pulled(-0.05), False),
-    "a pull while it is lost": (pulled(0.0, 0.1, 1.0 + np.pi), True),
-    "a push while it is lost": (pulled(0.0, 0.1, 1.0), False),
-    "a pull at the end of it": (pulled(-0.05, 0.1, 1.0 + 0.5 * np.pi), True),
-    "too little pull at the end of it": (pulled(-0.06, 0.1, 1.0 + 0.5 * np.pi), False),
-    "no friction for want of motion": (pulled(0.05, friction=0.3, tangential=0.0), True),
-    "the contact is not lost": (pulled(0.05, normal=0.9), False),
-    "slip pulls whatever the bulk stress": (pulled(-0.2, friction=0.3), True),
-}
-
-
-@pytest.mark.quick(5)
-@pytest.mark.parametrize(("batch", "tears"), LOST.values(), ids=LOST)
-def test_a_bulk_stress_that_pulls_while_contact_is_lost_makes_s_infinite(batch: Points, tears: bool) -> None:
-    """It is all the tension that a plane needs: its strain swings with the pressure, without bound."""
-    found = sound(batch)
-    assert (regime_names(found) == ["not_finite"]) == tears
-    assert np.isnan(found.s[0]) == tears
-    distance = np.array([[1e3, 1e5]])
-    near, nearer = max(
-        (tuple(_swt(split_scene(batch), distance, side, start, 24, 7.0)[0][0]) for side in (1.0, -1.0)
-         for start in (0.5 * np.pi, 0.0, -0.5 * np.pi)),
-        key=lambda pair: pair[1],
-    )  # fmt: skip
-    assert (nearer > 50.0 * near > 0.0) == tears
 
 
 def test_at_half_no_strain_swings_with_the_pressure_alone() -> None:

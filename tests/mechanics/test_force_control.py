@@ -7,11 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from memory import slopes
+from memory import prescribed_scene, slopes
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.force_march import ForceMarch, second_round
-from scenes import prescribed_scene
 from scipy.special import struve
 
 from swtstudy.mechanics.contact.cycle import out_of_equilibrium

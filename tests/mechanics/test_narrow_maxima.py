@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scenes import points
+from solved import solve_points
 
 from swtstudy import TabulatedProfile
-from swtstudy.mechanics import solve_points
 from swtstudy.paper.reference import textbook_s
 from swtstudy.vocabulary.parameters import Control
 

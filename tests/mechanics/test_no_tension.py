@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scenes import plane_points, points
+from solved import REGIMES, solve_points
 from soundness import SHAPES
 
 import swtstudy
-from swtstudy.mechanics import REGIMES, solve_points
-from swtstudy.paper.audit.point import audit_point
 from swtstudy.paper.statements import critical_point
-from swtstudy.points.canonical import COLUMNS
 
 IDLE = [
     {"poisson_ratio": 0.5, "friction": 0.0},
@@ -44,11 +42,6 @@ def test_what_needs_a_critical_point_lives_without_one() -> None:
     assert swtstudy.solve(critical_distance=0.1, **none).s_volume == 0.0
     inspected = swtstudy.inspect_point(**none)
     assert np.isfinite(inspected.shown_x)
-    row = dict.fromkeys(COLUMNS, 0.0) | none | {"normal_amplitude": 0.75, "tangential_amplitude": 0.5}
-    finding = audit_point(list((row | {"p": 1, "q": 1}).values()), {})
-    assert finding.s == 0.0
-    assert np.isnan(finding.critical_x)
-    assert np.isfinite(finding.s_body)
 
 
 def test_statements_on_critical_points_leave_out_where_there_is_none() -> None:

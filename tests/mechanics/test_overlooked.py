@@ -12,10 +12,10 @@ import math
 import numpy as np
 import pytest
 from scenes import points
+from solved import solve_points
 
 import swtstudy
 from swtstudy.fields.one_point import read_scene
-from swtstudy.mechanics import solve_points
 from swtstudy.paper.audit.point import dense_look
 
 CASES = [

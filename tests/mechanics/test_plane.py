@@ -6,11 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from memory import prescribed_scene
 from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
-from scenes import PLANE_NAMES, plane_points, prescribed_scene, random_plane_points, take
+from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from scipy.interpolate import PPoly
+from solved import solve_points
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
@@ -19,7 +21,6 @@ from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_pro
 from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
 from swtstudy.mechanics.load.polygon import PolygonLoad
 from swtstudy.mechanics.margins import Margins, bulk_shift
-from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import Scene, scene_of

@@ -7,12 +7,12 @@ import pytest
 from numpy.typing import NDArray
 from oracles.strips import STRIPS
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
+from solved import solve_points
 
 from swtstudy.mechanics.body.body import Body, closer_nodes, nodes_at, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
 from swtstudy.mechanics.events.stretches import Nodes
-from swtstudy.mechanics.solver import solve_points
 from swtstudy.mechanics.stress.history import stresses
 from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of

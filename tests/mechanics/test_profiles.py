@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from oracles import profiles as oracle
 from scenes import DRAWN, points
 from scipy.special import struve, y0
+from solved import solve_points
 
-from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.indenter import (
     PROFILES,
     Profile,
@@ -19,7 +19,6 @@ from swtstudy.mechanics.indenter import (
     compact_shapes,
     make_profile,
     too_small,
-    wavy,
 )
 from swtstudy.mechanics.indenter.struve import struve_expansions, struve_functions, struve_integrals
 from swtstudy.vocabulary.choices import AXISYMMETRIC, FAMILIES, PLAIN, PLAIN_STRIP, PLANE, Family
@@ -353,20 +352,6 @@ def test_the_message_of_a_contact_that_is_not_compact_names_the_limit() -> None:
     assert "waviness_amplitude 0.01" in message
     assert check_shape("wavy_paraboloid", {**shape, "wavelength": 3.6}, 1.75) is None
     assert check_shape("wavy_paraboloid", {**shape, "waviness_amplitude": 0.0}, 1.75) is None
-
-
-def test_a_grid_of_shapes_is_checked_without_solving_each_anew(monkeypatch: pytest.MonkeyPatch) -> None:
-    calls: list[int] = []
-
-    def counted(z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        calls.append(z.size)
-        return struve_functions(z)
-
-    monkeypatch.setattr(wavy, "struve_functions", counted)
-    for h in np.linspace(0.01, 1.0, 10).tolist():
-        for wavelength in np.linspace(3.0, 6.0, 10).tolist():
-            check_shape("wavy_paraboloid", {"waviness_amplitude": h, "wavelength": wavelength}, 1.75)
-    assert len(calls) <= 1
 
 
 def test_rounded_punch_of_the_literature() -> None:

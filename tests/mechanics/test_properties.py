@@ -11,9 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, take
+from solved import Points, solve_points
 from soundness import RTOL, close, sound
 
-from swtstudy.mechanics import Points, solve_points
 from swtstudy.vocabulary.choices import FAMILIES
 
 Array = NDArray[np.float64]

@@ -8,11 +8,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scenes import each_profile, points, take
+from solved import solve_points
 from soundness import RTOL, SHAPES, close, regime_names, sound
-
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.line import first_look
-from swtstudy.mechanics.solver import BATCH_SIZE, scenes
 
 TINY = 5e-324
 every_profile = pytest.mark.parametrize("profile", each_profile())
@@ -186,30 +183,3 @@ def test_many_copies_of_one_point_are_all_alike() -> None:
     batch = take(points(phase=0.7), np.zeros(300, dtype=int))
     found = solve_points(batch, 1e-3)
     assert np.ptp(found.s) == 0.0
-
-
-def test_an_empty_batch_has_an_empty_solution() -> None:
-    found = solve_points(take(points(), np.zeros(0, dtype=int)))
-    assert found.s.shape == found.regime.shape == (0,)
-
-
-def test_a_huge_grid_comes_in_bounded_batches() -> None:
-    # The division only: what is done with a batch is as large as the batch.
-    loads = points(phase=np.linspace(0.0, 3.0, 7), normal_amplitude=0.5)
-    batch = take(loads, np.arange(200_000) % 7)
-    seen = np.zeros(len(batch), dtype=int)
-    for index, scene in scenes(batch):
-        assert len(index) == len(scene) <= BATCH_SIZE
-        seen[index] += 1
-    assert np.all(seen == 1)
-
-
-def test_points_that_are_looked_at_one_by_one_have_the_same_values(monkeypatch: pytest.MonkeyPatch) -> None:
-    some = points(phase=np.linspace(0.1, 3.0, 6), normal_amplitude=0.5)
-    together = solve_points(some)
-    monkeypatch.setattr(first_look, "LOOK_SIZE", 1)
-    monkeypatch.setattr("swtstudy.mechanics.line.rounds.PART_SIZE", 1)
-    alone = solve_points(some)
-    assert np.ptp(together.s) > 0.1 * together.s.max()
-    np.testing.assert_allclose(alone.s, together.s, rtol=1e-10)
-    np.testing.assert_allclose(alone.critical_x, together.critical_x, rtol=1e-7)

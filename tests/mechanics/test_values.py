@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 from scenes import each_profile, points, random_points, take
+from solved import solve_points
 
-from swtstudy.mechanics import solve_points
 from swtstudy.paper.reference import textbook_s
 
 #: Parameters off Table 1, the known s, and how well it is known, absolutely: to its last digit unless said.

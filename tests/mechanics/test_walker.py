@@ -7,23 +7,13 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, points, random_points, take
-from scipy.spatial.transform import Rotation
-from test_critical_plane_3d import rotated, smooth_histories
+from solved import Points, solve_points
 from test_values import ALIGNED
 
 import swtstudy
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_of_history
-from swtstudy.mechanics.planes.criterion import Criterion, Swt
-from swtstudy.mechanics.planes.weights import symmetric_tensor
-from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.paper.reference import textbook_s
 
-Array = NDArray[np.float64]
 SEVERAL = np.array([0.1, 0.3, 0.5, 0.7, 0.85])
 
 
@@ -96,86 +86,6 @@ def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> No
     assert 1.0 - 4e-2 < ratio < 1.0 + 7e-4
 
 
-def walkers(exponent: float, modulus: float) -> Swt:
-    """The criterion of one point."""
-    return Swt.of(np.full(1, exponent), np.full(1, modulus))
-
-
-@pytest.mark.parametrize("exponent", [0.2, 0.5, 0.7, 0.9])
-def test_all_planes_against_brute_force_and_rotation(exponent: float) -> None:
-    nu, modulus = 0.3, 7.0
-    stress = smooth_histories(np.random.default_rng(5), 40)
-    swt, normal = swt_of_history(stress, nu, modulus, walkers(exponent, modulus))
-    tensor = symmetric_tensor(stress)
-    strain = (
-        (1.0 + nu) * tensor - nu * np.trace(tensor, axis1=-2, axis2=-1)[..., None, None] * np.eye(3)
-    ) / (modulus)
-
-    def on(normals: Array) -> Array:
-        tension, elongation = (
-            np.einsum("...pi,...tij,...pj->...tp", normals, v, normals) for v in (tensor, strain)
-        )
-        high = np.maximum(tension.max(axis=-2), 0.0)
-        return (
-            high ** (2 - 2 * exponent)
-            * (modulus * np.ptp(elongation, axis=-2) / 2) ** (2 * exponent)
-            / modulus
-        )
-
-    # 3,000 planes are 3° apart.
-    brute = on(np.broadcast_to(hemisphere(3000), (40, 3000, 3))).max(axis=1)
-    assert np.all(brute <= swt * (1.0 + 1e-12))
-    np.testing.assert_allclose(brute, swt, rtol=1e-2)
-    np.testing.assert_allclose(on(normal[:, None])[:, 0], swt, rtol=1e-12)
-    rotations = Rotation.random(40, random_state=3).as_matrix()
-    turned, _ = swt_of_history(rotated(stress, rotations), nu, modulus, walkers(exponent, modulus))
-    np.testing.assert_allclose(turned, swt, rtol=1e-10)
-
-
-def test_derivatives_are_those_of_the_powers() -> None:
-    rng = np.random.default_rng(0)
-    first, second = rng.uniform(0.5, 2.0, (2, 6, 40))
-    γ = rng.uniform(0.1, 0.9, 40)
-    walker = Swt(γ, np.ones(40))
-    slope, stiffness = walker.log_derivatives(first.T, second.T)
-    # A new criterion has them from its partial derivatives.
-    for own, general in zip(
-        (slope, stiffness), Criterion.log_derivatives(walker, first.T, second.T), strict=True
-    ):
-        np.testing.assert_allclose(general, own, rtol=1e-11, atol=1e-11)
-    α, β = 2.0 - 2.0 * γ, 2.0 * γ
-    f, g = first / first[0], second / second[0]
-    np.testing.assert_allclose(slope, (α * f[1:3] + β * g[1:3]).T, rtol=1e-13)
-    bend = α * (f[3] - f[1] ** 2) + β * (g[3] - g[1] ** 2)
-    np.testing.assert_allclose(stiffness[:, 0], -bend, rtol=1e-12)
-    # Both first derivatives vanish at one place, and the bends there differ by a positive factor.
-    zero = np.zeros(40)
-    rise, fall = walker.derivatives((first[0], zero, first[3]), (second[0], zero, second[3]))
-    assert np.all(rise == 0.0)
-    np.testing.assert_allclose(fall / first[0] / second[0] * α, α * f[3] + β * g[3], rtol=1e-13)
-    # Elsewhere they are those of σ_n ε_n^κ over ε_n^(κ − 1), by differences.
-    κ, step = γ / (1.0 - γ), 1e-4
-
-    def power(at: float) -> NDArray[np.float64]:
-        tension, swing = (v[0] + at * v[1] + 0.5 * at**2 * v[3] for v in (first, second))
-        return tension * swing**κ / second[0] ** (κ - 1.0)
-
-    jets = tuple((v[0], v[1], v[3]) for v in (first, second))
-    rise, bent = walker.derivatives(*jets)
-    low, here, high = power(-step), power(0.0), power(step)
-    np.testing.assert_allclose(rise, (high - low) / (2.0 * step), rtol=1e-5)
-    np.testing.assert_allclose(bent, (high - 2.0 * here + low) / step**2, rtol=1e-4, atol=1e-4)
-    np.testing.assert_array_equal(np.sign(Criterion.derivatives(walker, *jets)[0]), np.sign(rise))
-
-
-def test_the_body_says_the_same_as_the_line() -> None:
-    point = with_exponent(points(phase=1.0), 0.3)
-    line = solve_points(point, 1e-6)
-    body, at_line = body_maximum(scene_of(point), float(line.critical_x[0]))
-    assert at_line.swt == pytest.approx(line.s[0], rel=1e-5)
-    assert body.swt == pytest.approx(line.s[0], rel=1e-4)
-
-
 def test_fields_and_means_have_the_exponent() -> None:
     parameters: dict[str, Any] = {"phase": 1.0, "walker_exponent": 0.3}
     solved = swtstudy.solve(**parameters)
@@ -199,26 +109,3 @@ def test_exponents_that_are_none(exponent: object) -> None:
         swtstudy.solve(walker_exponent=exponent)
     with pytest.raises(swtstudy.StudyError, match=allowed):
         swtstudy.swt_of_history(np.ones((3, 6)), 0.3, walker_exponent=exponent)  # type: ignore[arg-type]
-
-
-def test_a_life_takes_swt_of_every_exponent_in_the_same_equation() -> None:
-    """σ_ar = √(E SWT_γ): for R = −1 all exponents have the same life."""
-    contact = swtstudy.physical(
-        young_modulus=200e3,
-        poisson_ratio=0.3,
-        radius=10.0,
-        depth=0.01,
-        friction=0.4,
-        tangential_amplitude=0.005,
-    )
-    other = contact.with_parameters(walker_exponent=0.3)
-    assert (contact.walker_exponent, other.parameters()["walker_exponent"]) == (0.5, 0.3)
-    ratio = other.solve().SWT / contact.solve().SWT
-    s = swtstudy.solve(**{**contact.parameters(), "walker_exponent": [0.5, 0.3]}).s
-    np.testing.assert_allclose(ratio, float(s[1] / s[0]), rtol=1e-12)
-    wave = np.zeros((2, 6))
-    wave[:, 0] = 100.0, -100.0
-    for exponent in (0.2, 0.5, 0.9):
-        assert swt_of_history(wave, 0.3, 200e3, walkers(exponent, 200e3)).swt == pytest.approx(
-            100.0**2 / 200e3, rel=1e-12
-        )

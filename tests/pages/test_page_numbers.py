@@ -11,13 +11,13 @@ import pytest
 import shown
 import xarray as xr
 from folders import RESULTS, ROOT, STUDIES
+from solved import REGIMES
 
 from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
 from swtstudy.mechanics.indenter.paraboloid import NEAREST, SMALLEST_FACE
 from swtstudy.mechanics.line.singular_edge import LEFT_OUT
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.points.validity import LIMITS
 from swtstudy.reports.values import LARGEST_TABLE

@@ -15,11 +15,11 @@ import numpy as np
 import pytest
 import shown
 from folders import RESULTS, ROOT
+from solved import REGIMES
 
 import swtstudy
 from swtstudy import Study, open_results
 from swtstudy.archive.netcdf import save
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.runner.workload import assess
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]

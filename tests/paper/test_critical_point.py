@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from made_up import made_up, made_up_audit
+from solved import REGIMES
 
 from swtstudy.paper.statements import critical_point
 from swtstudy.paper.statements.critical_point import stick_radius
-from swtstudy.points.labelled import ATTRIBUTES
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:
@@ -64,6 +64,6 @@ def test_the_regime(regime, holds):
     results["regime"] = results.regime * regime
     finding = critical_point.slips_partially(results)
     assert finding.holds == holds
-    assert ATTRIBUTES["regime"]["flag_meanings"].split()[regime].replace("_", " ") in finding.measured
+    assert REGIMES[regime].replace("_", " ") in finding.measured
     (statement,) = (each for each in critical_point.STATEMENTS if each.test is critical_point.slips_partially)
     assert "the regime is partial slip" in statement.criterion

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from solved import REGIMES
 
 import swtstudy
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.points.labelled import ATTRIBUTES
 

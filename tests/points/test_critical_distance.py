@@ -10,8 +10,6 @@ import stand_in
 import xarray as xr
 from asking import EVERY, study
 from click.testing import CliRunner
-from curves import curves, whole
-from real import ALLOY
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
@@ -20,12 +18,6 @@ from swtstudy.archive.netcdf import save
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
-from swtstudy.mechanics.body.nonlocal_swt import DIRECTIONS, Estimate, NonlocalSwt
-from swtstudy.points.unique import unique_points
-from swtstudy.runner import chunk
-from swtstudy.runner.chunk import chunks
-from swtstudy.runner.workload import estimate
-from swtstudy.units.variables import variables
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
 
@@ -43,7 +35,7 @@ def test_critical_distances_are_an_axis_of_the_quantities_alone(two_distances: x
     assert found.s_volume.dims == ("phase", "critical_distance")
     assert found.s_line.dims == found.s_line_error.dims == ("phase", "critical_distance", "direction")
     assert found.critical_distance.values.tolist() == [0.1, 0.2]
-    assert tuple(found.direction.values) == DIRECTIONS
+    assert tuple(found.direction.values) == ("depth", "critical_plane")
     one = swtstudy.solve(phase=1.0, critical_distance=0.2, rtol=1e-3)
     for name, dims in (("s_volume", ()), ("s_point", ("direction",)), ("s_line", ("direction",))):
         assert one[name].dims == dims
@@ -52,32 +44,6 @@ def test_critical_distances_are_an_axis_of_the_quantities_alone(two_distances: x
         assert (found[name].isel(critical_distance=1) < found[name].isel(critical_distance=0)).all()
         assert (found[name] < found.s).all()
     assert one.critical_distance.item() == 0.2
-
-
-def made_up_means(scene, position, angle, distance):
-    """Stands in for `worst_means`, which takes seconds."""
-    volume = np.abs(position)[:, None] * distance
-    both = np.stack([volume + 1.0, volume + 2.0], axis=-1)
-    x = np.broadcast_to(position[:, None], volume.shape)
-    places = x, np.stack([x, x + 1.0], axis=-1), np.stack([x + 2.0, x + 3.0], axis=-1)
-    return NonlocalSwt(volume, volume + 0.1, both, both + 0.1, both + 10.0, both + 10.1, *places)
-
-
-def test_their_values_are_put_where_they_belong(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(quantities, "worst_means", made_up_means)
-    found = swtstudy.solve(phase=[0.5, 1.0, 0.5 + np.pi], critical_distance=[0.2, 0.05], rtol=1e-2)
-    volume = abs(found.critical_x.drop_attrs()) * found.critical_distance
-
-    def check(name: str, expected: xr.DataArray, **place: str) -> None:
-        values = found[name].sel(place, drop=True)
-        np.testing.assert_allclose(values, expected.transpose(*values.dims), rtol=1e-12)
-
-    check("s_volume", volume)
-    check("s_volume_error", volume + 0.1)
-    for name, shift in (("s_point", 0.0), ("s_line", 10.0)):
-        for number, direction in enumerate(DIRECTIONS, start=1):
-            check(name, volume + number + shift, direction=direction)
-            check(f"{name}_error", volume + number + shift + 0.1, direction=direction)
 
 
 @pytest.mark.slow
@@ -113,27 +79,6 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     assert "distances      0.05, 0.1" in told
 
 
-def test_figures_over_critical_distances(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(quantities, "worst_means", made_up_means)
-    figure = '[figure]\nx = "critical_distance"\nhue = "phase"\ny = "s_volume"\n'
-    axes = "phase = [0.5, 1.0]\ncritical_distance = { start = 0.01, stop = 1, num = 3, spacing = 'log' }"
-    found = run(Study.from_text(study(axes=axes).text + figure), tmp_path / "a.nc", workers=1)
-    (panel,) = found.swt.figure().axes
-    assert panel.get_xscale() == "log"
-    assert "ell" in panel.get_xlabel()
-    np.testing.assert_allclose(whole(curves(panel)[1])[1], found.s_volume.isel(phase=1))
-    along = found.swt.slice(critical_distance=0.1).swt.panels(x="phase", hue="direction", y="s_line")
-    assert [line.get_label() for line in along.axes[0].lines] == ["depth", "critical plane"]
-    assert len(found.swt.to_table()) == 2 * 3
-    for change, words in (
-        (('"s_volume"', '"s"'), "'critical_distance', not an axis of s in this study"),
-        (('"s_volume"', '"s_line"'), "no place for the axis direction"),
-        (('y = "s_volume"', 'y = "s_volume"\nregimes = true'), r"figure\.regimes: found true over crit"),
-    ):
-        with pytest.raises(StudyError, match=words):
-            Study.from_text(study(axes=axes).text + figure.replace(*change))
-
-
 @pytest.mark.parametrize(
     ("entry", "words"),
     [
@@ -167,25 +112,6 @@ def test_the_command_line_prints_a_column_for_each_distance() -> None:
     assert {"s_point[0.05,depth]", "s_line[0.2,critical_plane]"} <= values.keys()
 
 
-def test_points_with_nonlocal_values_are_cut_into_small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(quantities, "worst_means", made_up_means)
-    grid = study(axes="phase = {start = 0.1, stop = 3, num = 40}").grid
-    points = unique_points(grid)
-    every = np.ones(40, bool)
-    for asked, lengths in (
-        (chunk.Asked(EVERY[:1]), [40]),
-        (chunk.Asked(("critical_distance=0.1",)), [8] * 5),
-    ):
-        (one,) = chunks(points, every, lambda: np.inf, asked)
-        assert [*one.lengths] == lengths
-        np.testing.assert_array_equal(np.sort(one.rows), np.arange(40))
-    timed: list[int] = []
-    asked = chunk.Asked(("critical_distance=0.1",))
-    seconds = estimate(points, every, 1e-2, stand_in.smooth, lambda result: timed.append(len(result)), asked)
-    assert timed == [8]
-    assert seconds > 0.0
-
-
 @pytest.mark.parametrize(
     ("damage", "words"),
     [
@@ -209,43 +135,6 @@ def test_archives_with_damaged_quantities_are_refused(
     save(damage(two_distances), path)
     with pytest.raises(ArchiveError, match=words):
         open_results(path)
-
-
-@pytest.mark.slow
-def test_a_mean_far_beyond_the_contact_is_not_negative(tmp_path):
-    """The mean over 10 a_H is almost 0, and interpolation may be below that."""
-    study = Study.from_text(
-        f"""
-title = "Distances far beyond the contact"
-rtol = 1e-3
-{ALLOY}[fixed]
-young_modulus = 73e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
-tangential_force_amplitude = 47.7
-bulk_stress_mean = -53.8
-phase = 1.26
-body = 1
-[axes]
-critical_distance = [1.5, 3, 5]
-"""
-    )
-    found = run(study, tmp_path / "a.nc", workers=1)
-    means = found.SWT_volume
-    assert (means >= 0.0).all()
-    # The larger the volume beyond the contact, the less: the error holds what was below 0.
-    assert means[1] <= means[0]
-    assert means[2] <= means[1] + found.SWT_volume_error[1] + found.SWT_volume_error[2]
-    assert found.cycles_volume.notnull().all()
-    both = Estimate(np.array([-3.0, 2.0]), np.array([0.5, 0.5]), np.array([1.0, 1.0])).not_negative
-    assert (both.value.tolist(), both.error.tolist()) == ([0.0, 2.0], [4.0, 1.0])
-    # Of a run of before.
-    stored = found.s_volume.copy(data=[-1e-7, 0.0, 1e-3])
-    grid = study.grid
-    (life,) = (each for each in variables(grid, study.asked) if each.name == "cycles_volume")
-    assert life.values(found.assign(s_volume=stored), grid)[:2].values.tolist() == [np.inf, np.inf]
 
 
 def test_means_of_what_is_the_same_everywhere() -> None:

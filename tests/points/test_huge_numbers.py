@@ -14,7 +14,6 @@ import stand_in
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
 from swtstudy.archive.paths import ArchiveError
-from swtstudy.points.values import index_of
 
 HUGE = 10**400
 R = np.linspace(0.0, 3.0, 9)
@@ -101,10 +100,6 @@ def test_profiles_of_no_size(scale: float) -> None:
             TabulatedProfile("a", radius, height)
     sound = TabulatedProfile("a", 1e20 * R / 3.0, 1e-20 * R**2 / 9.0)
     assert sound.refused_at(5e-21) is None
-
-
-def test_an_axis_of_nothing_has_no_nearest_value() -> None:
-    assert index_of(0.0, ()) is None
 
 
 LOOP = 'title = "t"\nrtol = 1e-2\nfixed.load = "a"\naxes.friction = [0.1, 0.2]\n[loads.a]\nvertices = {}\n'

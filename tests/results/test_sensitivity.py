@@ -5,11 +5,11 @@ import pytest
 import stand_in
 import xarray as xr
 from click.testing import CliRunner
+from solved import REGIMES
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
 from swtstudy.figures.evaluated import draw_sensitivity
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.statements.parameters import SAYS, table
 from swtstudy.results.sensitivity import _design
 

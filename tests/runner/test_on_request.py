@@ -25,10 +25,6 @@ from swtstudy.archive.netcdf import save
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.cli import main
 from swtstudy.mechanics import quantities
-from swtstudy.points import records
-from swtstudy.points.canonical import ROW
-from swtstudy.runner import chunk
-from swtstudy.runner.run import Stopped
 from swtstudy.vocabulary.quantities import Request
 
 
@@ -85,40 +81,6 @@ def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monk
     assert sum(counted) == 2
     xr.testing.assert_equal(again.drop_vars("run"), grown.drop_vars("run"))
     assert not kept_folder(path).exists()
-
-
-@pytest.mark.slow
-def test_a_run_that_is_stopped_between_them_goes_on(tmp_path: Path, monkeypatch) -> None:
-    path, axes = tmp_path / "a.nc", "phase = {start = 0.01, stop = 0.2, num = 30}\nfriction = [0.2, 0.3]"
-    # Long cycles and small blocks of some thirty points.
-    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 512)
-    long = '[fixed]\nfrequency_ratio = "1/15"\n'
-    # Points of two runs, so that two more are told.
-    run(study(long, axes.replace(", 0.3", "")), path, workers=1, solver=stand_in.smooth)
-    plain = run(study(long, axes), path, workers=1, solver=stand_in.smooth)
-    whole = quantities.quantities_of
-    counted = [0]
-
-    def stopping(points, items, solution):
-        if counted[0] >= 20:
-            raise KeyboardInterrupt
-        counted[0] += len(points)
-        return whole(points, items, solution)
-
-    monkeypatch.setattr(quantities, "quantities_of", stopping)
-    asked = study(long, axes, ("dissipation",))
-    with pytest.raises(Stopped, match="of 60 distinct points are saved") as stopped:
-        run(asked, path, workers=1)
-    assert str(stopped.value).split()[1] == str(counted[0])
-    saved = counted[0]
-    assert np.isfinite(open_results(path, partial=True).s).all()
-    monkeypatch.setattr(quantities, "quantities_of", whole)
-    again = stand_in.Counting()
-    done = run(asked, path, workers=1, solver=again)
-    assert again.points == 0
-    assert 0 < saved < 60
-    np.testing.assert_array_equal(done.s, plain.s)
-    assert np.isfinite(done.dissipation).all()
 
 
 @pytest.mark.slow
@@ -272,13 +234,6 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path, caplog: pytest.L
         run(Study.from_toml(file), plain, workers=1)
     assert "4 points are computed, but lack quantities that the study asks" in caplog.messages
     assert "quantities     dissipation" in CliRunner().invoke(main, ["info", str(plain)]).output
-
-
-def test_a_worker_that_dies_gives_up_quantities_too() -> None:
-    lost = chunk.Chunk(np.arange(1), np.zeros(1, ROW), (1,), {}, chunk.Asked(("dissipation",)))
-    found = chunk.given_up(lost, 1e-3, "gone")
-    assert (found.status == records.FAILED).all()
-    assert np.isnan(found.quantities["dissipation_error"]).all()
 
 
 def test_the_same_request_in_two_ways() -> None:

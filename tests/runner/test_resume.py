@@ -15,13 +15,13 @@ import stand_in
 import xarray as xr
 from click.testing import CliRunner
 from folders import TESTS
+from solved import COMPUTED, FAILED
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive import parts as archive_parts
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
-from swtstudy.points import records
 from swtstudy.runner import collector, workload
 from swtstudy.runner import job as job_module
 from swtstudy.runner.run import Stopped
@@ -62,7 +62,7 @@ def test_a_stopped_run_goes_on_and_ends_as_if_undisturbed(line, tmp_path):
     assert 0 < saved <= 192
     assert not path.exists()
     partial_dataset = open_results(path)
-    assert int((partial_dataset.status == records.COMPUTED).sum()) == saved
+    assert int((partial_dataset.status == COMPUTED).sum()) == saved
     assert int(np.isnan(partial_dataset.s).sum()) == 400 - saved
     rest = stand_in.Counting()
     same(run(line, path, solver=rest, workers=1), undisturbed)
@@ -193,7 +193,7 @@ def test_a_failed_point_is_one_point(tmp_path, line):
     (failure,) = json.loads(dataset.status.attrs["failures"])
     assert failure["message"] == "ZeroDivisionError: an injected failure"
     assert "friction=0.3" in failure["point"]
-    assert dataset.status.sel(friction=0.3, method="nearest").item() == records.FAILED
+    assert dataset.status.sel(friction=0.3, method="nearest").item() == FAILED
     # It is not tried again unless that is asked for, and its message is not lost.
     counting = stand_in.Counting()
     text = LINE.replace("title", "# grown\ntitle")
@@ -239,20 +239,6 @@ def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monke
     assert 0 < points_saved(parts_folder(path)) < saved
     monkeypatch.undo()
     assert points_saved(parts_folder(path)) == saved
-
-
-def test_many_parts_are_gathered(line, tmp_path, monkeypatch):
-    monkeypatch.setattr("swtstudy.archive.parts._JOINED", 3)
-    monkeypatch.setattr("swtstudy.points.unique._BLOCK_SIZE", 512)
-    path = tmp_path / "line.nc"
-    # One block a chunk: the pace is taken for very slow.
-    monkeypatch.setattr("swtstudy.runner.collector.Pace.chunk_weight", lambda self: 0.0)
-    with pytest.raises(Stopped):
-        run(line, path, solver=stand_in.Interrupting(280), workers=1)
-    # Ten of fourteen blocks: eight have 29 points, and are solved first, the others 28.
-    assert len(list(parts_folder(path).glob("*.npz"))) == 3 + 1
-    assert len(read_parts(parts_folder(path))) == 8 * 29 + 2 * 28
-    assert np.isfinite(run(line, path, solver=stand_in.smooth, workers=1).s).all()
 
 
 def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch):
@@ -463,7 +449,7 @@ def test_partial_results_of_an_extension(tmp_path, line):
     same(open_results(path), old)
     both = open_results(path, partial=True)
     assert both.sizes == {"friction": 400}
-    assert 200 < int((both.status == records.COMPUTED).sum()) < 400
+    assert 200 < int((both.status == COMPUTED).sum()) < 400
     shutil.rmtree(parts_folder(path))
     same(open_results(path, partial=True), old)
 
@@ -501,13 +487,13 @@ def test_what_is_left_of_a_run_needs_no_file_of_its_study(tmp_path, monkeypatch,
     shutil.rmtree(folder)
     monkeypatch.chdir(tmp_path)
     left = open_results(path)
-    assert 0 < int((left.status == records.COMPUTED).sum()) < 100
+    assert 0 < int((left.status == COMPUTED).sum()) < 100
     again = Study.from_text(left.attrs["study"])
     assert again.grid == study.grid
     rest = stand_in.Counting()
     whole = run(again, path, solver=rest, workers=1)
     assert rest.points < 100
-    same(whole.where(left.status == records.COMPUTED), left.where(left.status == records.COMPUTED))
+    same(whole.where(left.status == COMPUTED), left.where(left.status == COMPUTED))
 
 
 def test_a_kill_while_parts_are_gathered_counts_no_point_twice(line, tmp_path):

@@ -7,13 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import stand_in
 
 import swtstudy
 from swtstudy import Study
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mechanics.indenter.profile_table import MOST_LANDMARKS, SHORT_PIECE
-from swtstudy.points.unique import unique_points
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.mistakes import StudyError
 
@@ -65,24 +63,24 @@ def test_tables_of_a_study_go_to_workers_and_into_the_archive(folder: Path) -> N
     grid = grid_of(again)
     assert [str(value) for value in grid.values("profile")] == ["worn", "paraboloid", "rough"]
     np.testing.assert_array_equal(grid.values("profile")[0].height, BLUNT)
-    np.testing.assert_array_equal(unique_points(grid).table, unique_points(study.grid).table)
     defined = json.loads(again.attrs["definitions"])
     assert [each["name"] for each in defined] == ["worn", "rough"]
     assert defined[0]["deviation"] < 1e-14
     assert 1e-3 < defined[1]["deviation"] < 1e-2
     text = to_toml("again", 1e-3, grid, None)
-    np.testing.assert_array_equal(
-        unique_points(swtstudy.Study.from_text(text).grid).table, unique_points(study.grid).table
-    )
+    never = stand_in.Counting()
+    once_more = swtstudy.run(swtstudy.Study.from_text(text), folder / "pads.nc", solver=never)
+    assert never.points == 0
+    np.testing.assert_array_equal(once_more.s, dataset.s)
 
 
 def test_a_table_with_another_content_is_another_profile(folder: Path) -> None:
     study = swtstudy.Study.from_toml(folder / "pads.toml")
-    before = unique_points(study.grid)
+    swtstudy.run(study, folder / "pads.nc", workers=1, solver=stand_in.smooth)
     write(folder / "tables" / "worn.csv", R, np.append(BLUNT[:-1], BLUNT[-1] + 1e-9))
-    after = unique_points(swtstudy.Study.from_toml(folder / "pads.toml").grid)
-    same = (before.table[:, None] == after.table).any(axis=1)
-    assert same.sum() == 4
+    anew = stand_in.Counting()
+    swtstudy.run(swtstudy.Study.from_toml(folder / "pads.toml"), folder / "pads.nc", workers=1, solver=anew)
+    assert anew.points == study.grid.size - 4
     one, other = (swtstudy.TabulatedProfile("a", R, height) for height in (BLUNT, 2.0 * BLUNT))
     assert one != other
     assert one.code != other.code
@@ -190,15 +188,6 @@ def test_mistakes_about_a_real_contact_of_a_table(given: dict[str, float], messa
     with pytest.raises(StudyError) as caught:
         swtstudy.physical(profile=swtstudy.TabulatedProfile("pad", r, r**2 / 100.0), **given, **PAD)
     assert message in str(caught.value)
-
-
-def test_a_rough_table_has_few_landmarks_over_its_whole_range():
-    r = np.linspace(0.0, 2.0, 401)
-    table = TabulatedProfile("rough", r, 0.5 * r**2 + 1e-4 * np.sin(40.0 * r))
-    short = np.diff(table.pieces.start) < SHORT_PIECE * table.pieces.start[-1]
-    assert short.sum() > MOST_LANDMARKS
-    assert MOST_LANDMARKS // 2 < table.landmarks.size <= MOST_LANDMARKS
-    assert np.ptp(table.landmarks) > 1.0
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,7 @@ class _StopsAfter:
         self.left = points
 
     def __call__(self, points, rtol):
-        from swtstudy.mechanics import solve_points
+        from solved import solve_points
 
         if self.left <= 0:
             raise KeyboardInterrupt
@@ -110,7 +110,7 @@ def test_the_contact_of_an_archive_is_checked(tmp_path):
 KILLED = """
 import os, signal, sys
 import swtstudy
-from swtstudy.mechanics import solve_points
+from solved import solve_points
 
 left = [2]
 

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+import stand_in
 from real import ALUMINIUM, STUDY, plain, without
 from scipy import constants
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.recall import grid_of
-from swtstudy.points.unique import unique_points
 from swtstudy.units.labels import KNOWN
 
 RIG = {
@@ -187,13 +187,14 @@ def test_materials_come_by_name_from_a_file(tmp_path):
     def study(table):
         return Study.from_text(f"{start}[material]\n{table}\n{rest}", "mine.toml", tmp_path)
 
-    grid = study('file = "materials.toml"\nname = ["weak", "strong"]').grid
+    both = study('file = "materials.toml"\nname = ["weak", "strong"]')
+    grid = both.grid
     assert grid.materials == (
         FatigueConstants(73.1e3, 600.0, -0.1, 0.2, -0.6),
         FatigueConstants(70e3, 1200.0, -0.1, 0.2, -0.6),
     )
     assert grid.dims[-1] == "body"
-    assert len(unique_points(grid).table) == 8  # s is that of both
+    assert stand_in.distinct(both) == 8  # s is that of both
     for table, words in (
         ('file = "materials.toml"\nname = "wek"', "material.name: found 'wek'; allowed: a material in"),
         ('file = "materials.toml"', "material.name: found nothing; allowed: a material in materials.toml"),

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
+import stand_in
 from real import ALUMINIUM, BODIES, STUDY, plain, without
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
-from swtstudy.points.unique import unique_points
 
 
 def sphere(young_modulus, poisson_ratio):
@@ -118,9 +118,9 @@ def test_what_coincides_without_units_is_computed_once():
     text = text.replace("normal_amplitude = 2e-3", "")
     text = text.replace("tangential_amplitude = [1e-3, 2.5e-3]", "tangential_amplitude = [1e-4, 2e-4, 4e-4]")
     text = text[: text.index("phase =")]
-    grid = Study.from_text(text).grid
-    assert grid.size == 3
-    assert len(unique_points(grid).table) == 1
+    study = Study.from_text(text)
+    assert study.grid.size == 3
+    assert stand_in.distinct(study) == 1
 
 
 def test_bodies_that_differ_have_a_dimension(tmp_path):
@@ -209,7 +209,7 @@ def test_of_two_profiles_one_has_a_wavelength():
     text = plain("quantities", "critical_distance")
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")
     study = Study.from_text(text.replace("[axes]", '[axes]\nprofile = ["paraboloid", "wavy_paraboloid"]'))
-    assert len(unique_points(study.grid).table) == study.grid.size == 16
+    assert stand_in.distinct(study) == study.grid.size == 16
 
 
 @pytest.mark.parametrize("name", ["body", "critical_distance"])

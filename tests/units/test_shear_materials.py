@@ -13,7 +13,6 @@ import swtstudy
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.cli import main
 from swtstudy.figures.draw import draw
-from swtstudy.points.validity import validity_lines
 from swtstudy.study.writing import to_toml
 
 LIMIT = "findley_limit = 150"
@@ -257,4 +256,4 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     again = Study.from_text(to_toml("t", 1e-3, kept, None)).grid
     assert (again.findley_limits, again.shear_materials) == (kept.findley_limits, kept.shear_materials)
     short = found.assign(FS_cycles=found.FS_cycles.where(found.FS_cycles.isnull(), 12.0))
-    assert any(line.startswith("FS_cycles extrapolated at ") for line in validity_lines(short))
+    assert any(line.startswith("FS_cycles extrapolated at ") for line in short.swt.validity())

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from scenes import points, random_points
+from solved import solve_points
 
-from swtstudy.mechanics import solve_points
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 PSI = np.array([0.0, 0.7, 2.1])
