@@ -2,12 +2,29 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.stress.punch import PunchFunctions
-
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+# ruff: noqa: N815 – the names are the symbols of the theory.
+
+
+class PunchFunctions(NamedTuple):
+    """The ten functions; D = L²/R² + L/R³ and B = 2L³/R² + L²/R³."""
+
+    one_over_R: ComplexArray
+    L_over_R: ComplexArray
+    L2_over_R: ComplexArray
+    L3_over_R: ComplexArray
+    L: ComplexArray
+    L2: ComplexArray
+    z_over_R3: ComplexArray
+    zζ_over_R3: ComplexArray
+    zD: ComplexArray
+    zB: ComplexArray
 
 
 def punch_functions(r: Array, z: Array, radius: Array) -> PunchFunctions:
