@@ -28,7 +28,7 @@ def _records() -> Any:
     """The tests' module of the same name."""
     own = sys.path[:]
     sys.modules.pop("truth", None)
-    sys.path[:] = [str(Path(__file__).parents[2] / "tests")]
+    sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
     try:
         return importlib.import_module("truth")
     finally:
