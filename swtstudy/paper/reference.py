@@ -1,18 +1,83 @@
 """The textbook method: springs marched on fixed grids, and brute force over everything else.
 
-An oracle for the tests and a curve in the chart of accuracy against speed: it shares nothing with the solver
-but the profiles' g. However fine, fixed grids see the stress's cusps only to √(step), unless `aligned`.
+An oracle for the tests and a curve in the chart of accuracy against speed: it shares nothing with the solver.
+However fine, fixed grids see the stress's cusps only to √(step), unless `aligned`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
+from scipy.special import struve
 
-from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Points
+FloatArray = NDArray[np.float64]
+BoolArray = NDArray[np.bool_]
+IndexArray = NDArray[np.intp]
+
+
+class Points(Protocol):
+    """A point: each number is an array of shape (1,) under its public name; ω2/ω1 = p/q."""
+
+    @property
+    def profile(self) -> object: ...
+    @property
+    def shape(self) -> Mapping[str, FloatArray]: ...
+    @property
+    def poisson_ratio(self) -> FloatArray: ...
+    @property
+    def friction(self) -> FloatArray: ...
+    @property
+    def normal_amplitude(self) -> FloatArray: ...
+    @property
+    def tangential_amplitude(self) -> FloatArray: ...
+    @property
+    def phase(self) -> FloatArray: ...
+    @property
+    def p(self) -> NDArray[np.int64]: ...
+    @property
+    def q(self) -> NDArray[np.int64]: ...
+    @property
+    def walker_exponent(self) -> FloatArray: ...
+    @property
+    def bulk_stress_mean(self) -> FloatArray: ...
+    @property
+    def bulk_stress_amplitude(self) -> FloatArray: ...
+    @property
+    def bulk_stress_phase(self) -> FloatArray: ...
+
+
+def spring_depth(point: Points, radius: FloatArray) -> FloatArray:
+    """g(ξ)/δ0 of the springs at the radius ξ/a_H (eq. 11), 0 on a face."""
+    kappa = {name: value.item() for name, value in point.shape.items()}
+    ξ, b = radius, kappa.get("flat_radius", 0.0)
+    s = np.sqrt(np.maximum((ξ - b) * (ξ + b), 0.0))
+    if point.profile == "wavy_paraboloid" and kappa["waviness_amplitude"]:
+        h = kappa["waviness_amplitude"]
+        k = 2.0 * np.pi / (kappa["wavelength"] * np.sqrt(h))
+        return np.asarray(ξ**2 + 0.5 * np.pi * h * k * ξ * struve(0, k * ξ))
+    if point.profile == "power_law":
+        return np.asarray(ξ ** kappa["exponent"])
+    if point.profile == "truncated_paraboloid":
+        return np.asarray(ξ * s)
+    return np.asarray(ξ * (s - b * np.arctan2(s, b)))
+
+
+def radius_at(point: Points, depth: float) -> float:
+    """The radius at which springs have a depth, by bisection; that of the face at 0."""
+    b = point.shape["flat_radius"].item() if "flat_radius" in point.shape else 0.0
+    if depth <= 0.0:
+        return float(b)
+    low, high = b, b + 1.0
+    while spring_depth(point, np.array([high]))[0] < depth:
+        high += 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        below = spring_depth(point, np.array([middle]))[0] < depth
+        low, high = (middle, high) if below else (low, middle)
+    return float(high)
 
 
 class TextbookSolution(NamedTuple):
@@ -42,16 +107,15 @@ def textbook_s(
     """
     course = _Course.of(point)
     # Springs are evenly spread in √(ξ² − b²), in which every profile's g is smooth.
-    profile = make_profile(point.profile, point.shape, 1.0 + point.normal_amplitude)
-    smallest, largest = profile.radius(np.array([[max(1.0 - course.d, 0.0), 1.0 + course.d]]))[0]
-    b = profile.flat_radius[0]
+    smallest, largest = (radius_at(point, depth) for depth in (max(1.0 - course.d, 0.0), 1.0 + course.d))
+    b = radius_at(point, 0.0)
     radius = np.sqrt(b**2 + np.linspace(0.0, np.sqrt(largest**2 - b**2), springs + 1) ** 2)
     at = np.linspace(0, springs, positions + 1)[1:].astype(int)
     if aligned:
         nearest = 1 + int(np.abs(radius[1:] - smallest).argmin())
         radius[nearest] = max(smallest, 0.5 * radius[1])
         at = np.union1d(at, nearest)
-    g = profile.depth(radius[None])[0]
+    g = spring_depth(point, radius)
     time = np.linspace(0.0, 2.0 * np.pi, steps + 1)
     if aligned:
         time = _with_events(_with_turns(time, course), course, g[at])

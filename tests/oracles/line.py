@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
-from scipy.special import j0, j1, struve
+from scipy.special import j0, struve
 
 Array = NDArray[np.float64]
 #: Gauss's nodes of a cell, and cells of the tables over s and of the running integrals.
@@ -141,7 +141,9 @@ def _shape(arguments: Mapping[str, Any]) -> tuple[Callable[[Array], Array], floa
         if name == "wavy_cylinder":  # N = πξ²/4 + (π/2) h k ξ J1(kξ)
             return lambda s: 0.5 * pi * s * s * (1.0 + h * k * k * j0(k * s)), 0.0, True, k
         return (
-            lambda s: s * (2.0 * s + 0.5 * pi * h * k * (struve(0, k * s) + k * s * (2.0 / pi - struve(1, k * s)))),
+            lambda s: (
+                s * (2.0 * s + 0.5 * pi * h * k * (struve(0, k * s) + k * s * (2.0 / pi - struve(1, k * s))))
+            ),
             0.0,
             False,
             k,
@@ -156,7 +158,12 @@ def _shape(arguments: Mapping[str, Any]) -> tuple[Callable[[Array], Array], floa
         "power_law_cylinder": lambda s: 0.25 * pi * n * s**n,
     }
     strip = name in ("cylinder", "rounded_flat", "power_law_cylinder")
-    return functions[name], b if name in ("rounded_punch", "truncated_paraboloid", "rounded_flat") else 0.0, strip, 0.0
+    return (
+        functions[name],
+        b if name in ("rounded_punch", "truncated_paraboloid", "rounded_flat") else 0.0,
+        strip,
+        0.0,
+    )
 
 
 def _tabulated(table: Any) -> tuple[Callable[[Array], Array], float]:
@@ -206,15 +213,20 @@ class Course:
         force = "tangential_force_amplitude" in arguments
         deep = float(arguments["normal_force_amplitude" if by_force else "normal_amplitude"])
         far = float(arguments["tangential_force_amplitude" if force else "tangential_amplitude"])
-        pull, mean, turn = (float(arguments.get(f"bulk_stress_{of}", 0.0)) for of in ("amplitude", "mean", "phase"))
+        pull, mean, turn = (
+            float(arguments.get(f"bulk_stress_{of}", 0.0)) for of in ("amplitude", "mean", "phase")
+        )
         path = arguments.get("load")
         if path is not None:
             corners = np.array(path.vertices, float)
             corners = np.vstack([corners, corners[:1]])
             at = np.arange(len(corners)) * 1.0
-            given: Callable[[Array], Array] = lambda t: 1.0 + deep * np.interp(t, at, corners[:, 0])
-            v: Callable[[Array], Array] = lambda t: far * np.interp(t, at, corners[:, 1])
-            return cls(given, v, lambda t: np.full_like(t, mean), at, True)
+
+            def column(k: int, mean: float, amplitude: float) -> Callable[[Array], Array]:
+                return lambda t: np.asarray(mean + amplitude * np.interp(t, at, corners[:, k]))
+
+            of_bulk = column(2, mean, pull) if corners.shape[1] > 2 else column(0, mean, 0.0)
+            return cls(column(0, 1.0, deep), column(1, 0.0, far), of_bulk, at, True)
         ratio, phase = Fraction(str(arguments["frequency_ratio"])), float(arguments["phase"])
         p, q = ratio.numerator, ratio.denominator
 
@@ -253,7 +265,9 @@ def _turns(rates: Callable[[Array], tuple[Array, Array]], terms: int) -> Array:
 
         sign = rate(t) > 0.0
         step = np.flatnonzero(sign[1:] != sign[:-1])
-        found.append(_bisect(lambda at, rate=rate, of=sign[step]: (rate(at) > 0.0) == of, t[step], t[step + 1]))
+        found.append(
+            _bisect(lambda at, rate=rate, of=sign[step]: (rate(at) > 0.0) == of, t[step], t[step + 1])
+        )
     turns = np.sort(np.concatenate(found))
     return turns[np.append(True, np.diff(turns) > 1e-13)]
 
@@ -270,10 +284,10 @@ def _bisect(before: Callable[[Array], NDArray[np.bool_]], low: Array, high: Arra
 
 @dataclass(frozen=True)
 class Interval:
-    """What lies between two turning points: their instants, whether ground grows in stick, and the polygon o(G).
+    """The time between two turning points, whether ground grows in stick there, and the polygon o(G).
 
-    If it grows, the polygon is that at the end: at any instant it ends at n. Else it is that at the begin, and
-    slip clips it.
+    If it grows, the polygon is the one at the end, of which an instant has the part up to n. Otherwise it is
+    the one at the start, and slip clips it.
     """
 
     begin: float
@@ -300,7 +314,7 @@ def _intervals(course: Course, chords: int, about: float | None, reach: float) -
     G = np.array([0.0, n[0]])
     rest = Interval(t[0], t[0], False, G, np.zeros(2))
     G, o = _clipped(rest, n[0], v[0])
-    for cycle in range(2):
+    for _ in range(2):
         found = []
         for k in range(len(t) - 1):
             rise, pull = n[k + 1] - n[k], v[k + 1] - v[k]
@@ -308,7 +322,7 @@ def _intervals(course: Course, chords: int, about: float | None, reach: float) -
             if grows:
                 at = np.array([t[k], t[k + 1]])
                 if not course.straight:
-                    at = _graded(course, t[k], t[k + 1], chords if cycle else chords, about, reach)
+                    at = _graded(course, t[k], t[k + 1], chords, about, reach)
                 new_G, new_o = course.n(at[1:]), course.v(at[1:])
                 G, o = np.append(G, new_G), np.append(o, new_o)
                 keep = np.append(True, np.diff(np.maximum.accumulate(G)) > 1e-15)
@@ -319,7 +333,9 @@ def _intervals(course: Course, chords: int, about: float | None, reach: float) -
     return found
 
 
-def _graded(course: Course, begin: float, end: float, chords: int, about: float | None, reach: float) -> Array:
+def _graded(
+    course: Course, begin: float, end: float, chords: int, about: float | None, reach: float
+) -> Array:
     """Instants of the chords: cosine-spaced, and ever closer to that at which a spring is touched."""
     t = begin + (end - begin) * (0.5 - 0.5 * np.cos(pi * np.linspace(0.0, 1.0, chords + 1)))
     if about is None:
@@ -337,7 +353,7 @@ def _graded(course: Course, begin: float, end: float, chords: int, about: float 
 def _clipped(of: Interval, n: float, v: float) -> tuple[Array, Array]:
     """The polygon after slip."""
     (front,), (slope,) = of.front(np.array([n]), np.array([v]))
-    inside = of.G < front
+    inside = front > of.G
     at = np.interp(front, of.G, of.o)
     G, o = np.append(of.G[inside], front), np.append(of.o[inside], at)
     if front < n:
@@ -445,7 +461,9 @@ class Line:
         self.profile = Profile.of(self.given, by_force, 1.0 + float(deep))
         self.course = Course.of(self.given, self.profile)
         self.ν, self.μ = float(arguments["poisson_ratio"]), float(arguments["friction"])
-        self.bulk = bool(arguments.get("bulk_stress_amplitude", 0.0) or arguments.get("bulk_stress_mean", 0.0))
+        self.bulk = bool(
+            arguments.get("bulk_stress_amplitude", 0.0) or arguments.get("bulk_stress_mean", 0.0)
+        )
         self.criterion = str(arguments.get("criterion", "swt"))
         self.γ = float(arguments.get("walker_exponent", 0.5))
         self.κ = float(arguments.get("normal_sensitivity", 0.0))
@@ -482,7 +500,9 @@ class Line:
         def sheared(at: Callable[[Array], Array]) -> Array:
             """−Σ slope ΔA over the polygon up to the front, and over what slips beyond."""
             A = at(knots)
-            total = np.concatenate([np.zeros((2, r.size, 1)), np.cumsum(slopes * np.diff(A), axis=-1)], axis=-1)
+            total = np.concatenate(
+                [np.zeros((2, r.size, 1)), np.cumsum(slopes * np.diff(A), axis=-1)], axis=-1
+            )
             rows = np.arange(r.size)[:, None, None]
             A_front, A_edge = at(ξ_front), at(edge)
             held = total[:, rows, cell] + slopes[cell] * (A_front - A[:, rows, cell])
@@ -504,7 +524,7 @@ class Line:
         return np.stack([*normal, μ / pi * ((1.0 + ν) * T1 - ν * T3), μ / pi * ν * T3, μ / pi * Π])
 
     def _passages(self, of: Interval, G_x: Array, r: Array) -> Array:
-        """The instants at which the edge and the front pass positions, ascending with both ends, (X, 5)."""
+        """The instants at which the edge and the front pass positions, ascending with both ends, (X, k)."""
         course = self.course
         low, high = np.full(r.size, of.begin), np.full(r.size, of.end)
         n0, n1 = course.n(low[:1])[0], course.n(high[:1])[0]
@@ -517,10 +537,14 @@ class Line:
         ends.append(passes(course.n, G_x) if n0 != n1 else low)
         o_x = np.interp(G_x, of.G, of.o)
         if of.grows:
-            ends += [low, low]
+            ends += [low] * (4 if self.profile.b else 2)
         else:
             ends.append(passes(lambda t: course.v(t) - course.n(t), o_x - G_x))
             ends.append(passes(lambda t: course.v(t) + course.n(t), o_x + G_x))
+            if self.profile.b:  # the front at the face's edge
+                at_edge = np.full(r.size, of.o[0])
+                ends.append(passes(lambda t: course.v(t) - course.n(t), at_edge))
+                ends.append(passes(lambda t: course.v(t) + course.n(t), at_edge))
         return np.sort(np.stack(ends, axis=1), axis=1)
 
     def values(self, stress: Array, angles: Array, smooth: bool) -> Array:
@@ -637,7 +661,9 @@ def _peaks(line: Line) -> tuple[list[Peak], Array]:
         for k in np.flatnonzero((top[1:-1] >= top[:-2]) & (top[1:-1] >= top[2:])):
             down, up = r[k] - r[max(k - 2, 0)], r[min(k + 2, r.size - 1)] - r[k]
             for j in np.flatnonzero(is_top[k]):
-                peaks.append(Peak(heights[k, j], side, r[k], down, up, angles[j] + turns[k, j], pi / PLANES, 12))
+                peaks.append(
+                    Peak(heights[k, j], side, r[k], down, up, angles[j] + turns[k, j], pi / PLANES, 12)
+                )
     return sorted(peaks, key=lambda peak: -peak.height), cusps
 
 
@@ -654,9 +680,12 @@ def _positions(line: Line, intervals: list[Interval]) -> tuple[Array, Array]:
     fronts = np.concatenate([of.front(n[k : k + 1], v[k : k + 1])[0] for k, of in enumerate(intervals)])
     largest = float(line.radius(n).max())
     cusps = np.concatenate([line.radius(np.concatenate([n, fronts])), [1e-4 * largest, largest]])
+    cusps = np.maximum(cusps, 1e-4 * largest)
     if line.profile.b:
         cusps = np.append(cusps, line.profile.b * (1.0 + 1e-9))
-    cusps = np.unique(np.maximum(cusps, 1e-4 * largest))
+    if float(line.given.get("exponent", 2.0)) < 2.0:  # a sharp tip
+        cusps = np.append(cusps, largest * np.geomspace(1e-11, 1e-5, 7))
+    cusps = np.unique(cusps)
     cusps = cusps[np.append(True, np.diff(cusps) > SAME * largest)]
     count = int(np.clip(700 / len(cusps), 8, 48))
     share = 0.5 - 0.5 * np.cos(pi * np.arange(count) / count)
