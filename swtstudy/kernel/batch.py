@@ -17,12 +17,12 @@ from swtstudy.kernel.profile import PROFILE
 CHUNK = 64
 #: No coordinate at which the profile is asked lies beyond its table by rounding.
 MARGIN = 1e-9
-#: Relative size of the last coefficients of a profile's series. Waves have many panels.
-PROFILE_TOLERANCE = {"wavy_paraboloid": 1e-8}
+#: The last coefficients of a profile's series are at most this share of rtol: what they leave out is less.
+PROFILE_SHARE = 0.01
 _of_thread = local()
 
 
-def profile_record(name, shape, in_force, largest):
+def profile_record(name, shape, in_force, largest, rtol):
     """Profile as data.
 
     Parameters
@@ -35,9 +35,12 @@ def profile_record(name, shape, in_force, largest):
         Whether the memory diagram lives in the normal force.
     largest
         Largest depth in δ0, or normal force in F_0.
+    rtol
+        Relative accuracy asked of s.
     """
     largest = largest * (1.0 + MARGIN)
-    tabulate = partial(profile.tabulate_profile, largest=largest, in_force=in_force)
+    tolerance = PROFILE_SHARE * rtol
+    tabulate = partial(profile.tabulate_profile, largest=largest, in_force=in_force, tolerance=tolerance)
     if name in ("rounded_punch", "truncated_paraboloid") and shape["flat_radius"] > 0.0:
         b = shape["flat_radius"]
         return tabulate(partial(getattr(profile, name), b=b), b)
@@ -46,7 +49,7 @@ def profile_record(name, shape, in_force, largest):
         wavelength = shape["wavelength"] * np.sqrt(amplitude)
         density = partial(profile.wavy_paraboloid, amplitude=amplitude, wavelength=wavelength)
         longest = min(0.5, 0.5 * wavelength)
-        return tabulate(density, 0.0, longest=longest, tolerance=PROFILE_TOLERANCE[name])
+        return tabulate(density, 0.0, longest=longest)
     return tabulate(profile.paraboloid, 0.0, is_paraboloid=True)
 
 
@@ -112,7 +115,7 @@ def solve_batch(
             needed[key] = which[j], max(before, largest)
         profiles = new_records(len(needed), PROFILE)
         for key, (k, largest) in needed.items():
-            profiles[k] = profile_record(name, dict(key), in_force, largest)
+            profiles[k] = profile_record(name, dict(key), in_force, largest, rtol)
         solve_points(*_workspace(), profiles, which, loads, asks, out[first : first + len(rows)])
     return out
 

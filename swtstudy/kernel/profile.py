@@ -90,7 +90,7 @@ def _series_of_wave(j):
 
 
 def tabulate_profile(
-    density, flat_radius, largest, in_force, longest=0.5, tolerance=1e-10, is_paraboloid=False
+    density, flat_radius, largest, in_force, longest=0.5, tolerance=1e-8, is_paraboloid=False
 ):
     """Profile as data, from the axis to where the coordinate of the diagram exceeds `largest`.
 
