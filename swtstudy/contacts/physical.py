@@ -51,7 +51,7 @@ def physical(
     depth, normal_force
         One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
-        Largest |β|/μ at which the bodies count as similar (eq. 1); β is Dundurs' constant.
+        Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
     bulk_stress_ratio
         Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
     bulk_stress_body

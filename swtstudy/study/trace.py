@@ -39,6 +39,8 @@ LOWEST = 0.5
 OUTLIER, MOST_OUTLIERS = 8.0, 0.2
 #: A gap is longer than this number of steps; a sample represents its side up to this number of steps.
 GAP, REACH = 5.0, 1.5
+#: Rounds in which gaps are filled by the spline of the round before: each halves their influence.
+REFILLED = 12
 #: Least share of the trace that both sides together cover without a warning.
 LEAST_USED = 0.7
 #: Share of the points, at least so many, of whose parabola the lowest point is the zero of heights.
@@ -188,7 +190,7 @@ class Fold:
         inner = slice(max(LEAST, int(INNERMOST * len(radius))))
         mean = mean - np.polynomial.Polynomial.fit(radius[inner] ** 2, mean[inner], 1)(0.0)
         mean[0] = 0.0
-        rises = int(np.argmax(np.abs(mean) > ROUND * mean.max()))
+        rises = int(np.argmax(mean > ROUND * mean.max()))
         if radius[rises] > LEAST_FACE * radius[-1]:
             mean[:rises] = 0.0
         return cls(radius, mean, noise, middle, kept)
@@ -218,8 +220,7 @@ def _without_sentinels(height: FloatArray) -> BoolArray:
 
 def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[float, float, _Even]:
     """The middle, the tilt, and the even spline of the whole trace about that middle."""
-    every = slice(None, None, -(-len(position) // MOST_SAMPLES))
-    x, z = position[every], height[every]
+    x, z, filled = (each[:: -(-len(position) // MOST_SAMPLES)] for each in _bridged(position, height))
     quarter = 0.25 * float(np.ptp(x))
     centre = 0.5 * float(x.min() + x.max())
     even = _best(x, z, (centre - quarter, centre + quarter), np.inf, False)
@@ -231,12 +232,33 @@ def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[floa
         # All middles with one window: with a smaller one each spline would fit better.
         near = min(even.middle - x[lowest].min(), x[lowest].max() - even.middle)
         around = (even.middle - NEAR * near, even.middle + NEAR * near)
-        even = _best(x[lowest], z[lowest], around, (1.0 - NEAR) * near, level)
+        for _ in range(REFILLED if filled.any() else 1):
+            even = _best(x[lowest], z[lowest], around, (1.0 - NEAR) * near, level)
+            z[filled] = (even(x) + even.tilt * (x - even.middle))[filled]
     return (
         even.middle,
         even.tilt,
         _Even.of(position, height - even.tilt * position, even.middle, np.inf, False),
     )
+
+
+def _bridged(position: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Ascending samples with each gap filled by a parabola through its surroundings; and which are filled.
+
+    A sample opposite a gap would fit any middle.
+    """
+    x, z = _merged(position, height)
+    steps = np.diff(x)
+    step = float(np.median(steps))
+    added = [(x, z)]
+    for gap in np.flatnonzero(steps > GAP * step):
+        near = (x > x[gap] - steps[gap]) & (x < x[gap + 1] + steps[gap])
+        inside = np.arange(x[gap] + step, x[gap + 1], step)
+        added.append((inside, np.polynomial.Polynomial.fit(x[near], z[near], 2)(inside)))
+    filled = np.arange(sum(len(some) for some, _ in added)) >= len(x)
+    x, z = np.concatenate(added, axis=1)
+    order = np.argsort(x)
+    return x[order], z[order], filled[order]
 
 
 def _best(x: FloatArray, z: FloatArray, ends: tuple[float, float], window: float, level: bool) -> _Even:
@@ -320,7 +342,7 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float, even: _Ev
     differs = np.full(len(position), np.nan)
     for side in (left, ~left):
         r, z = _merged(radius[~side], height[~side])
-        inside = side & (radius <= r[-1]) & (radius >= r[0])
+        inside = side & (radius <= r[-1]) & (radius >= r[0]) & _reached(r, radius)
         differs[inside] = height[inside] - np.interp(radius[inside], r, z)
     residual = height - even(position)
     known = np.isfinite(differs)

@@ -44,7 +44,7 @@ class ContactDetails:
     materials
         Constants of both bodies; none if cycles are not asked for.
     similar
-        Largest |β|/μ at which the bodies count as similar, β Dundurs' constant.
+        Largest ``|β|/μ`` at which the bodies count as similar, β Dundurs' constant.
     bulk_stress_body
         0 or 1: the body that carries the bulk stress.
     blocks
