@@ -1,18 +1,20 @@
 """Does the compiled kernel pass its gate? Values, times, compilation and size, in one table.
 
-``python studies/checks/kernel_gate.py [--every K] > results/kernel_gate.md`` takes the recorded values of
-``tests/data/truth`` in the kernel's scope, or each K-th of them, and Figures 3 to 8 of the paper by both
-solvers in one process.
+``python studies/checks/kernel_gate.py [--every K] [--quick] [--results FOLDER]`` writes kernel_gate.md: the
+recorded values of ``tests/data/truth`` in the kernel's scope, or each K-th of them, and Figures 3 to 8 of the
+paper by both solvers in one process. With ``--quick`` a few values and Figure 3 alone.
 """
 
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from pathlib import Path
 from time import perf_counter, process_time
 
@@ -41,12 +43,19 @@ FIRST_VALUE = (
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--every", type=int, default=1, help="each K-th recorded value")
-    every = arguments.parse_args().every
-    print("# The gate of the compiled kernel\n\n`studies/checks/kernel_gate.py`", end="")
-    print(f" with `--every {every}`\n" if every > 1 else "\n")
-    values(every)
-    times()
-    compilation()
+    arguments.add_argument("--quick", action="store_true", help="few values, and Figure 3 alone")
+    arguments.add_argument("--results", type=Path, default=ROOT / "results")
+    given = arguments.parse_args()
+    every = 2000 if given.quick else given.every
+    report = io.StringIO()
+    with redirect_stdout(report):
+        print("# The gate of the compiled kernel\n\n`studies/checks/kernel_gate.py`", end="")
+        print(f" with `--every {every}`\n" if every > 1 else "\n")
+        values(every)
+        times(FIGURES[:1] if given.quick else FIGURES)
+        compilation()
+    (given.results / "kernel_gate.md").write_text(report.getvalue(), encoding="utf-8")
+    print(report.getvalue(), end="")
 
 
 def head(*columns: str) -> None:
@@ -105,14 +114,14 @@ def solve_one(point: truth.Point, rtol: float) -> np.void:
     return solve_batch(name, *([x] for x in body), shape=shape, in_force=forces, rtol=rtol, **load)[0]
 
 
-def times() -> None:
+def times(figures: tuple[str, ...]) -> None:
     """Print process times of both solvers, and of the dearest point."""
     head("processor time", "points", "solver 22, s", "kernel, s", "share", "largest deviation")
     swtstudy.solve()
     kernel_batch(next(batches("figure3")))
     whole = np.zeros(2)
     dearest = 0.0
-    for figure in FIGURES:
+    for figure in figures:
         several = list(batches(figure))
         begin = process_time()
         old = [solve_points(points, 1e-4).s for points in several]
