@@ -1,6 +1,6 @@
 """New points for tests/data/truth, by the dense evaluation of `tests/oracles/line.py`, which shares no code.
 
-``python studies/checks/truth_points.py --seed 1 --seconds 600``, from the project folder, draws points scene
+``python tests/oracles/drawn_points.py --seed 1 --seconds 600``, from the project folder, draws points scene
 by scene, some ten seconds of a core each, and writes tests/data/truth/line_drawn_1.csv.gz, with loops in
 loads_drawn_1.json. A point is refused if `solve` refuses its parameters or finds no equilibrium. Where
 `solve` at rtol 1e-6 finds more than the dense evaluation, the record is a lower bound.
