@@ -14,6 +14,8 @@ MAX_GROWN = 8191
 THINNEST = 1e-12
 #: Places are interpolated over a stretch where the last coefficients of their series are this share of them.
 INTERPOLATED = 1e-9
+#: And this share of the width of the slip zone: tractions follow the root of a distance within it.
+APART = 1e-6
 GROWTH = np.dtype(
     [
         ("panels", "i8"),
@@ -132,10 +134,13 @@ def tabulate_places(C, P, L, k):
                 t = begin + 0.5 * (end - begin) * (LOBATTO[j] + 1.0)
                 C.place[k, j, 0], C.place[k, j, 1] = solved_places(C, P, L, k, t)
         C.intervals[k] = known = intervals
+        apart = 0.0
         for j in range(intervals + 1):
             values[0, j], values[1, j] = C.place[k, j * step, 0], C.place[k, j * step, 1]
+            apart = max(apart, values[0, j] - values[1, j])
         rough = max(tail(values[0], intervals), tail(values[1], intervals))
-        C.interpolated[k] = 1 if rough <= INTERPOLATED * scale else 0
+        near = APART * apart if C.push[k] != STICK else scale
+        C.interpolated[k] = 1 if rough <= min(INTERPOLATED * scale, near) else 0
         if C.interpolated[k] or intervals == FINEST:
             return
         intervals *= 2
