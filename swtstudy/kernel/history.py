@@ -11,9 +11,9 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO
 from swtstudy.kernel.compiled import jit
-from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, STICK, UP, offset
+from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, UP, offset
 from swtstudy.kernel.growth import places_at
-from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, distinct, instant_of
 from swtstudy.kernel.profile import force_at
 from swtstudy.kernel.surface import hertz, running, scale_at, tabulate
 
@@ -22,6 +22,8 @@ MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
 #: Row and panel of the profile in the tables at x; no literal, for which Numba would compile anew.
 FIRST = np.int64(0)
 COARSEST = np.int64(4)
+#: Widths of the slip zone within which a passage has a part of its own.
+NARROW = 30.0
 #: Instants are kept free for one round of doubled parts.
 ROOM = 2 * FINEST + 2
 HISTORY = np.dtype(
@@ -40,6 +42,7 @@ HISTORY = np.dtype(
         ("time", "f8", (MAX_PARTS, 2)),
         ("places", "f8", (MAX_PARTS, 2, 2)),  # s of edge and front, at begin and end
         ("weight", "f8", (FINEST + 1,)),
+        ("cut", "f8", (9,)),  # instants at which a stretch is cut
         ("p", "f8", (MAX_INSTANTS,)),  # pressure
         ("within", "f8", (MAX_INSTANTS,)),  # (1-2ν) P/(2πx²), P the load within x
         ("xx", "f8", (MAX_INSTANTS,)),  # of the tangential load, at +x
@@ -236,12 +239,26 @@ def split(H, C, P, L, k):
         near |= 1
     if C.edge[k, 1] <= 0.0:
         near |= 2
+    # Beside a passage the stress changes within the slip zone's width: if that is narrow, in its own part.
+    cuts, m = H.cut, 0
+    speed = abs(edge_end - edge) / (end - begin)
+    for passage in (at_edge, at_front):
+        if passage < end:
+            cuts[m] = passage
+            m += 1
+            e, f = places_at(C, P, L, k, passage, H.weight)
+            beside = NARROW * abs(e - f) / speed if speed > 0.0 else 0.0
+            for t in (passage - beside, passage + beside):
+                if 0.0 < beside < 0.25 * (end - begin) and begin + beside < t < end - beside:
+                    cuts[m] = t
+                    m += 1
+    cuts[m] = end
+    m = distinct(cuts, m + 1, SHORTEST)
     t, cusps = begin, near & 1
-    for turn in range(3):
-        stop = min(at_edge, at_front) if turn == 0 else max(at_edge, at_front) if turn == 1 else end
-        if stop - t < 1e-13:
+    for j in range(m):
+        stop, e, f = cuts[j], edge_end, front_end
+        if stop - t < SHORTEST:
             continue
-        e, f = edge_end, front_end
         if stop < end:
             e, f = places_at(C, P, L, k, stop, H.weight)
             if stop == at_edge:
@@ -267,7 +284,7 @@ def sample_cycle(H, C, R, P, K, L, x, G, largest, nu, mu):
     H.X, H.all_outside = scale_at(x, P.flat_radius)
     integrate_pieces(H, C, R, P, K, largest)
     for k in range(C.stretches):
-        if H.parts + 3 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
+        if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             C.overflow = 1
             return
         before = H.parts

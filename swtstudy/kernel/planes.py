@@ -23,6 +23,8 @@ COS_2, SIN_2 = np.cos(STEP * np.arange(PLANES)), np.sin(STEP * np.arange(PLANES)
 #: Curves over time on a plane: σ_n, ε_n, -ε_n.
 STRESS, STRAIN, MINUS_STRAIN = 0, 1, 2
 
+#: Larger last coefficients of the finest series, over the range of its values: its peak is its largest value.
+RESOLVED = 1e-5
 WORK = np.dtype(
     [
         ("a", "f8", (MAX_INSTANTS,)),
@@ -164,7 +166,9 @@ def locate(H, W, which, C, S, e):
     y0, y1, y2 = LOBATTO[(i - 1) * step], LOBATTO[i * step], LOBATTO[(i + 1) * step]
     f0, f1, f2 = values[i - 1], values[i], values[i + 1]
     best, at = values[node - first], LOBATTO[(node - first) * step]
-    for _ in range(4):
+    span = max(abs(values[0] - best), abs(values[intervals] - best))
+    resolved = intervals < FINEST or tail(values, intervals) <= RESOLVED * span
+    for _ in range(4 if resolved else 0):
         y = vertex(y0, y1, y2, f0, f1, f2)[0]
         if not (y > y0 and y < y2) or abs(y - y1) < 1e-3 * (y2 - y0):
             break

@@ -14,6 +14,8 @@ from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
+#: Coordinates are rounded to some 1e-14; tractions follow the root of what a slip front is off.
+ROUNDING = 1e-7
 RESULT = np.dtype(
     [
         ("s", "f8"),
@@ -42,17 +44,20 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     stresses the table is made again, and the search with it.
     """
     solve_cycle(C, L)
-    growth, gap = Q.growth, 0.0
+    growth, gap, share = Q.growth, 0.0, 1.0
     for _ in range(5):
         lay_out(R, C, P, L, growth)
         gap = search_line(S, H, W, C, R, P, K, L, Q)
-        needed = Q.growth * min(S.tension / (Q.friction * sqrt(C.largest)), 1.0)
+        # Tension over the largest stress that slip can make, μ times the pressure.
+        share = S.tension / (Q.friction * sqrt(C.largest))
+        needed = Q.growth * min(share, 1.0)
         if R.panels == 0 or S.best <= 0.0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants = S.positions, H.instants
     out.s, out.critical_x = S.best, S.x
-    out.s_error = gap + 2.0 * Q.time * S.best
+    rounding = ROUNDING / share if S.best > 0.0 else 0.0
+    out.s_error = gap + (2.0 * Q.time + rounding) * S.best
     angle = S.angle % (2.0 * np.pi)
     out.critical_angle = 90.0 / np.pi * (angle - 2.0 * np.pi if angle > np.pi else angle)
     out.gross_slip, out.lift_off, out.overflow = C.gross_slip, C.lift_off, C.overflow
