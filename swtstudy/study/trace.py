@@ -220,7 +220,9 @@ def _without_sentinels(height: FloatArray) -> BoolArray:
 
 def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[float, float, _Even]:
     """The middle, the tilt, and the even spline of the whole trace about that middle."""
-    x, z, filled = (each[:: -(-len(position) // MOST_SAMPLES)] for each in _bridged(position, height))
+    x, z, filled = _bridged(position, height)
+    every = slice(None, None, -(-len(x) // MOST_SAMPLES))
+    x, z, filled = x[every], z[every], filled[every]
     quarter = 0.25 * float(np.ptp(x))
     centre = 0.5 * float(x.min() + x.max())
     even = _best(x, z, (centre - quarter, centre + quarter), np.inf, False)
