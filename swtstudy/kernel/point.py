@@ -14,8 +14,8 @@ from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
-#: Coordinates are rounded to some 1e-14; tractions follow the root of what a slip front is off.
-ROUNDING = 1e-7
+#: Coordinates are rounded to some 4e-14; tractions follow the root of what a slip front is off.
+ROUNDING = 2e-7
 RESULT = np.dtype(
     [
         ("s", "f8"),

@@ -142,6 +142,9 @@ def tabulate_profile(
 def _panels(density, flat_radius, begin, end, longest, tolerance):
     """Panels of [begin, end], ascending, each halved until the series of dG/ds has died out."""
     edges = np.linspace(begin, end, round((end - begin) / longest) + 1)
+    if begin == 0.0 and flat_radius > 0.0:  # a small face would fall between the Gauss points
+        near_face = flat_radius * 8.0 ** np.arange(1, 20)
+        edges = np.union1d(near_face[near_face < edges[1]], edges)
     lower, upper, done = edges[:-1], edges[1:], []
     while lower.size:
         half = 0.5 * (upper - lower)[:, None]
@@ -150,7 +153,7 @@ def _panels(density, flat_radius, begin, end, longest, tolerance):
         series = values @ FIT.T
         size = np.abs(series)
         rough = size[:, -2:].max(axis=1) > tolerance * np.maximum(size.max(axis=1), 1e-3)
-        rough &= upper - lower > 1e-5 * longest
+        rough &= upper - lower > 1e-9 * longest
         force = half * ((values * np.sqrt(flat_radius**2 + s * s)) @ RUN)
         new = lower, upper, series, half * (values @ RUN), force
         done.append([part[~rough] for part in new])
@@ -231,7 +234,7 @@ def place_of(P, coordinate):
             new = 0.5 * (low + high)
         moved = abs(new - y)
         y = new
-        if moved < 1e-6:  # the next step would be its square
+        if moved < 1e-8:  # the next step would be its square
             break
     return P.begin[p] + half * (y + 1.0)
 
