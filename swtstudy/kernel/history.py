@@ -5,7 +5,7 @@ it has a root cusp in time. So a stretch has up to three parts at x. Each part h
 points of a variable in which root cusps at its ends are smooth; its series dies out exponentially.
 """
 
-from math import pi
+from math import pi, sqrt
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, 
 from swtstudy.kernel.growth import places_at
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, distinct, instant_of
 from swtstudy.kernel.profile import force_at
-from swtstudy.kernel.surface import hertz, running, scale_at, tabulate
+from swtstudy.kernel.surface import hertz, running, tabulate
 
 MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
 #: Intervals of a part at first.
@@ -34,6 +34,7 @@ HISTORY = np.dtype(
         ("X", "f8"),  # √|x² - b²|
         ("G", "f8"),  # coordinate of the spring at x; negative on the face, infinite far outside
         ("all_outside", "i8"),
+        ("plane", "i8"),
         ("stretch", "i8", (MAX_PARTS,)),
         ("first", "i8", (MAX_PARTS,)),  # its first instant
         ("intervals", "i8", (MAX_PARTS,)),
@@ -85,16 +86,17 @@ def slope_of(C, i):
 @jit
 def integrate_pieces(H, C, R, P, K, largest):
     """Tabulate the profile and what grew at x, and ∫ o′ (T1, T3, B) up to the start of each piece."""
-    k = FIRST
-    b = P.flat_radius
+    k, b, x, X, outside = FIRST, P.flat_radius, H.x, H.X, H.all_outside
     if not P.is_paraboloid:
-        k = tabulate(K, FIRST, FIRST, P.begin[:], P.end[:], P.density[:], FIRST, P.panels, largest, b, H.x)
+        panels = P.begin[:], P.end[:], P.density[:]
+        k = tabulate(K, FIRST, FIRST, *panels, FIRST, P.panels, largest, b, x, X, outside)
     for i in range(C.pieces):
         if C.used[i] == 0:
             continue
         if C.kind[i] == GROWN:
             first, last = R.first[i], R.last[i]
-            k = tabulate(K, 1 + i, k, R.begin[:], R.end[:], R.density[:], first, last, 1e300, b, H.x)
+            panels = R.begin[:], R.end[:], R.density[:]
+            k = tabulate(K, 1 + i, k, *panels, first, last, 1e300, b, x, X, outside)
         beneath, s = C.beneath[i], C.start_s[i]
         t1, t3, b1, v1 = functionals(P, K, s, H)
         o1, o3, ob = 0.0, 0.0, 0.0
@@ -270,18 +272,19 @@ def split(H, C, P, L, k):
 
 
 @jit
-def sample_cycle(H, C, R, P, K, L, x, G, largest, nu, mu):
+def sample_cycle(H, C, R, P, K, L, place, G, largest, nu, mu):
     """All parts of the cycle at x, coarsely; the mirror image of half a cycle is the other half.
 
     Parameters
     ----------
-    x, G
-        Position, and the coordinate of the spring there.
+    place, G
+        √(x² - b²), or -√(b² - x²) under the face, and the coordinate of the spring there.
     largest
         Place s of the largest contact.
     """
-    H.instants, H.parts, H.x, H.G = 0, 0, x, G
-    H.X, H.all_outside = scale_at(x, P.flat_radius)
+    H.instants, H.parts, H.G, H.plane = 0, 0, G, P.plane
+    H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
+    H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
     integrate_pieces(H, C, R, P, K, largest)
     for k in range(C.stretches):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:

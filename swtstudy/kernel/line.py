@@ -1,29 +1,31 @@
-"""The largest swt along the surface line y = 0.
+"""The largest value of the criterion along the surface line y = 0.
 
-swt(x) is a maximum over planes and instants of smooth functions, so its kinks point down and only downward
+Positions are places s = √(x² - b²) on the profile, in which roots at the edge of a face are smooth, and
+-√(b² - x²) under the face. The value, here swt, is a maximum over planes and instants of smooth functions, so its kinks point down and only downward
 curvature can hide a higher value between two positions: on an interval of width w,
 
-    swt ≤ chord + K (x - x₁)(x₂ - x)/2,   K ≥ -swt″.
+    swt ≤ chord + K (s - s₁)(s₂ - s)/2,   K ≥ -swt″.
 
 Pieces of the line end at its cusps, the places where the edge, a slip front or the growth turns. On a piece,
 an angle makes root cusps at its ends smooth. The interval with the highest bound is halved until no bound
 exceeds the best value by more than the tolerance; what is left is the error.
 """
 
-from math import cos, pi, sin, sqrt
+from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES
+from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, refine, sample_cycle
 from swtstudy.kernel.load import distinct
 from swtstudy.kernel.planes import (
-    MINUS_STRAIN,
+    MINUS_SWING,
     STEP,
-    STRAIN,
     STRESS,
+    SWING,
     above,
     climb,
     fill,
@@ -32,13 +34,14 @@ from swtstudy.kernel.planes import (
     survey_planes,
     unresolved,
 )
-from swtstudy.kernel.profile import coordinate_at, place_of, radius_of
+from swtstudy.kernel.profile import coordinate_at, place_of
 
 MAX_INTERVALS = 65_543
 ASK = np.dtype(
     [
         ("poisson_ratio", "f8"),
         ("friction", "f8"),
+        *CRITERION,
         ("line", "f8"),  # relative tolerances: of the search along the line,
         ("time", "f8"),  # of the series over time,
         ("plane", "f8"),  # of the search over planes,
@@ -55,10 +58,12 @@ SEARCH = np.dtype(
     [
         ("cusp", "f8", (4 * MAX_STRETCHES,)),
         ("positions", "i8"),  # that have been evaluated
+        ("singular", "i8"),  # 1: the face's edge is singular
         ("best", "f8"),
-        ("x", "f8"),
+        ("place", "f8"),  # s there
+        ("sign", "f8"),  # of x
         ("angle", "f8"),  # 2θ
-        ("tension", "f8"),  # the smaller one of largest σ_n and half the range of ε_n there
+        ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
         ("value", "f8", (2,)),  # at the last position, on both sides
         ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
         ("piece", "f8", (MAX_INTERVALS, 2)),  # ends of the piece
@@ -81,12 +86,34 @@ GRADED = 50.0
 ROUGH = 0.9
 
 
+#: No position is nearer to the centre, or to the edge of a face, as a share of the contact.
+INNERMOST = 1e-5
+#: Ends of pieces outside of the contact, in its radii: without and with a stress that reaches far.
+BEYOND, FAR_BEYOND = np.array([1.3, 4.0]), np.array([1.3, 4.0, 12.0, 40.0])
+#: Pieces next to a singular edge are spaced in ln s where their ends differ by more than this factor.
+GEOMETRIC = 16.0
+#: Friction from which a sliding contact may have its maximum at the singular edge of a face.
+TEARING = 0.8
+
+
 def ask(
-    poisson_ratio, friction, rtol, near=0.9, trust=8.0, safety=2.0, surprise=8.0, memory=0.25, narrow=1e-3
+    poisson_ratio,
+    friction,
+    rtol,
+    criterion="swt",
+    walker_exponent=0.5,
+    normal_sensitivity=0.0,
+    near=0.9,
+    trust=8.0,
+    safety=2.0,
+    surprise=8.0,
+    memory=0.25,
+    narrow=1e-3,
 ):
-    """Bodies, tolerances and the numbers of the search."""
+    """Bodies, criterion, tolerances and the numbers of the search."""
     record = new_record(ASK)
     record["poisson_ratio"], record["friction"] = poisson_ratio, friction
+    set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
     record["line"], record["time"], record["plane"], record["growth"] = (
         0.5 * rtol,
         0.25 * rtol,
@@ -99,32 +126,44 @@ def ask(
 
 
 @jit
-def cusps(S, C, P, largest):
-    """Write the sorted ends of the pieces of the line; returns how many, and the largest contact radius."""
-    z = S.cusp
-    radius = radius_of(P, largest)
-    z[0], z[1], z[2] = 0.02 * radius, 1.3 * radius, 4.0 * radius
-    m = 3
-    if P.flat_radius > 0.0:
-        z[m] = P.flat_radius * (1.0 + 1e-9)
+def cusps(S, C, P, L, Q, largest):
+    """Write the sorted ends of the pieces of the line, places s; returns how many."""
+    z, b = S.cusp, P.flat_radius
+    radius = sqrt(b * b + largest * largest)
+    m = 1
+    z[0] = INNERMOST * largest
+    if P.singular and C.gross_slip and Q.friction >= TEARING:
+        # Beyond this no plane is in tension: σ_n falls like (1 - μ) L, L = ln(b/(|x| - b)).
+        L_far = 20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2)
+        z[0] = min(z[0], b * exp(-0.5 * min(L_far, 600.0)))
+    if Q.criterion != SWT or L.has_bulk:  # places in mere pressure, and outside of the contact
+        if b > 0.0:
+            z[m] = -b * (1.0 - INNERMOST)
+            m += 1
+        z[m] = 2.0 * largest - place_of(P, C.smallest)
         m += 1
+        for factor in FAR_BEYOND:
+            z[m] = sqrt(factor * factor * radius * radius - b * b)
+            m += 1
+    else:
+        for factor in BEYOND:
+            z[m] = sqrt(factor * factor * radius * radius - b * b)
+            m += 1
     if not P.is_paraboloid:  # no piece is longer than half a wave of the profile
-        for p in range(1, P.panels):
-            if P.begin[p] < largest:
-                z[m] = radius_of(P, P.begin[p])
-                m += 1
+        for j in range(1, int(largest / P.longest) + 1):
+            z[m] = j * P.longest
+            m += 1
     for k in range(C.stretches):
         for e in range(2):
             for G in (C.edge[k, e], C.front[k, e]):
                 if G > 0.0:
-                    s = place_of(P, G)
-                    z[m] = radius_of(P, s)
+                    z[m] = place_of(P, G)
                     m += 1
     for i in range(C.pieces):
         if C.used[i] and C.start_s[i] > 0.0 and m < z.shape[0]:
-            z[m] = radius_of(P, C.start_s[i])
+            z[m] = C.start_s[i]
             m += 1
-    return distinct(z, m, 1e-14 * radius), radius
+    return distinct(z, m, 1e-14 * largest)
 
 
 @jit
@@ -134,15 +173,13 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
     A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
     it stays. Returns swt and 2θ.
     """
-    e = 1.0 + Q.poisson_ratio
-    unit = 0.5 / (1.0 - Q.poisson_ratio * Q.poisson_ratio)
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
-        find_peaks(H, W, Ct, St, e)
+        find_peaks(H, W, Q, Ct, St)
         most, doubled, confirming = 0.0, 0, False
         for z in range(H.parts):
             W.double[z] = 0
-            miss = unresolved(H, W, z, Ct, St, e, Q.time)
+            miss = unresolved(H, W, Q, z, Ct, St, Q.time)
             if miss > 0.0 and H.intervals[z] < FINEST:
                 most = max(most, miss)
                 W.double[z] = 1
@@ -163,10 +200,10 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
         for z in range(H.parts):
             if W.double[z]:
                 refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
-        fill(H, W, side, Q.poisson_ratio)
+        fill(H, W, side, Q)
         before = swt
-        value, angle = climb(H, W, angle, e, Q.plane)
-        swt = unit * value
+        h, angle = climb(H, W, Q, angle, Q.plane)
+        swt = value_of(Q, h)
         if confirming and abs(swt - before) <= Q.time * swt:
             break
     return swt, angle
@@ -175,37 +212,33 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
 @jit
 def swt_at(S, H, W, C, P, K, L, Q, side):
     """swt of the sampled cycle at side · x, and 2θ of its plane: rough where it cannot matter."""
-    nu = Q.poisson_ratio
-    e, unit = 1.0 + nu, 0.5 / (1.0 - nu * nu)
     floor = Q.near * S.best
-    first, bound = survey_planes(H, W, side, nu)
-    if unit * bound < ROUGH * floor or W.value[first] <= 0.0:
-        return unit * W.value[first], STEP * first
-    value, angle = climb(H, W, STEP * first, e, Q.plane)
-    swt = unit * value
+    first, bound = survey_planes(H, W, Q, side)
+    if value_of(Q, bound) < ROUGH * floor or W.value[first] <= 0.0:
+        return value_of(Q, W.value[first]), STEP * first
+    h, angle = climb(H, W, Q, STEP * first, Q.plane)
+    swt = value_of(Q, h)
     for _ in range(4):
         instants = H.instants
         swt, angle = resolve(H, W, C, P, K, L, side, swt, angle, Q, S.best)
         if swt < floor:
             break
         if H.instants > instants:
-            survey_planes(H, W, side, nu)
-        value, other = higher_plane(H, W, swt / unit, e, Q.plane)
-        if unit * value <= swt:
+            survey_planes(H, W, Q, side)
+        h, other = higher_plane(H, W, Q, lift(Q, swt), Q.plane)
+        if value_of(Q, h) <= swt:
             break
-        value, angle = climb(H, W, other, e, Q.plane)
-        swt = unit * value
+        h, angle = climb(H, W, Q, other, Q.plane)
+        swt = value_of(Q, h)
     return swt, angle
 
 
 @jit
-def evaluate(S, H, W, C, R, P, K, L, Q, largest, x, plus, minus):
-    """Values at x and -x, where asked: few instants at first, more where the value may be the largest."""
+def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
+    """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
     S.positions += 1
-    b = P.flat_radius
-    X2 = x * x - b * b
-    G = -1.0 if x < b else coordinate_at(P, sqrt(X2)) if largest * largest >= X2 else np.inf
-    sample_cycle(H, C, R, P, K, L, x, G, largest, Q.poisson_ratio, Q.friction)
+    G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
+    sample_cycle(H, C, R, P, K, L, place, G, largest, Q.poisson_ratio, Q.friction)
     for side in range(2):
         if side == 1 and L.mirrored:
             S.value[1] = S.value[0]
@@ -217,8 +250,10 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, x, plus, minus):
         swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
         S.value[side] = swt
         if swt > S.best:
-            S.best, S.x, S.angle = swt, sign * x, angle
-            S.tension = min(W.top[STRESS], 0.5 * (W.top[STRAIN] + W.top[MINUS_STRAIN]))
+            S.best, S.place, S.sign, S.angle = swt, place, sign, angle
+            S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
+            if Q.criterion == SWT:
+                S.tension = min(S.tension, W.top[STRESS])
 
 
 @jit
@@ -231,9 +266,12 @@ def set_bound(S, k):
 
 @jit
 def position(S, k, angle):
-    """Position at an angle on the piece of interval k."""
+    """Place at an angle on the piece of interval k."""
     left, right = S.piece[k, 0], S.piece[k, 1]
-    return 0.5 * (left + right) - 0.5 * (right - left) * cos(angle)
+    share = 0.5 - 0.5 * cos(angle)
+    if S.singular and left > 0.0 and right > GEOMETRIC * left:
+        return left * (right / left) ** share
+    return left + (right - left) * share
 
 
 @jit
@@ -282,10 +320,10 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, m):
 def search_line(S, H, W, C, R, P, K, L, Q):
     """Find the largest swt on the line; returns by how much a higher one may be hidden."""
     largest = place_of(P, C.largest)
-    m, radius = cusps(S, C, P, largest)
-    m -= 1
-    smallest = radius_of(P, place_of(P, C.smallest))
-    S.best, S.x, S.angle, S.positions = 0.0, 0.0, 0.0, 0
+    m = cusps(S, C, P, L, Q, largest) - 1
+    smallest = place_of(P, C.smallest)
+    S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
+    S.positions, S.singular = 0, P.singular
     for j in range(m, -1, -1):  # the largest values are near the edges
         evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[j], ASKED, ASKED)
         for side in range(2):
@@ -294,9 +332,9 @@ def search_line(S, H, W, C, R, P, K, L, Q):
                 S.at_ends[j - 1, 1, side] = S.value[side]
     for j in range(m):
         left, right = S.cusp[j], S.cusp[j + 1]
-        inside = left >= smallest * (1.0 - 1e-9) and right <= radius * (1.0 + 1e-9)
-        S.unseen[j] = inside and right - left > Q.narrow * radius
-        S.beside[j, 0] = left - S.cusp[j - 1] if j > 0 else left
+        inside = left >= smallest * (1.0 - 1e-9) and right <= largest * (1.0 + 1e-9)
+        S.unseen[j] = inside and right - left > Q.narrow * largest
+        S.beside[j, 0] = left - S.cusp[j - 1] if j > 0 else right - left
         S.beside[j, 1] = S.cusp[j + 2] - right if j + 1 < m else right
         set_piece(S, j, left, right, Q)
     m = grade(S, H, W, C, R, P, K, L, Q, largest, m)

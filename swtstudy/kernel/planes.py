@@ -1,11 +1,12 @@
-"""The critical plane at one position: largest max_t σ_n · (max_t ε_n - min_t ε_n)/2 over planes through y.
+"""The critical plane at one position: largest value of the criterion over planes through y.
 
-With θ the angle of the plane's normal against x, both curves are sinusoids in 2θ at each instant,
+With θ the angle of the plane's normal against x, all curves are sinusoids in 2θ at each instant,
 
-    σ_n = a + b cos 2θ + c sin 2θ,    (1-ν²) ε_n = d + (1+ν)(b cos 2θ + c sin 2θ),
+    σ_n = a + b cos 2θ + c sin 2θ,
+    (1-ν²) ε_n = d + (1+ν)(b cos 2θ + c sin 2θ),    τ = c cos 2θ - b sin 2θ,
 
-so swt(θ) is a maximum over triples of instants of smooth functions of θ. Its kinks point down: between two
-planes only downward curvature can hide a higher value, and the amplitudes of the sinusoids bound it.
+so the criterion is a maximum over triples of instants of smooth functions of θ. Its kinks point down: between
+two planes only downward curvature can hide a higher value, and the amplitudes of the sinusoids bound it.
 """
 
 from math import cos, pi, sin, sqrt
@@ -14,14 +15,15 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, tail
 from swtstudy.kernel.compiled import jit, jit_reordered
+from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS
 
 #: Planes of the first look, over 2θ.
 PLANES = 16
 STEP = 2.0 * pi / PLANES
 COS_2, SIN_2 = np.cos(STEP * np.arange(PLANES)), np.sin(STEP * np.arange(PLANES))
-#: Curves over time on a plane: σ_n, ε_n, -ε_n.
-STRESS, STRAIN, MINUS_STRAIN = 0, 1, 2
+#: Curves over time on a plane: σ_n, the swing, its negative.
+STRESS, SWING, MINUS_SWING = 0, 1, 2
 
 #: Larger last coefficients of the finest series, over the range of its values: its peak is its largest value.
 RESOLVED = 1e-5
@@ -54,42 +56,44 @@ def above(f1, f2, drop):
 
 
 @jit_reordered
-def fill(H, W, side, nu):
+def fill(H, W, side, Q):
     """Write a, b, c, d of all instants at side · x; returns the largest b² + c²."""
-    largest = 0.0
+    largest, nu = 0.0, Q.poisson_ratio
+    of_strain = 1.0 if Q.criterion == SWT else 0.0
+    of_bulk = nu if H.plane else 0.0
     for i in range(H.instants):
-        xx = H.within[i] - H.p[i] + side * H.xx[i]
-        yy = -H.within[i] - 2.0 * nu * H.p[i] + side * H.yy[i]
+        xx = H.within[i] - H.p[i] + side * H.xx[i] + H.bulk[i]
+        yy = -H.within[i] - 2.0 * nu * H.p[i] + side * H.yy[i] + of_bulk * H.bulk[i]
         zz = -H.p[i]
         a, b, c = 0.5 * (xx + zz), 0.5 * (xx - zz), -H.q[i]
         W.a[i], W.b[i], W.c[i] = a, b, c
-        W.d[i] = (1.0 + nu) * a - nu * (xx + yy + zz)
+        W.d[i] = of_strain * ((1.0 + nu) * a - nu * (xx + yy + zz))
         largest = max(largest, b * b + c * c)
     return largest
 
 
 @jit_reordered
-def extremes(W, m, C, S, e):
-    """Largest σ_n, largest and smallest (1-ν²) ε_n over the instants on one plane."""
+def extremes(W, m, C, S, of_b, of_c):
+    """Largest σ_n, largest and smallest swing over the instants on one plane."""
     top, high, low = -1e300, -1e300, 1e300
     for i in range(m):
-        g = W.b[i] * C + W.c[i] * S
-        stress = W.a[i] + g
-        strain = W.d[i] + e * g
+        b, c = W.b[i], W.c[i]
+        stress = W.a[i] + b * C + c * S
+        swing = W.d[i] + b * of_b + c * of_c
         top = max(top, stress)
-        high = max(high, strain)
-        low = min(low, strain)
+        high = max(high, swing)
+        low = min(low, swing)
     return top, high, low
 
 
 @jit
-def curve_at(W, i, which, C, S, e):
+def curve_at(W, Q, i, which, C, S):
     """One curve at one instant."""
-    g = W.b[i] * C + W.c[i] * S
     if which == STRESS:
-        return W.a[i] + g
-    strain = W.d[i] + e * g
-    return strain if which == STRAIN else -strain
+        return W.a[i] + W.b[i] * C + W.c[i] * S
+    of_b, of_c = swing_weights(Q, C, S)
+    swing = W.d[i] + W.b[i] * of_b + W.c[i] * of_c
+    return swing if which == SWING else -swing
 
 
 @jit
@@ -111,26 +115,27 @@ def middle_node(node, first, intervals):
 
 
 @jit
-def estimate(H, W, z, node, which, C, S, e):
+def estimate(H, W, Q, z, node, which, C, S):
     """Estimated maximum of a curve within part z, from its largest instant."""
     i = middle_node(node, H.first[z], H.intervals[z])
     step = FINEST // H.intervals[z]
     j = (i - H.first[z]) * step
-    f = curve_at(W, node, which, C, S, e)
+    f = curve_at(W, Q, node, which, C, S)
     y, height = vertex(
         LOBATTO[j - step],
         LOBATTO[j],
         LOBATTO[j + step],
-        curve_at(W, i - 1, which, C, S, e),
-        curve_at(W, i, which, C, S, e),
-        curve_at(W, i + 1, which, C, S, e),
+        curve_at(W, Q, i - 1, which, C, S),
+        curve_at(W, Q, i, which, C, S),
+        curve_at(W, Q, i + 1, which, C, S),
     )
     return max(f, height) if LOBATTO[j - step] < y < LOBATTO[j + step] else f
 
 
 @jit
-def find_peaks(H, W, C, S, e):
+def find_peaks(H, W, Q, C, S):
     """For each of the three curves on a plane, the part and the instant with its largest maximum."""
+    of_b, of_c = swing_weights(Q, C, S)
     for which in range(3):
         W.top[which] = -1e300
     for z in range(H.parts):
@@ -138,30 +143,38 @@ def find_peaks(H, W, C, S, e):
         top, high, low = -1e300, -1e300, 1e300
         at_top, at_high, at_low = first, first, first
         for i in range(first, last + 1):
-            g = W.b[i] * C + W.c[i] * S
-            stress, strain = W.a[i] + g, W.d[i] + e * g
+            b, c = W.b[i], W.c[i]
+            stress, swing = W.a[i] + b * C + c * S, W.d[i] + b * of_b + c * of_c
             if stress > top:
                 top, at_top = stress, i
-            if strain > high:
-                high, at_high = strain, i
-            if strain < low:
-                low, at_low = strain, i
+            if swing > high:
+                high, at_high = swing, i
+            if swing < low:
+                low, at_low = swing, i
         for which in range(3):
-            node = at_top if which == STRESS else at_high if which == STRAIN else at_low
-            height = estimate(H, W, z, node, which, C, S, e)
+            node = at_top if which == STRESS else at_high if which == SWING else at_low
+            height = estimate(H, W, Q, z, node, which, C, S)
             if height > W.top[which]:
                 W.top[which], W.part[which], W.node[which] = height, z, node
 
 
 @jit
-def locate(H, W, which, C, S, e):
+def in_swing(Q, b, c):
+    """Coefficients of cos 2θ and sin 2θ in the swing, from those in σ_n."""
+    if Q.criterion == SWT:
+        return (1.0 + Q.poisson_ratio) * b, (1.0 + Q.poisson_ratio) * c
+    return c, -b
+
+
+@jit
+def locate(H, W, Q, which, C, S):
     """Write the coefficients of a curve at its maximum over time: parabolas on the series of its part."""
     z, node = W.part[which], W.node[which]
     first, intervals = H.first[z], H.intervals[z]
     step = FINEST // intervals
     values = W.curve[0]
     for j in range(intervals + 1):
-        values[j] = curve_at(W, first + j, which, C, S, e)
+        values[j] = curve_at(W, Q, first + j, which, C, S)
     i = middle_node(node, first, intervals) - first
     y0, y1, y2 = LOBATTO[(i - 1) * step], LOBATTO[i * step], LOBATTO[(i + 1) * step]
     f0, f1, f2 = values[i - 1], values[i], values[i + 1]
@@ -194,68 +207,72 @@ def locate(H, W, which, C, S, e):
         constant += w * (W.a[first + j] if which == STRESS else W.d[first + j])
         of_cos += w * W.b[first + j]
         of_sin += w * W.c[first + j]
-    factor = 1.0 if which == STRESS else e
-    W.at_peak[which, 0], W.at_peak[which, 1], W.at_peak[which, 2] = constant, factor * of_cos, factor * of_sin
+    if which != STRESS:
+        of_cos, of_sin = in_swing(Q, of_cos, of_sin)
+    W.at_peak[which, 0], W.at_peak[which, 1], W.at_peak[which, 2] = constant, of_cos, of_sin
 
 
 @jit
-def climb(H, W, angle, e, tolerance):
+def climb(H, W, Q, angle, tolerance):
     """From the plane 2θ = angle to a local maximum, by turns: instants for the plane, plane for the instants.
 
-    Returns the product of σ_n and the strain's range there, which never falls from turn to turn, and 2θ.
+    Returns h of the criterion there, which never falls from turn to turn, and 2θ.
     """
     best, best_angle = 0.0, angle
     for _ in range(20):
         C, S = cos(angle), sin(angle)
-        find_peaks(H, W, C, S, e)
+        find_peaks(H, W, Q, C, S)
         for which in range(3):
-            locate(H, W, which, C, S, e)
+            locate(H, W, Q, which, C, S)
         s0, s1, s2 = W.at_peak[0, 0], W.at_peak[0, 1], W.at_peak[0, 2]
         r0, r1 = W.at_peak[1, 0] - W.at_peak[2, 0], W.at_peak[1, 1] - W.at_peak[2, 1]
         r2 = W.at_peak[1, 2] - W.at_peak[2, 2]
-        value = (s0 + s1 * C + s2 * S) * (r0 + r1 * C + r2 * S)
+        value = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S)
         gained = value - best
         if gained > 0.0:
             best, best_angle = value, angle
         if gained <= tolerance * best:
             break
         for _ in range(8):
-            s, r = s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S
-            ds, dr = s2 * C - s1 * S, r2 * C - r1 * S
-            rate = ds * r + s * dr
-            bend = (s0 - s) * r + 2.0 * ds * dr + s * (r0 - r)
+            T, A = s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S
+            dT, dA = s2 * C - s1 * S, r2 * C - r1 * S
+            of_T, of_A, of_TT, of_TA, of_AA = partials(Q, T, A)
+            rate = of_T * dT + of_A * dA
+            bend = of_T * (s0 - T) + of_A * (r0 - A)
+            bend += of_TT * dT * dT + 2.0 * of_TA * dT * dA + of_AA * dA * dA
             move = -rate / bend if bend < 0.0 else (0.1 if rate > 0.0 else -0.1)
             move = min(max(move, -0.3), 0.3)
             angle += move
             C, S = cos(angle), sin(angle)
             if abs(move) < 1e-5:
                 break
-        promised = (s0 + s1 * C + s2 * S) * (r0 + r1 * C + r2 * S)
+        promised = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S)
         if promised <= best * (1.0 + tolerance):
             break
     return best, best_angle
 
 
 @jit
-def survey_planes(H, W, side, nu):
-    """Write the value on each plane of the first look at side · x.
+def survey_planes(H, W, Q, side):
+    """Write h on each plane of the first look at side · x.
 
     Returns which is the largest, and the bound of all planes.
     """
     m = H.instants
-    e = 1.0 + nu
-    amplitude = sqrt(fill(H, W, side, nu))
+    amplitude = sqrt(fill(H, W, side, Q))
     best, tops, ranges = 0, 0.0, 0.0
     for k in range(PLANES):
-        top, high, low = extremes(W, m, COS_2[k], SIN_2[k], e)
-        W.value[k] = max(top, 0.0) * (high - low)
+        of_b, of_c = swing_weights(Q, COS_2[k], SIN_2[k])
+        top, high, low = extremes(W, m, COS_2[k], SIN_2[k], of_b, of_c)
+        W.value[k] = lifted(Q, top, high - low)
         tops, ranges = max(tops, top), max(ranges, high - low)
         if W.value[k] > W.value[best]:
             best = k
     tops *= 1.1
     ranges *= 1.1
-    swing = min(2.0 * e * amplitude, ranges)
-    W.curvature = amplitude * ranges + 2.0 * amplitude * swing + tops * swing
+    largest = 1.0 + Q.poisson_ratio if Q.criterion == SWT else 1.0
+    swing = min(2.0 * largest * amplitude, ranges)
+    W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing)
     bound = 0.0
     for k in range(PLANES):
         bound = max(bound, above(W.value[k], W.value[(k + 1) % PLANES], W.curvature * STEP * STEP))
@@ -263,10 +280,10 @@ def survey_planes(H, W, side, nu):
 
 
 @jit
-def higher_plane(H, W, best, e, tolerance):
-    """A plane after a survey whose value exceeds the best by more than the tolerance, if there is one.
+def higher_plane(H, W, Q, best, tolerance):
+    """A plane after a survey whose h exceeds the best by more than the tolerance, if there is one.
 
-    Returns its value and 2θ: between two planes there is none above the bound.
+    Returns its h and 2θ: between two planes there is none above the bound.
     """
     where, limit = 0.0, best * (1.0 + tolerance)
     for k in range(PLANES):
@@ -280,8 +297,10 @@ def higher_plane(H, W, best, e, tolerance):
             if above(f1, f2, W.curvature * width * width) <= limit or width < 1e-4:
                 continue
             width *= 0.5
-            top, high, low = extremes(W, H.instants, cos(angle + width), sin(angle + width), e)
-            f = max(top, 0.0) * (high - low)
+            C, S = cos(angle + width), sin(angle + width)
+            of_b, of_c = swing_weights(Q, C, S)
+            top, high, low = extremes(W, H.instants, C, S, of_b, of_c)
+            f = lifted(Q, top, high - low)
             if f > limit:
                 best, where, limit = f, angle + width, f * (1.0 + tolerance)
             W.waiting[depth, 0], W.waiting[depth, 1], W.waiting[depth, 2], W.waiting[depth, 3] = (
@@ -298,30 +317,32 @@ def higher_plane(H, W, best, e, tolerance):
 
 
 @jit
-def unresolved(H, W, z, C, S, e, tolerance):
-    """Possible rise of a curve of part z above the largest values of the cycle on a plane, relative.
+def unresolved(H, W, Q, z, C, S, tolerance):
+    """Possible rise of the criterion by what a curve of part z may exceed its maximum on a plane, relative.
 
     0 where the part is resolved. The last coefficients of its series tell what the interpolation misses. A
     part that stays below the largest maximum of each curve by more than that is resolved anyway.
     """
     first, intervals = H.first[z], H.intervals[z]
+    of_b, of_c = swing_weights(Q, C, S)
     at_top, at_high, at_low = first, first, first
     for j in range(intervals + 1):
         i = first + j
-        g = W.b[i] * C + W.c[i] * S
-        W.curve[0, j], W.curve[1, j] = W.a[i] + g, W.d[i] + e * g
+        b, c = W.b[i], W.c[i]
+        W.curve[0, j], W.curve[1, j] = W.a[i] + b * C + c * S, W.d[i] + b * of_b + c * of_c
         if W.curve[0, j] > W.curve[0, at_top - first]:
             at_top = i
         if W.curve[1, j] > W.curve[1, at_high - first]:
             at_high = i
         if W.curve[1, j] < W.curve[1, at_low - first]:
             at_low = i
+    of_tension, of_swing = sensitivities(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
     miss = 0.0
     for which in range(3):
-        node = at_top if which == STRESS else at_high if which == STRAIN else at_low
-        scale = W.top[STRESS] if which == STRESS else W.top[STRAIN] + W.top[MINUS_STRAIN]
+        node = at_top if which == STRESS else at_high if which == SWING else at_low
+        share = of_tension if which == STRESS else of_swing
         error = tail(W.curve[0 if which == STRESS else 1], intervals)
-        rise = estimate(H, W, z, node, which, C, S, e) + 2.0 * error - W.top[which]
-        if rise > 0.0 and error > tolerance * scale:
-            miss = max(miss, min(rise, 2.0 * error) / scale)
+        rise = estimate(H, W, Q, z, node, which, C, S) + 2.0 * error - W.top[which]
+        if rise > 0.0 and error * share > tolerance:
+            miss = max(miss, min(rise, 2.0 * error) * share)
     return miss

@@ -1,31 +1,39 @@
 """One parameter point from the load to s, and many points in one compiled call."""
 
-from math import sqrt
+from math import nan, pi, sqrt
 
 import numpy as np
 
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import CYCLE, solve_cycle
+from swtstudy.kernel.contact import CYCLE, NONE, OPEN, solve_cycle
+from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import SEARCH, search_line
+from swtstudy.kernel.load import load_at
 from swtstudy.kernel.planes import WORK
+from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
 #: Coordinates are rounded to some 4e-14; tractions follow the root of what a slip front is off.
 ROUNDING = 2e-7
+#: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
+NEAREST = 1e-9
+#: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
+SAME = 1e-12
+#: Regimes of the contact over the stationary cycle, in the order of their flag values.
+STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(6)
 RESULT = np.dtype(
     [
         ("s", "f8"),
         ("s_error", "f8"),
         ("critical_x", "f8"),
         ("critical_angle", "f8"),  # degrees
+        ("regime", "i8"),
         ("positions", "i8"),
         ("instants", "i8"),
-        ("gross_slip", "i8"),
-        ("lift_off", "i8"),
         ("overflow", "i8"),
     ]
 )
@@ -37,30 +45,92 @@ def workspace():
 
 
 @jit
+def regime_of(C, L, P, Q):
+    """Regime of the stationary cycle."""
+    if P.singular and is_torn(C, L, P, Q):
+        return NOT_FINITE
+    if C.lift_off:
+        return LIFT_OFF
+    if C.gross_slip:
+        return GROSS_SLIP
+    return PARTIAL_SLIP if C.any_slip else STICK
+
+
+@jit
+def is_torn(C, L, P, Q):
+    """Whether swt grows without bound, or nearly, towards the singular edge of a face.
+
+    With |τ| = w at the innermost spring a plane near 45° is in tension that grows like ln(1/ε) for μ > 1; in
+    gross slip the strain does, too. Where contact is lost, springs pull before the pressure comes.
+    """
+    b, largest = P.flat_radius, place_of(P, C.largest)
+    ring = sqrt(b * b + largest * largest) - b
+    nearest = NEAREST * min(ring, max(b, 1e-3 * (b + ring)))
+    margin = nearest * (b if nearest < b else 1.0)
+    # Depth g = ξ √(ξ² - b²) at ξ = b + nearest.
+    margin = (b + nearest) * sqrt(nearest * (2.0 * b + nearest))
+    lost = C.smallest <= margin
+    slips, pulled = False, False
+    for k in range(C.stretches):
+        for e in range(2):
+            n, v = load_at(L, C.time[k, e])
+            slips = slips or abs(v) >= n - margin
+            pulled = pulled or (n <= margin and bulk_at(L, C.time[k, e]) > 0.0)
+    torn = (slips and Q.friction > 1.0) or (C.gross_slip and Q.friction >= 1.0) or lost
+    if torn and Q.friction > 0.0 and moves(L):
+        return True
+    return lost and pulled and Q.poisson_ratio < 0.5
+
+
+@jit
+def is_idle(C, L, P, Q):
+    """Whether s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
+    still = C.largest == C.smallest and (Q.friction == 0.0 or not moves(L))
+    if L.has_bulk:
+        return still and largest_bulk(L) == smallest_bulk(L)
+    return still or (Q.criterion == SWT and Q.friction == 0.0 and (Q.poisson_ratio == 0.5 or P.plane))
+
+
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
     What grew is tabulated to a share of the tension that makes s: where s is a small difference of large
     stresses the table is made again, and the search with it.
     """
+    out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
+    out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
+    if L.in_force and out_of_equilibrium(L):
+        return
     solve_cycle(C, L)
+    out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
+    if out.regime == NOT_FINITE or C.overflow:
+        return
+    out.s, out.s_error = 0.0, 0.0
+    if is_idle(C, L, P, Q):
+        return
     growth, gap, share = Q.growth, 0.0, 1.0
     for _ in range(5):
         lay_out(R, C, P, L, growth)
         gap = search_line(S, H, W, C, R, P, K, L, Q)
         # Tension over the largest stress that slip can make, μ times the pressure.
-        share = S.tension / (Q.friction * sqrt(C.largest))
+        share = S.tension / (Q.friction * sqrt(C.largest)) if Q.friction > 0.0 else 1.0
         needed = Q.growth * min(share, 1.0)
         if R.panels == 0 or S.best <= 0.0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
-    out.positions, out.instants = S.positions, H.instants
-    out.s, out.critical_x = S.best, S.x
+    out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
+    out.s = S.best
     rounding = ROUNDING / share if S.best > 0.0 else 0.0
     out.s_error = gap + (2.0 * Q.time + rounding) * S.best
-    angle = S.angle % (2.0 * np.pi)
-    out.critical_angle = 90.0 / np.pi * (angle - 2.0 * np.pi if angle > np.pi else angle)
-    out.gross_slip, out.lift_off, out.overflow = C.gross_slip, C.lift_off, C.overflow
+    if S.best > 0.0:
+        b = P.flat_radius
+        out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
+        out.critical_angle = degrees(S.angle)
+    if L.has_bulk:
+        far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
+        if far > 0.0 and far >= (1.0 - SAME) * S.best:
+            out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
 
 
 @jit

@@ -24,10 +24,13 @@ WAVE_ORDER = 26
 PROFILE = np.dtype(
     [
         ("is_paraboloid", "i8"),  # 1: closed forms are used
+        ("plane", "i8"),  # 1: the contact is a strip
+        ("singular", "i8"),  # 1: the pressure has no bound at the edge of the face
         ("in_force", "i8"),  # coordinate of the diagram: DEPTH or FORCE
         ("panels", "i8"),
         ("flat_radius", "f8"),  # b/a_H
         ("force_unit", "f8"),  # ∫ ξ dG up to G = 1
+        ("longest", "f8"),  # longest piece over which the profile is smooth
         ("begin", "f8", (MAX_PANELS,)),  # ends of the panels in s
         ("end", "f8", (MAX_PANELS,)),
         ("density", "f8", (MAX_PANELS, ORDER)),  # dG/ds
@@ -90,7 +93,7 @@ def _series_of_wave(j):
 
 
 def tabulate_profile(
-    density, flat_radius, largest, in_force, longest=0.5, tolerance=1e-8, is_paraboloid=False
+    density, flat_radius, largest, in_force, longest=0.5, tolerance=1e-8, is_paraboloid=False, singular=False
 ):
     """Profile as data, from the axis to where the coordinate of the diagram exceeds `largest`.
 
@@ -124,8 +127,9 @@ def tabulate_profile(
     if count > MAX_PANELS:
         raise ValueError(f"the profile needs {count} panels, more than {MAX_PANELS}")
     record = new_record(PROFILE)
+    record["singular"] = singular
     record["is_paraboloid"], record["in_force"], record["panels"] = is_paraboloid, in_force, count
-    record["flat_radius"], record["force_unit"] = flat_radius, unit
+    record["flat_radius"], record["force_unit"], record["longest"] = flat_radius, unit, longest
     record["begin"][:count], record["end"][:count] = begin[:count], end[:count]
     record["density"][:count], record["force"][:count] = series[:count], force_series[:count]
     record["coordinate"][:count] = coordinate[:count]

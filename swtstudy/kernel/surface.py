@@ -33,8 +33,8 @@ TABLE = np.dtype(
         ("total", "f8", (MAX_PIECES + 1, 2)),  # T1, T3 of all that is inside x
     ]
 )
-#: A smaller X/x is the edge of the face: there all springs count as outside.
-AT_FACE = 1e-9
+#: Largest ratio of the ends of a table outside of x: its variable is as the logarithm of s there.
+SPAN = 8.0
 
 
 @jit
@@ -50,78 +50,70 @@ def asinh(c):
 
 
 @jit
-def scale_at(x, b):
-    """X, and 1 where all springs are outside x."""
-    X2 = x * x - b * b
-    X = sqrt(abs(X2))
-    if X2 <= 0.0 or AT_FACE * max(x, b) > X:
-        return max(X, AT_FACE), 1
-    return X, 0
-
-
-@jit
-def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x):
+def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside):
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
-    X, all_outside = scale_at(x, b)
     K.first[row] = k
-    t1, t3, b1, v1 = 0.0, 0.0, 0.0, 0.0
-    f, h = np.empty(ORDER), np.empty(ORDER)
+    K.total[row, 0], K.total[row, 1] = 0.0, 0.0
+    sums = np.zeros(4)
     for p in range(p0, p1):
         if begin[p] >= top or k + 2 >= MAX_TABLES:
             break
-        width = 2.0 / (end[p] - begin[p])
-        for inside in (1, 0):
-            if inside:
-                if all_outside or begin[p] >= X:
-                    continue
-                K.begin[k] = begin[p]
-                z0, z1 = asin(begin[p] / X), asin(min(end[p], X) / X)
-            else:
-                if end[p] <= X and not all_outside:
-                    continue
-                K.begin[k] = begin[p] if all_outside else max(begin[p], X)
-                if all_outside:
-                    z0, z1 = asinh(begin[p] / X), asinh(end[p] / X)
-                else:
-                    z0, z1 = acosh(K.begin[k] / X), acosh(end[p] / X)
-            K.angle[k, 0], K.angle[k, 1], K.inside[k] = z0, z1, inside
-            half = 0.5 * (z1 - z0)
-            for i in range(ORDER):
-                z = z0 + half * (GAUSS[i] + 1.0)
-                if inside:
-                    s = X * sin(z)
-                    share = (b * b + s * s) / (x * x)
-                    f[i] = 2.0 * sqrt(share) * half * clenshaw(density[p], (s - begin[p]) * width - 1.0)
-                    h[i] = share * f[i]
-                else:
-                    s = X * (sinh(z) if all_outside else cosh(z))
-                    root = X * (cosh(z) if all_outside else sinh(z))
-                    f[i] = half * clenshaw(density[p], (s - begin[p]) * width - 1.0)
-                    h[i] = f[i] * root / (sqrt(b * b + s * s) + root)
-            F, H = K.series[k, 0], K.series[k, 1]
-            for c in range(ORDER + 1):
-                F[c] = f[0] * RUN[0, c]
-                H[c] = h[0] * RUN[0, c]
-            for i in range(1, ORDER):
-                for c in range(ORDER + 1):
-                    F[c] += f[i] * RUN[i, c]
-                    H[c] += h[i] * RUN[i, c]
-            of_f, of_h = 0.0, 0.0
-            for c in range(ORDER + 1):
-                of_f += F[c]
-                of_h += H[c]
-            if inside:
-                K.before[k, 0], K.before[k, 1] = t1, t3
-                t1 += of_f
-                t3 += of_h
-            else:
-                K.before[k, 0], K.before[k, 1] = b1, v1
-                b1 += of_f
-                v1 += of_h
+        low = begin[p]
+        if not all_outside and low < X:
+            high = min(end[p], X)
+            tabulate_panel(K, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, sums)
             k += 1
+            low = high
+        while low < end[p] and k + 1 < MAX_TABLES:
+            high = min(end[p], SPAN * max(low, X))
+            if high > 0.9 * end[p]:
+                high = end[p]
+            tabulate_panel(K, k, density[p], begin[p], end[p], low, high, b, x, X, 0, all_outside, sums)
+            k += 1
+            low = high
     K.last[row] = k
-    K.total[row, 0], K.total[row, 1] = t1, t3
+    K.total[row, 0], K.total[row, 1] = sums[0], sums[1]
     return k
+
+
+@jit
+def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_outside, sums):
+    """Table k: running integrals of the panel's density from low to high, added to the sums up to there."""
+    f, h = np.empty(ORDER), np.empty(ORDER)
+    K.begin[k] = low
+    if inside:
+        z0, z1 = asin(low / X), asin(high / X)
+    elif all_outside:
+        z0, z1 = asinh(low / X), asinh(high / X)
+    else:
+        z0, z1 = acosh(low / X), acosh(high / X)
+    K.angle[k, 0], K.angle[k, 1], K.inside[k] = z0, z1, inside
+    half, width = 0.5 * (z1 - z0), 2.0 / (end - begin)
+    for i in range(ORDER):
+        z = z0 + half * (GAUSS[i] + 1.0)
+        if inside:
+            s = X * sin(z)
+            share = (b * b + s * s) / (x * x)
+            f[i] = 2.0 * sqrt(share) * half * clenshaw(density, (s - begin) * width - 1.0)
+            h[i] = share * f[i]
+        else:
+            s = X * (sinh(z) if all_outside else cosh(z))
+            root = X * (cosh(z) if all_outside else sinh(z))
+            f[i] = half * clenshaw(density, (s - begin) * width - 1.0)
+            h[i] = f[i] * root / (sqrt(b * b + s * s) + root)
+    F, H = K.series[k, 0], K.series[k, 1]
+    for c in range(ORDER + 1):
+        F[c] = f[0] * RUN[0, c]
+        H[c] = h[0] * RUN[0, c]
+    for i in range(1, ORDER):
+        for c in range(ORDER + 1):
+            F[c] += f[i] * RUN[i, c]
+            H[c] += h[i] * RUN[i, c]
+    first = 0 if inside else 2
+    K.before[k, 0], K.before[k, 1] = sums[first], sums[first + 1]
+    for c in range(ORDER + 1):
+        sums[first] += F[c]
+        sums[first + 1] += H[c]
 
 
 @jit

@@ -1,0 +1,156 @@
+"""Criteria: increasing functions of a plane's largest tension T and of the range A of its swing.
+
+Both follow from maxima over the cycle of curves that are linear in the stress: T = max σ_n and
+A = max w + max(-w). The swing w is (1-ν²) ε_n for the Smith–Watson–Topper parameter (9), with Walker's
+exponent γ too, and the shear stress τ for the criteria of Fatemi and Socie and of Findley:
+
+    SWT, Walker     T^(2-2γ) (A/2)^(2γ)/(1-ν²)
+    Fatemi–Socie    A/2 (1 + k T⁺)
+    Findley         A/2 + k T
+
+The search over planes works with an increasing function h of the criterion that has no powers below 1, so
+that its curvature downwards is bounded by those of T and A: T A^m or A T^m with m ≥ 1 for Walker's form.
+"""
+
+from math import acos, atan2, hypot, pi, sqrt
+
+import numpy as np
+
+from swtstudy.kernel.compiled import jit
+
+SWT, FATEMI_SOCIE, FINDLEY = np.arange(3)
+NAMES = ("swt", "fatemi_socie", "findley")
+CRITERION = [
+    ("criterion", "i8"),
+    ("sensitivity", "f8"),  # k
+    ("of_swing", "i8"),  # 1: h = T A^m, 0: h = A T^m
+    ("power", "f8"),  # m
+    ("outer", "f8"),  # value = factor · h^outer
+    ("factor", "f8"),
+]
+
+
+def set_criterion(record, name, poisson_ratio, walker_exponent=0.5, normal_sensitivity=0.0):
+    """Write the fields of `CRITERION`.
+
+    Parameters
+    ----------
+    name
+        swt, fatemi_socie or findley.
+    poisson_ratio, walker_exponent, normal_sensitivity
+        ν, γ and k, –; the last one in a_H/(E* δ0) for fatemi_socie.
+    """
+    kind, gamma = NAMES.index(name), walker_exponent
+    record["criterion"], record["sensitivity"] = kind, normal_sensitivity
+    record["of_swing"], record["power"], record["outer"], record["factor"] = 1, 1.0, 1.0, 0.5
+    if kind == SWT:
+        record["of_swing"] = gamma >= 0.5
+        ratio = gamma / (1.0 - gamma)
+        record["power"] = max(ratio, 1.0 / ratio)
+        record["outer"] = min(2.0 * gamma, 2.0 - 2.0 * gamma)
+        record["factor"] = 0.5 ** (2.0 * gamma) / (1.0 - poisson_ratio**2)
+
+
+@jit
+def swing_weights(Q, C, S):
+    """Weights of b and c in the swing of the plane with cos 2θ = C, sin 2θ = S: ε_n or τ."""
+    if Q.criterion == SWT:
+        return (1.0 + Q.poisson_ratio) * C, (1.0 + Q.poisson_ratio) * S
+    return -S, C
+
+
+@jit
+def lifted(Q, T, A):
+    """H of T and A, 0 at least."""
+    if Q.criterion == SWT:
+        T, A = max(T, 0.0), max(A, 0.0)
+        if Q.power == 1.0:
+            return T * A
+        return T * A**Q.power if Q.of_swing else A * T**Q.power
+    if Q.criterion == FATEMI_SOCIE:
+        return A * (1.0 + Q.sensitivity * max(T, 0.0))
+    return max(A + 2.0 * Q.sensitivity * T, 0.0)
+
+
+@jit
+def value_of(Q, h):
+    """The criterion from h."""
+    return Q.factor * h if Q.outer == 1.0 else Q.factor * h**Q.outer
+
+
+@jit
+def lift(Q, value):
+    """H from the criterion."""
+    h = value / Q.factor
+    return h if Q.outer == 1.0 else h ** (1.0 / Q.outer)
+
+
+@jit
+def partials(Q, T, A):
+    """h_T, h_A, h_TT, h_TA, h_AA."""
+    m, k = Q.power, Q.sensitivity
+    if Q.criterion == SWT:
+        T, A = max(T, 0.0), max(A, 0.0)
+        if m == 1.0:
+            return A, T, 0.0, 1.0, 0.0
+        if Q.of_swing:
+            x = m * A ** (m - 1.0)
+            return A**m, T * x, 0.0, x, m * (m - 1.0) * T * A ** (m - 2.0) if A > 0.0 else 0.0
+        x = m * T ** (m - 1.0)
+        return A * x, T**m, m * (m - 1.0) * A * T ** (m - 2.0) if T > 0.0 else 0.0, x, 0.0
+    if Q.criterion == FATEMI_SOCIE:
+        if T <= 0.0:
+            return 0.0, 1.0, 0.0, 0.0, 0.0
+        return k * A, 1.0 + k * T, 0.0, k, 0.0
+    return 2.0 * k, 1.0, 0.0, 0.0, 0.0
+
+
+@jit
+def curvature_bound(Q, T, A, of_tension, of_swing):
+    """Bound of -h″ over 2θ for T and A up to these, and |T′|, |T″| and |A′|, |A″| up to those.
+
+    The terms with h_TT and h_AA, which are not negative, only help.
+    """
+    h_t, h_a, _, h_ta, _ = partials(Q, T, A)
+    return h_t * of_tension + 2.0 * h_ta * of_tension * of_swing + h_a * of_swing
+
+
+@jit
+def sensitivities(Q, T, A):
+    """Relative change of the criterion by a change of T, and by one of A."""
+    h = lifted(Q, T, A)
+    if h <= 0.0:
+        return 0.0, 0.0
+    h_t, h_a, _, _, _ = partials(Q, T, A)
+    return Q.outer * h_t / h, Q.outer * h_a / h
+
+
+@jit
+def far_field(Q, largest, smallest, plane):
+    """The criterion under a bulk stress along x alone, and 2θ of its plane (rad).
+
+    Parameters
+    ----------
+    largest, smallest
+        Of the bulk stress over the cycle, in E* δ0/a_H.
+    plane
+        Whether the bulk stress is one of plane strain.
+    """
+    swing, nu, k = largest - smallest, Q.poisson_ratio, Q.sensitivity
+    if Q.criterion == SWT:
+        return value_of(Q, lifted(Q, largest, swing * (1.0 - nu * nu) if plane else swing)), 0.0
+    if Q.criterion == FINDLEY:
+        pull, shear = k * largest, 0.5 * swing
+        return max(0.5 * (pull + hypot(shear, pull)), 0.0), atan2(shear, pull)
+    # sin 2θ (1 + m + m cos 2θ) is largest where its derivative, a quadratic form of the cosine, vanishes.
+    m = 0.5 * k * max(largest, 0.0)
+    cosine = 2.0 * m / (1.0 + m + sqrt((1.0 + m) * (1.0 + m) + 8.0 * m * m))
+    T, A = 0.5 * largest * (1.0 + cosine), 0.5 * swing * sqrt(1.0 - cosine * cosine)
+    return value_of(Q, lifted(Q, T, A)), acos(cosine)
+
+
+@jit
+def degrees(double_angle):
+    """The plane's angle in (-90, 90] degrees from 2θ."""
+    angle = double_angle % (2.0 * pi)
+    return 90.0 / pi * (angle - 2.0 * pi if angle > pi else angle)
