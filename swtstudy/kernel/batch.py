@@ -9,7 +9,8 @@ import numpy as np
 from swtstudy.kernel import profile
 from swtstudy.kernel.compiled import new_records
 from swtstudy.kernel.line import ASK, ask
-from swtstudy.kernel.load import LOAD, bimodal, polygon
+from swtstudy.kernel.load import LOAD
+from swtstudy.kernel.loads import bimodal, polygon
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 

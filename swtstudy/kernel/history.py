@@ -13,7 +13,7 @@ from swtstudy.kernel.chebyshev import FINEST, LOBATTO
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, UP, offset
 from swtstudy.kernel.growth import places_at
-from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, distinct, instant_of
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import force_at
 from swtstudy.kernel.surface import hertz, running, tabulate
 
@@ -49,6 +49,7 @@ HISTORY = np.dtype(
         ("xx", "f8", (MAX_INSTANTS,)),  # of the tangential load, at +x
         ("yy", "f8", (MAX_INSTANTS,)),
         ("q", "f8", (MAX_INSTANTS,)),
+        ("bulk", "f8", (MAX_INSTANTS,)),  # B, in σ_xx on both sides
         (
             "up_to_start",
             "f8",
@@ -171,13 +172,15 @@ def sample(H, z, intervals, C, P, L, K, nu, mu):
             sign = -1.0 if H.mirror[z] else 1.0
             H.p[m + j], H.within[m + j] = H.p[i], H.within[i]
             H.xx[m + j], H.yy[m + j], H.q[m + j] = sign * H.xx[i], sign * H.yy[i], sign * H.q[i]
+            H.bulk[m + j] = H.bulk[i]
             continue
+        t = begin + 0.5 * (end - begin) * (SPACED[cusps, j * step] + 1.0)
+        H.bulk[m + j] = bulk_at(L, t)
         if j == 0 or j == intervals:
             edge, front = H.places[z, j // intervals, 0], H.places[z, j // intervals, 1]
         elif whole:
             edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
         else:
-            t = begin + 0.5 * (end - begin) * (SPACED[cusps, j * step] + 1.0)
             edge, front = places_at(C, P, L, k, t, H.weight)
         stress(H, m + j, C, P, K, k, edge, front, nu, mu)
     H.first[z], H.intervals[z] = m, intervals
@@ -192,6 +195,7 @@ def flip(H, a, b, to):
     for i in range(b - a):
         H.p[to + i], H.within[to + i] = H.p[a + i], H.within[a + i]
         H.xx[to + i], H.yy[to + i], H.q[to + i] = -H.xx[a + i], -H.yy[a + i], -H.q[a + i]
+        H.bulk[to + i] = H.bulk[a + i]  # constant in a mirrored load
 
 
 @jit

@@ -2,17 +2,20 @@
 
 The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the tangential load v a
 displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
-(`swtstudy.kernel.contact`). Time runs over [0, period): 2π for harmonics, the number of sides for a polygon.
+(`swtstudy.kernel.contact`). A bulk stress B may go with them, of which the contact knows nothing. Time runs
+over [0, period): 2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
 """
 
 from math import cos, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import jit
 
 #: The four functions of time: n, v, α = v - n, β = v + n.
 NORMAL, TANGENTIAL, DIFFERENCE, SUM = np.arange(4)
+#: Components of a load: n, v, B.
+BULK = 2
 
 MAX_HARMONICS, MAX_VERTICES = 64, 2001
 LOAD = np.dtype(
@@ -20,44 +23,22 @@ LOAD = np.dtype(
         ("sides", "i8"),  # of a polygon; 0 for harmonics
         ("terms", "i8"),
         ("fastest", "i8"),  # largest order of the harmonics
-        ("mirrored", "i8"),  # 1: n(t + π) = n(t) and v(t + π) = -v(t)
+        ("mirrored", "i8"),  # 1: n(t + π) = n(t), v(t + π) = -v(t), and B is constant
+        ("bulk_moves", "i8"),  # 1: B changes
+        ("bulk_turns", "i8"),  # 1: so much faster than n and v that its turning points are events
+        ("bulk_range", "f8", (2,)),  # smallest and largest B
         ("period", "f8"),
-        ("rest", "f8", (2,)),  # mean of n and v
+        ("rest", "f8", (3,)),  # mean of n, v and B
         ("order", "i8", (MAX_HARMONICS,)),
-        ("cosine", "f8", (2, MAX_HARMONICS)),
-        ("sine", "f8", (2, MAX_HARMONICS)),
-        ("vertex", "f8", (2, MAX_VERTICES)),  # of n and v; the first one once more at the end
+        ("cosine", "f8", (3, MAX_HARMONICS)),
+        ("sine", "f8", (3, MAX_HARMONICS)),
+        ("vertex", "f8", (3, MAX_VERTICES)),  # of n, v and B; the first one once more at the end
     ]
 )
 #: Cells of the fastest harmonic in which turning points are searched.
 CELLS = 24
 #: Instants closer than this share of the period are one.
 SAME_INSTANT = 1e-10
-
-
-def bimodal(normal_amplitude, frequency_ratio, tangential_amplitude, phase):
-    """Load of the paper: n = 1 + δ_A sin(qt + ψ), v = u_A sin(pt), with ω2/ω1 = p/q in lowest terms."""
-    p, q = frequency_ratio.numerator, frequency_ratio.denominator
-    load = new_record(LOAD)
-    load["fastest"], load["mirrored"], load["period"] = max(p, q), q % 2 == 0, 2.0 * np.pi
-    load["rest"][0] = 1.0
-    load["terms"] = 1 if p == q else 2
-    load["order"][:2] = q, p
-    load["cosine"][0, 0] = normal_amplitude * np.sin(phase)
-    load["sine"][0, 0] = normal_amplitude * np.cos(phase)
-    load["sine"][1, load["terms"] - 1] = tangential_amplitude
-    return load
-
-
-def polygon(normal, tangential):
-    """Load along a closed polygon through vertices, each of shape (k,)."""
-    load = new_record(LOAD)
-    sides = len(normal)
-    load["sides"], load["period"] = sides, sides
-    for coordinate, values in enumerate((normal, tangential)):
-        load["vertex"][coordinate, :sides] = values
-        load["vertex"][coordinate, sides] = values[0]
-    return load
 
 
 @jit
@@ -119,6 +100,50 @@ def rates_at(L, t):
         ddv -= k * k * term
         dv += k * (L.sine[1, i] * c - L.cosine[1, i] * s)
     return n, v, dn, dv, ddn, ddv
+
+
+@jit
+def bulk_at(L, t):
+    """B at one instant."""
+    if L.bulk_moves == 0:
+        return L.rest[BULK]
+    if L.sides > 0:
+        side = int(t)
+        share = t - side
+        if side >= L.sides:
+            side -= L.sides
+        return L.vertex[BULK, side] + share * (L.vertex[BULK, side + 1] - L.vertex[BULK, side])
+    total = L.rest[BULK]
+    x, y = cos(t), sin(t)
+    for i in range(L.terms):
+        c, s = power(x, y, L.order[i])
+        total += L.cosine[BULK, i] * c + L.sine[BULK, i] * s
+    return total
+
+
+@jit
+def smallest_bulk(L):
+    """Smallest B of the cycle."""
+    return L.bulk_range[0]
+
+
+@jit
+def largest_bulk(L):
+    """Largest B of the cycle."""
+    return L.bulk_range[1]
+
+
+@jit
+def bulk_rates(L, t):
+    """The first and second derivative of B, for harmonics."""
+    rate, bend = 0.0, 0.0
+    x, y = cos(t), sin(t)
+    for i in range(L.terms):
+        k = float(L.order[i])
+        c, s = power(x, y, L.order[i])
+        rate += k * (L.sine[BULK, i] * c - L.cosine[BULK, i] * s)
+        bend -= k * k * (L.cosine[BULK, i] * c + L.sine[BULK, i] * s)
+    return rate, bend
 
 
 @jit
@@ -191,7 +216,9 @@ def instant_of(L, which, level, begin, end):
 
 @jit
 def event_function(L, which, t):
-    """Value and rate of n′, v′, α′ or β′ (which 0 to 3) or of n itself (4): their roots are events."""
+    """Value and rate of n′, v′, α′ or β′ (which 0 to 3), of n itself (4) or of B′ (5): roots are events."""
+    if which == 5:
+        return bulk_rates(L, t)
     n, v, dn, dv, ddn, ddv = rates_at(L, t)
     if which == NORMAL:
         return dn, ddn
@@ -285,7 +312,7 @@ def turning_points(L, out):
     step = L.period / cells
     out[0], out[1] = 0.0, L.period
     m = 2
-    for which in range(5):
+    for which in range(6 if L.bulk_turns else 5):
         if which < 4 and is_constant(L, which):
             continue
         before, rate_before = event_function(L, which, 0.0)
