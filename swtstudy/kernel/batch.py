@@ -44,7 +44,7 @@ def profile_record(name, shape, in_force, largest, rtol):
     tabulate = partial(profile.tabulate_profile, largest=largest, in_force=in_force, tolerance=tolerance)
     if name in ("rounded_punch", "truncated_paraboloid") and shape["flat_radius"] > 0.0:
         b = shape["flat_radius"]
-        return tabulate(partial(getattr(profile, name), b=b), b)
+        return tabulate(partial(getattr(profile, name), b=b), b, singular=name == "truncated_paraboloid")
     if name == "wavy_paraboloid" and shape["waviness_amplitude"] > 0.0:
         amplitude = shape["waviness_amplitude"]
         wavelength = shape["wavelength"] * np.sqrt(amplitude)
@@ -65,9 +65,15 @@ def solve_batch(
     loops=None,
     shape=None,
     in_force=False,
+    bulk_amplitude=None,
+    bulk_mean=None,
+    bulk_phase=None,
+    criterion="swt",
+    walker_exponent=None,
+    normal_sensitivity=None,
     rtol=1e-4,
 ):
-    """Solve n points of one profile family and one kind of load.
+    """Solve n points of one profile family, one kind of load and one criterion.
 
     Parameters
     ----------
@@ -80,11 +86,17 @@ def solve_batch(
     frequency_ratio
         n fractions ω2/ω1.
     loops
-        n pairs of arrays: normal and tangential load at the vertices.
+        n pairs of arrays: normal and tangential load at the vertices; or three, with the bulk stress.
     shape
         Arrays of shape (n,) by name.
     in_force
         Whether forces are prescribed; else displacements.
+    bulk_amplitude, bulk_mean, bulk_phase
+        Shape (n,): bulk stress in E* δ0/a_H, and its phase against the tangential load in rad; 0 if None.
+    criterion
+        swt, fatemi_socie or findley.
+    walker_exponent, normal_sensitivity
+        Shape (n,); 1/2 and 0 if None.
     rtol
         Relative accuracy asked of s.
 
@@ -95,6 +107,10 @@ def solve_batch(
     """
     n = len(poisson_ratio)
     out = new_records(n, RESULT)
+    zero = np.zeros(n)
+    bulk = [zero if each is None else each for each in (bulk_amplitude, bulk_mean, bulk_phase)]
+    exponent = zero + 0.5 if walker_exponent is None else walker_exponent
+    sensitivity = zero if normal_sensitivity is None else normal_sensitivity
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
         loads, asks, which = (
@@ -108,9 +124,11 @@ def solve_batch(
                 loads[j], largest = polygon(*loops[i]), float(np.max(loops[i][0]))
             else:
                 ratio = Fraction(frequency_ratio[i])
-                loads[j] = bimodal(normal_amplitude[i], ratio, tangential_amplitude[i], phase[i])
+                own = normal_amplitude[i], ratio, tangential_amplitude[i], phase[i]
+                loads[j] = bimodal(*own, *(each[i] for each in bulk))
                 largest = 1.0 + normal_amplitude[i]
-            asks[j] = ask(poisson_ratio[i], friction[i], rtol)
+            own = criterion, exponent[i], sensitivity[i]
+            asks[j] = ask(poisson_ratio[i], friction[i], rtol, *own)
             key = tuple((key, float(values[i])) for key, values in (shape or {}).items())
             which[j], before = needed.get(key, (len(needed), 0.0))
             needed[key] = which[j], max(before, largest)

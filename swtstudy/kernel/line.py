@@ -20,7 +20,7 @@ from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, refine, sample_cycle
-from swtstudy.kernel.load import distinct
+from swtstudy.kernel.load import distinct, has_bulk
 from swtstudy.kernel.planes import (
     MINUS_SWING,
     STEP,
@@ -136,7 +136,7 @@ def cusps(S, C, P, L, Q, largest):
         # Beyond this no plane is in tension: σ_n falls like (1 - μ) L, L = ln(b/(|x| - b)).
         L_far = 20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2)
         z[0] = min(z[0], b * exp(-0.5 * min(L_far, 600.0)))
-    if Q.criterion != SWT or L.has_bulk:  # places in mere pressure, and outside of the contact
+    if Q.criterion != SWT or has_bulk(L):  # places in mere pressure, and outside of the contact
         if b > 0.0:
             z[m] = -b * (1.0 - INNERMOST)
             m += 1
@@ -222,11 +222,12 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
         instants = H.instants
         swt, angle = resolve(H, W, C, P, K, L, side, swt, angle, Q, S.best)
         if swt < floor:
-            break
+            return swt, angle
         if H.instants > instants:
             survey_planes(H, W, Q, side)
-        h, other = higher_plane(H, W, Q, lift(Q, swt), Q.plane)
-        if value_of(Q, h) <= swt:
+        known = lift(Q, swt)
+        h, other = higher_plane(H, W, Q, known, Q.plane)
+        if h <= known:
             break
         h, angle = climb(H, W, Q, other, Q.plane)
         swt = value_of(Q, h)

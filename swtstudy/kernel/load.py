@@ -134,6 +134,12 @@ def largest_bulk(L):
 
 
 @jit
+def has_bulk(L):
+    """Whether there is a bulk stress."""
+    return L.bulk_range[0] != 0.0 or L.bulk_range[1] != 0.0
+
+
+@jit
 def bulk_rates(L, t):
     """The first and second derivative of B, for harmonics."""
     rate, bend = 0.0, 0.0

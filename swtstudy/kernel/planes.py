@@ -240,7 +240,9 @@ def climb(H, W, Q, angle, tolerance):
             rate = of_T * dT + of_A * dA
             bend = of_T * (s0 - T) + of_A * (r0 - A)
             bend += of_TT * dT * dT + 2.0 * of_TA * dT * dA + of_AA * dA * dA
-            move = -rate / bend if bend < 0.0 else (0.1 if rate > 0.0 else -0.1)
+            h = lifted(Q, T, A)
+            bend = h * bend - rate * rate  # Newton's method for ln h
+            move = -h * rate / bend if bend < 0.0 else (0.1 if rate > 0.0 else -0.1)
             move = min(max(move, -0.3), 0.3)
             angle += move
             C, S = cos(angle), sin(angle)

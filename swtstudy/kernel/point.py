@@ -1,16 +1,16 @@
 """One parameter point from the load to s, and many points in one compiled call."""
 
-from math import nan, pi, sqrt
+from math import nan, sqrt
 
 import numpy as np
 
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import CYCLE, NONE, OPEN, solve_cycle
+from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import SEARCH, search_line
-from swtstudy.kernel.load import load_at
+from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
 from swtstudy.kernel.planes import WORK
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.surface import TABLE
@@ -66,18 +66,18 @@ def is_torn(C, L, P, Q):
     b, largest = P.flat_radius, place_of(P, C.largest)
     ring = sqrt(b * b + largest * largest) - b
     nearest = NEAREST * min(ring, max(b, 1e-3 * (b + ring)))
-    margin = nearest * (b if nearest < b else 1.0)
     # Depth g = ξ √(ξ² - b²) at ξ = b + nearest.
     margin = (b + nearest) * sqrt(nearest * (2.0 * b + nearest))
     lost = C.smallest <= margin
-    slips, pulled = False, False
+    slips, pulled, moves = False, False, False
     for k in range(C.stretches):
         for e in range(2):
             n, v = load_at(L, C.time[k, e])
             slips = slips or abs(v) >= n - margin
+            moves = moves or v != 0.0
             pulled = pulled or (n <= margin and bulk_at(L, C.time[k, e]) > 0.0)
     torn = (slips and Q.friction > 1.0) or (C.gross_slip and Q.friction >= 1.0) or lost
-    if torn and Q.friction > 0.0 and moves(L):
+    if torn and Q.friction > 0.0 and moves:
         return True
     return lost and pulled and Q.poisson_ratio < 0.5
 
@@ -85,8 +85,11 @@ def is_torn(C, L, P, Q):
 @jit
 def is_idle(C, L, P, Q):
     """Whether s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
-    still = C.largest == C.smallest and (Q.friction == 0.0 or not moves(L))
-    if L.has_bulk:
+    still, v0 = C.largest == C.smallest, load_at(L, C.time[0, 0])[1]
+    if Q.friction > 0.0:
+        for k in range(C.stretches):
+            still = still and load_at(L, C.time[k, 1])[1] == v0
+    if has_bulk(L):
         return still and largest_bulk(L) == smallest_bulk(L)
     return still or (Q.criterion == SWT and Q.friction == 0.0 and (Q.poisson_ratio == 0.5 or P.plane))
 
@@ -100,8 +103,6 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
-    if L.in_force and out_of_equilibrium(L):
-        return
     solve_cycle(C, L)
     out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
     if out.regime == NOT_FINITE or C.overflow:
@@ -127,7 +128,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         b = P.flat_radius
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
         out.critical_angle = degrees(S.angle)
-    if L.has_bulk:
+    if has_bulk(L):
         far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
