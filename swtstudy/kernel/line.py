@@ -82,6 +82,8 @@ ROUNDS = 12
 ASKED = np.bool_(True)
 #: Largest ratio of the lengths of two pieces beside each other, where it matters.
 GRADED = 50.0
+#: Positions whose value is lower than the best by no more than this share are looked at most closely.
+CLOSE = 1e-3
 #: A position whose bound over planes is below this share of what is near the best is not looked at closer.
 ROUGH = 0.9
 
@@ -226,11 +228,13 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
         if H.instants > instants:
             survey_planes(H, W, Q, side)
         known = lift(Q, swt)
-        h, other = higher_plane(H, W, Q, known, Q.plane)
+        h, other = higher_plane(H, W, Q, known, Q.plane, swt > (1.0 - CLOSE) * S.best)
         if h <= known:
             break
-        h, angle = climb(H, W, Q, other, Q.plane)
-        swt = value_of(Q, h)
+        h, other = climb(H, W, Q, other, Q.plane)
+        if h <= known:
+            break
+        swt, angle = value_of(Q, h), other
     return swt, angle
 
 
@@ -252,6 +256,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
         S.value[side] = swt
         if swt > S.best:
             S.best, S.place, S.sign, S.angle = swt, place, sign, angle
+            find_peaks(H, W, Q, cos(angle), sin(angle))
             S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
             if Q.criterion == SWT:
                 S.tension = min(S.tension, W.top[STRESS])

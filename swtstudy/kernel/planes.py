@@ -25,6 +25,8 @@ COS_2, SIN_2 = np.cos(STEP * np.arange(PLANES)), np.sin(STEP * np.arange(PLANES)
 #: Curves over time on a plane: σ_n, the swing, its negative.
 STRESS, SWING, MINUS_SWING = 0, 1, 2
 
+#: Share of h by which the largest values at the instants may fall short of the maxima between them.
+BETWEEN = 5e-3
 #: Larger last coefficients of the finest series, over the range of its values: its peak is its largest value.
 RESOLVED = 1e-5
 WORK = np.dtype(
@@ -282,10 +284,11 @@ def survey_planes(H, W, Q, side):
 
 
 @jit
-def higher_plane(H, W, Q, best, tolerance):
+def higher_plane(H, W, Q, best, tolerance, closely):
     """A plane after a survey whose h exceeds the best by more than the tolerance, if there is one.
 
-    Returns its h and 2θ: between two planes there is none above the bound.
+    Returns its h and 2θ: between two planes there is none above the bound. Closely, maxima between the
+    instants count.
     """
     where, limit = 0.0, best * (1.0 + tolerance)
     for k in range(PLANES):
@@ -303,6 +306,9 @@ def higher_plane(H, W, Q, best, tolerance):
             of_b, of_c = swing_weights(Q, C, S)
             top, high, low = extremes(W, H.instants, C, S, of_b, of_c)
             f = lifted(Q, top, high - low)
+            if closely and f > f1 and f > f2 and f > (1.0 - BETWEEN) * limit:
+                find_peaks(H, W, Q, C, S)
+                f = lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
             if f > limit:
                 best, where, limit = f, angle + width, f * (1.0 + tolerance)
             W.waiting[depth, 0], W.waiting[depth, 1], W.waiting[depth, 2], W.waiting[depth, 3] = (
