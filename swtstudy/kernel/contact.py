@@ -18,7 +18,8 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit
-from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at, turning_points
+from swtstudy.kernel.events import out_of_equilibrium, turning_points
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at
 
 CONSTANT, UP, DOWN, GROWN = 0, 1, 2, 3
 #: No piece: beneath the lowest one, and where the whole contact slips.
@@ -33,6 +34,7 @@ CYCLE = np.dtype(
         ("stretches", "i8"),
         ("events", "i8"),
         ("overflow", "i8"),  # 1: more pieces or stretches than there is room for
+        ("no_equilibrium", "i8"),  # 1: there is no cycle
         ("gross_slip", "i8"),
         ("lift_off", "i8"),
         ("any_slip", "i8"),
@@ -261,7 +263,9 @@ def solve_cycle(C, L):
     C.pieces, C.stretches, C.overflow = 0, 0, 0
     T = C.event
     m = turning_points(L, T)
-    C.events = m
+    C.events, C.no_equilibrium = m, out_of_equilibrium(L, T, m)
+    if C.no_equilibrium:
+        return
     first, top = first_diagram(C, L, T, m)
     for step in range(m - 1):
         e = (first + step) % (m - 1)
@@ -278,16 +282,13 @@ def solve_cycle(C, L):
             top = grow(C, L, top, begin, end)
         elif -dn > abs(dv):
             top = unload(C, L, top, begin, end)
-        elif dn == 0.0 and dv == 0.0:
-            continue
+        elif dn == 0.0 and dv == 0.0:  # nothing moves but perhaps the bulk stress
+            add_stretch(C, begin, end, top, STICK, n, n, n, n)
         else:
             push = ALPHA if dv > 0.0 else BETA
             top, t, caught = slip(C, L, top, push, begin, end)
             if caught:
                 top = unload(C, L, top, t, end)
-    if C.stretches == 0:  # nothing moves
-        n = load_at(L, 0.0)[0]
-        add_stretch(C, 0.0, L.period, top, STICK, n, n, n, n)
     mark_used(C)
 
 
