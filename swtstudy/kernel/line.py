@@ -69,6 +69,7 @@ SEARCH = np.dtype(
         ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
         ("piece", "f8", (MAX_INTERVALS, 2)),  # ends of the piece
         ("beside", "f8", (MAX_INTERVALS, 2)),  # lengths of the pieces beside it
+        ("rise", "f8", (MAX_INTERVALS,)),  # among many cusps: relative, over the root of the length
         ("cusps", "i8", (MAX_INTERVALS, 2)),  # a group of pieces: its first and last cusp; 0, 0 if it is none
         ("at_ends", "f8", (MAX_INTERVALS, 2, 2)),  # values at both ends, on both sides
         ("upper", "i8", (MAX_INTERVALS,)),  # 1: the upper half of what was halved
@@ -84,8 +85,9 @@ ROUNDS = 12
 ASKED = np.bool_(True)
 #: With more cusps than this, pieces are looked at in groups first, so many, and long pieces by themselves.
 CROWD, GROUPS, LONG = 100, 48, 0.02
-#: Values within a width w of such cusps, spread over d, are higher than at its ends by this times √(w/d).
-RISE = 4.0
+#: Values within a width w of such cusps, spread over d, are higher than at its ends by this times √(w/d) at
+#: most. Less where less is seen in a group: so many times of what is, and this share of the group's own.
+RISE, RISE_SAFETY, RISE_MEMORY = 4.0, 4.0, 0.5
 #: Largest ratio of the lengths of two pieces beside each other, where it matters.
 GRADED = 50.0
 #: A position whose bound over planes is below this share of what is near the best is not looked at closer.
@@ -297,7 +299,7 @@ def set_piece(S, k, left, right, Q):
     S.upper[k] = 0
     trust = Q.trust
     if S.crowd > 0.0:  # roots of distances within the piece
-        trust *= min(1.0, RISE * sqrt((right - left) / S.crowd))
+        trust *= min(1.0, S.rise[k] * sqrt((right - left) / S.crowd))
     for side in range(2):
         S.drop[k, side] = trust * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])
     set_bound(S, k)
@@ -341,7 +343,7 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
                 S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = S.at_ends[k, end, side], S.value[side]
                 S.at_ends[k, end, side] = S.value[side]
             S.beside[m, end], S.beside[m, 1 - end], S.beside[k, end] = S.beside[k, end], length - step, step
-            S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = S.unseen[k], 0, 0
+            S.unseen[m], S.cusps[m, 0], S.cusps[m, 1], S.rise[m] = S.unseen[k], 0, 0, S.rise[k]
             set_piece(S, m, x if end else outer, outer if end else x, Q)
             set_piece(S, k, S.piece[k, 0] if end else x, x if end else S.piece[k, 1], Q)
             m += 1
@@ -359,11 +361,18 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m):
     limit = S.best * (1.0 + Q.line)
     plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
     evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[middle], plus, minus)
+    left, right, seen = S.piece[k, 0], S.piece[k, 1], 0.0
+    share = (S.cusp[middle] - left) / (right - left)
     for side in range(2):
-        if not (plus if side == 0 else minus):  # nothing here can matter
+        f1, f2, f = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.value[side]
+        if plus if side == 0 else minus:
+            seen = max(seen, abs(f - f1 - share * (f2 - f1)) / max(f1, f2, f))
+        else:  # nothing here can matter
             S.at_ends[k, 0, side], S.at_ends[k, 1, side] = 0.0, 0.0
         S.at_ends[m, 0, side], S.at_ends[m, 1, side] = S.value[side], S.at_ends[k, 1, side]
         S.at_ends[k, 1, side] = S.value[side]
+    seen *= RISE_SAFETY * sqrt(S.crowd / (right - left))
+    S.rise[k] = S.rise[m] = min(max(seen, RISE_MEMORY * S.rise[k]), RISE)
     set_group(S, k, first, middle, cusps, L, Q, smallest, largest)
     set_group(S, m, middle, last, cusps, L, Q, smallest, largest)
     upper = m
@@ -392,6 +401,7 @@ def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
         if after > 0:
             S.at_ends[m, 0, 0], S.at_ends[m, 0, 1] = S.value[0], S.value[1]
             S.at_ends[m, 1, 0], S.at_ends[m, 1, 1] = plus, minus
+            S.rise[m] = RISE
             set_group(S, m, j, after, cusps, L, Q, smallest, largest)
             m += 1
         after, plus, minus = j, S.value[0], S.value[1]
