@@ -101,17 +101,16 @@ def solve_one(point: truth.Point, rtol: float) -> np.void:
     forces = "tangential_force_amplitude" in given
     kind = "_force" if forces else ""
     normal, tangential = (given[f"{which}{kind}_amplitude"] for which in ("normal", "tangential"))
-    load: dict[str, object] = {}
-    if isinstance(given.get("load"), swtstudy.LoadPath):
-        path = np.array(given["load"].vertices)
-        load["loops"] = [(1.0 + normal * path[:, 0], tangential * path[:, 1])]
+    load: dict[str, object] = {"normal_amplitude": [normal], "tangential_amplitude": [tangential]}
+    if "load" in given:
+        load["loops"] = [given["load"]]
     else:
-        load = {"normal_amplitude": [normal], "tangential_amplitude": [tangential]}
         load |= {"frequency_ratio": [given.get("frequency_ratio", 1)], "phase": [given.get("phase", 0.0)]}
     shape = {name: [given[name]] for name in SHAPES if name in given}
     body = given["poisson_ratio"], given["friction"]
     name = given.get("profile", "paraboloid")
-    return solve_batch(name, *([x] for x in body), shape=shape, in_force=forces, rtol=rtol, **load)[0]
+    control = forces, forces
+    return solve_batch(name, *([x] for x in body), shape=shape, control=control, rtol=rtol, **load)[0]
 
 
 def times(figures: tuple[str, ...]) -> None:

@@ -8,9 +8,10 @@ import numpy as np
 
 from swtstudy.kernel import profile
 from swtstudy.kernel.compiled import new_records
+from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
-from swtstudy.kernel.loads import bimodal, polygon
+from swtstudy.kernel.loads import load_of
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 
@@ -64,7 +65,7 @@ def solve_batch(
     phase=None,
     loops=None,
     shape=None,
-    in_force=False,
+    control=(False, False),
     bulk_amplitude=None,
     bulk_mean=None,
     bulk_phase=None,
@@ -82,15 +83,15 @@ def solve_batch(
     poisson_ratio, friction
         Shape (n,).
     normal_amplitude, tangential_amplitude, phase
-        Shape (n,): δ_A/δ0 and G*u_A/(μE*δ0), or F_A/F_0 and Q_A/(μF_0); rad. None under loops.
+        Shape (n,): δ_A/δ0 and G*u_A/(μE*δ0), or F_A/F_0 and Q_A/(μF_0); rad. Phases are 0 if None.
     frequency_ratio
-        n fractions ω2/ω1.
+        n fractions ω2/ω1; 1 if None.
     loops
-        n pairs of arrays: normal and tangential load at the vertices; or three, with the bulk stress.
+        n loops of the package, or None for two sines.
     shape
         Arrays of shape (n,) by name.
-    in_force
-        Whether forces are prescribed; else displacements.
+    control
+        Whether the normal and the tangential load are forces; else displacements.
     bulk_amplitude, bulk_mean, bulk_phase
         Shape (n,): bulk stress in E* δ0/a_H, and its phase against the tangential load in rad; 0 if None.
     criterion
@@ -108,35 +109,44 @@ def solve_batch(
     n = len(poisson_ratio)
     out = new_records(n, RESULT)
     zero = np.zeros(n)
+    angle = zero if phase is None else phase
     bulk = [zero if each is None else each for each in (bulk_amplitude, bulk_mean, bulk_phase)]
     exponent = zero + 0.5 if walker_exponent is None else walker_exponent
     sensitivity = zero if normal_sensitivity is None else normal_sensitivity
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
-        loads, asks, which = (
-            new_records(len(rows), LOAD),
-            new_records(len(rows), ASK),
-            np.zeros(len(rows), np.int64),
-        )
-        needed = {}
+        loads, asks = new_records(len(rows), LOAD), new_records(len(rows), ASK)
+        keys = []
         for j, i in enumerate(rows):
-            if loops is not None:
-                loads[j], largest = polygon(*loops[i]), float(np.max(loops[i][0]))
-            else:
-                ratio = Fraction(frequency_ratio[i])
-                own = normal_amplitude[i], ratio, tangential_amplitude[i], phase[i]
-                loads[j] = bimodal(*own, *(each[i] for each in bulk))
-                largest = 1.0 + normal_amplitude[i]
+            loop = None if loops is None else loops[i]
+            ratio = Fraction(1 if frequency_ratio is None else frequency_ratio[i])
+            own = normal_amplitude[i], tangential_amplitude[i], angle[i], ratio
+            loads[j] = load_of(loop, *own, *(each[i] for each in bulk))
             own = criterion, exponent[i], sensitivity[i]
             asks[j] = ask(poisson_ratio[i], friction[i], rtol, *own)
-            key = tuple((key, float(values[i])) for key, values in (shape or {}).items())
-            which[j], before = needed.get(key, (len(needed), 0.0))
-            needed[key] = which[j], max(before, largest)
-        profiles = new_records(len(needed), PROFILE)
-        for key, (k, largest) in needed.items():
-            profiles[k] = profile_record(name, dict(key), in_force, largest, rtol)
+            keys.append(tuple((key, float(values[i])) for key, values in (shape or {}).items()))
+        largest = dict.fromkeys(keys, 1.0)
+        given = dict.fromkeys(keys)
+        if control[0] != control[1]:
+            _raise_to(largest, keys, loads)
+            given = {key: profile_record(name, dict(key), control[0], largest[key], rtol) for key in largest}
+        for j, key in enumerate(keys):
+            prescribe(loads[j], control, given[key])
+        largest = dict.fromkeys(keys, 0.0)
+        _raise_to(largest, keys, loads)
+        profiles = new_records(len(largest), PROFILE)
+        for k, key in enumerate(largest):
+            profiles[k] = profile_record(name, dict(key), control[1], largest[key], rtol)
+        number = {key: k for k, key in enumerate(largest)}
+        which = np.array([number[key] for key in keys])
         solve_points(*_workspace(), profiles, which, loads, asks, out[first : first + len(rows)])
     return out
+
+
+def _raise_to(largest, keys, loads):
+    """Raise the largest normal load of each profile to those of its loads."""
+    for key, load in zip(keys, loads, strict=True):
+        largest[key] = max(largest[key], float(load["normal_range"][1]))
 
 
 def _workspace():

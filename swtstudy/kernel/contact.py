@@ -8,7 +8,9 @@ The spring at coordinate G has the offset o = u - τ, the displacement at which 
 so that α pushes o up where one way slips, β pushes it down where the other way slips, and new ground gets
 o = v. At each instant the diagram o(G) is a stack of few pieces from the centre to the edge G = n:
 
-    CONSTANT  o           UP  α_k + G           DOWN  β_k - G           GROWN  v(t′) with n(t′) = G
+    LINE  o = level + slope · G: slope 0 without slip, 1 along α_k + G, -1 along β_k - G, dv/dn where both
+          loads grew in proportion
+    GROWN o = v(t′) with n(t′) = G
 
 Each piece knows the piece beneath it, so that one tree of pieces holds the diagrams of all instants. Between
 events the state is smooth: a stretch of time in which the edge moves, and perhaps one slip front.
@@ -18,11 +20,14 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit
-from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at, turning_points
+from swtstudy.kernel.events import out_of_equilibrium, turning_points
+from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at
 
-CONSTANT, UP, DOWN, GROWN = 0, 1, 2, 3
+LINE, GROWN = 0, 1
 #: No piece: beneath the lowest one, and where the whole contact slips.
 NONE = -1
+#: Slopes of pieces.
+FLAT, ALONG_ALPHA, ALONG_BETA = np.array([0.0, 1.0, -1.0])
 #: What pushes the springs in a stretch: α, β, nothing (stick), or no contact.
 ALPHA, STICK, BETA, OPEN = 1, 0, -1, 2
 
@@ -33,6 +38,7 @@ CYCLE = np.dtype(
         ("stretches", "i8"),
         ("events", "i8"),
         ("overflow", "i8"),  # 1: more pieces or stretches than there is room for
+        ("no_equilibrium", "i8"),  # 1: there is no cycle
         ("gross_slip", "i8"),
         ("lift_off", "i8"),
         ("any_slip", "i8"),
@@ -42,7 +48,8 @@ CYCLE = np.dtype(
         ("beneath", "i8", (MAX_PIECES,)),
         ("kind", "i8", (MAX_PIECES,)),
         ("used", "i8", (MAX_PIECES,)),  # 1: in the diagram at some instant of the cycle
-        ("level", "f8", (MAX_PIECES,)),  # o, α_k or β_k
+        ("level", "f8", (MAX_PIECES,)),  # of a LINE
+        ("slope", "f8", (MAX_PIECES,)),  # of a LINE, else 0
         ("born", "f8", (MAX_PIECES, 2)),  # GROWN: the time it grew in
         ("start", "f8", (MAX_PIECES,)),  # coordinate of the lower end
         ("start_s", "f8", (MAX_PIECES,)),  # its place on the profile
@@ -65,10 +72,9 @@ SHORTEST = 1e-13
 @jit
 def offset(C, L, i, G):
     """o(G) on piece i."""
-    kind = C.kind[i]
-    if kind == GROWN:
+    if C.kind[i] == GROWN:
         return load_at(L, instant_of(L, NORMAL, G, C.born[i, 0], C.born[i, 1]))[1]
-    return C.level[i] + (G if kind == UP else -G if kind == DOWN else 0.0)
+    return C.level[i] + C.slope[i] * G
 
 
 @jit
@@ -77,28 +83,26 @@ def front_on(C, L, i, push, level, top):
 
     On a GROWN piece o - G was α, and o + G was β, when the ground at G touched.
     """
-    kind = C.kind[i]
-    if kind == CONSTANT:
-        G = push * (C.level[i] - level)
-    elif kind == GROWN:
+    if C.kind[i] == GROWN:
         which = DIFFERENCE if push == ALPHA else SUM
         G = load_at(L, instant_of(L, which, level, C.born[i, 0], C.born[i, 1]))[0]
-    elif (kind == DOWN) == (push == ALPHA):
-        G = 0.5 * push * (C.level[i] - level)
+    elif C.slope[i] != push:
+        G = (level - C.level[i]) / (C.slope[i] - push)
     else:
         G = top  # the whole piece slips at once, when its level is reached
     return min(max(G, C.start[i]), top)
 
 
 @jit
-def add_piece(C, beneath, kind, level, start):
-    """Index of a new piece."""
+def add_piece(C, beneath, slope, level, start):
+    """Index of a new piece, a LINE."""
     i = C.pieces
     if i + 1 >= MAX_PIECES:
         C.overflow = 1
         return i
     C.pieces += 1
-    C.beneath[i], C.kind[i], C.level[i], C.start[i], C.used[i] = beneath, kind, level, start, 0
+    C.beneath[i], C.kind[i], C.level[i], C.slope[i] = beneath, LINE, level, slope
+    C.start[i], C.used[i] = start, 0
     return i
 
 
@@ -128,32 +132,38 @@ def first_diagram(C, L, T, m):
     for i in range(m - 1):
         n, v = load_at(L, T[i])
         if load_at(L, 0.5 * (T[i] + T[i + 1]))[0] < 0.0:
-            return i, add_piece(C, NONE, CONSTANT, v, 0.0)
+            return i, add_piece(C, NONE, FLAT, v, 0.0)
         if v - n > alpha_max:
             alpha_max, largest = v - n, i
         beta_min = min(beta_min, v + n)
     if alpha_max >= beta_min:  # gross slip
-        return largest, add_piece(C, NONE, UP, alpha_max, 0.0)
+        return largest, add_piece(C, NONE, ALONG_ALPHA, alpha_max, 0.0)
     n = load_at(L, T[largest])[0]
     top, start = NONE, 0.0
     if beta_min < 0.0:  # at the centre o = β_min - G
-        top, start = add_piece(C, NONE, DOWN, beta_min, 0.0), 0.5 * (beta_min - alpha_max)
+        top, start = add_piece(C, NONE, ALONG_BETA, beta_min, 0.0), 0.5 * (beta_min - alpha_max)
     elif alpha_max < 0.0:  # at the centre o = 0
-        top, start = add_piece(C, NONE, CONSTANT, 0.0, 0.0), -alpha_max
+        top, start = add_piece(C, NONE, FLAT, 0.0, 0.0), -alpha_max
         if beta_min < -alpha_max:
-            top, start = add_piece(C, top, DOWN, beta_min, beta_min), 0.5 * (beta_min - alpha_max)
+            top, start = add_piece(C, top, ALONG_BETA, beta_min, beta_min), 0.5 * (beta_min - alpha_max)
     if start < n:
-        top = add_piece(C, top, UP, alpha_max, start)
+        top = add_piece(C, top, ALONG_ALPHA, alpha_max, start)
     return largest, top
 
 
 @jit
 def grow(C, L, top, begin, end):
     """Growth in stick: new ground keeps the load at which it touched."""
-    n0, n1 = max(load_at(L, begin)[0], 0.0), load_at(L, end)[0]
+    n0, v0 = load_at(L, begin)
+    n1, v1 = load_at(L, end)
+    n0 = max(n0, 0.0)
     beneath = C.beneath[top] if C.start[top] >= n0 else top
-    top = add_piece(C, beneath, GROWN, 0.0, n0)
-    C.born[top, 0], C.born[top, 1] = begin, end
+    if L.sides > 0:
+        slope = min(max((v1 - v0) / (n1 - n0), -1.0), 1.0)
+        top = add_piece(C, beneath, slope, v0 - slope * n0, n0)
+    else:
+        top = add_piece(C, beneath, FLAT, 0.0, n0)
+        C.kind[top], C.born[top, 0], C.born[top, 1] = GROWN, begin, end
     add_stretch(C, begin, end, top, STICK, n0, n1, n0, n1)
     return top
 
@@ -174,7 +184,7 @@ def slip(C, L, top, push, begin, end):
         if top == NONE:
             if end > t:
                 add_stretch(C, t, end, NONE, push, n0, n_end[0], 0.0, 0.0)
-            return add_piece(C, NONE, UP if push == ALPHA else DOWN, level, 0.0), end, False
+            return add_piece(C, NONE, float(push), level, 0.0), end, False
         start = C.start[top]
         whole = offset(C, L, top, start) - push * start
         passes = push * (level - whole) > 0.0
@@ -201,7 +211,7 @@ def slip(C, L, top, push, begin, end):
             top = C.beneath[top]
             continue
         if n1 > G:
-            top = add_piece(C, top, UP if push == ALPHA else DOWN, level, G)
+            top = add_piece(C, top, float(push), level, G)
         return top, end, False
     return top, end, False
 
@@ -261,7 +271,9 @@ def solve_cycle(C, L):
     C.pieces, C.stretches, C.overflow = 0, 0, 0
     T = C.event
     m = turning_points(L, T)
-    C.events = m
+    C.events, C.no_equilibrium = m, out_of_equilibrium(L, T, m)
+    if C.no_equilibrium:
+        return
     first, top = first_diagram(C, L, T, m)
     for step in range(m - 1):
         e = (first + step) % (m - 1)
@@ -273,21 +285,18 @@ def solve_cycle(C, L):
         if n < 0.0:
             v_end = load_at(L, end)[1]
             add_stretch(C, begin, end, NONE, OPEN, 0.0, 0.0, 0.0, 0.0)
-            top = add_piece(C, NONE, CONSTANT, v_end, 0.0)
+            top = add_piece(C, NONE, FLAT, v_end, 0.0)
         elif dn > abs(dv):
             top = grow(C, L, top, begin, end)
         elif -dn > abs(dv):
             top = unload(C, L, top, begin, end)
-        elif dn == 0.0 and dv == 0.0:
-            continue
+        elif dn == 0.0 and dv == 0.0:  # nothing moves but perhaps the bulk stress
+            add_stretch(C, begin, end, top, STICK, n, n, n, n)
         else:
             push = ALPHA if dv > 0.0 else BETA
             top, t, caught = slip(C, L, top, push, begin, end)
             if caught:
                 top = unload(C, L, top, t, end)
-    if C.stretches == 0:  # nothing moves
-        n = load_at(L, 0.0)[0]
-        add_stretch(C, 0.0, L.period, top, STICK, n, n, n, n)
     mark_used(C)
 
 

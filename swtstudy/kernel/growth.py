@@ -46,9 +46,7 @@ def tabulate_growth(R, C, P, L, i, tolerance):
     """Panels of do/ds = (dv/dn) dG/ds of one piece, halved until the series of dv/dn has died out."""
     R.first[i] = R.panels
     begin, end = C.born[i, 0], C.born[i, 1]
-    n0, v0 = load_at(L, begin)
-    n1, v1 = load_at(L, end)
-    lowest, highest = place_of(P, n0), place_of(P, n1)
+    lowest, highest = place_of(P, load_at(L, begin)[0]), place_of(P, load_at(L, end)[0])
     waiting = np.empty((512, 2))
     slope, values, series = np.empty(ORDER), np.empty(ORDER), np.empty(ORDER)
     m = 0
@@ -63,12 +61,9 @@ def tabulate_growth(R, C, P, L, i, tolerance):
         t = begin
         for j in range(ORDER - 1, -1, -1):
             s = a + 0.5 * (b - a) * (GAUSS[j] + 1.0)
-            if L.sides > 0:
-                slope[j] = (v1 - v0) / (n1 - n0)
-            else:
-                t = instant_of(L, NORMAL, coordinate_at(P, s), t, end)
-                n, v, dn, dv, ddn, ddv = rates_at(L, t)
-                slope[j] = min(max(dv / dn, -1.0), 1.0) if dn > 0.0 else 0.0
+            t = instant_of(L, NORMAL, coordinate_at(P, s), t, end)
+            n, v, dn, dv, ddn, ddv = rates_at(L, t)
+            slope[j] = min(max(dv / dn, -1.0), 1.0) if dn > 0.0 else 0.0
             values[j] = slope[j] * density_at(P, s)
         fit(slope, series)
         rough = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) > tolerance

@@ -11,7 +11,7 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO
 from swtstudy.kernel.compiled import jit
-from swtstudy.kernel.contact import ALPHA, DOWN, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, UP, offset
+from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, offset
 from swtstudy.kernel.growth import places_at
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import force_at
@@ -22,6 +22,8 @@ MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
 #: Row and panel of the profile in the tables at x; no literal, for which Numba would compile anew.
 FIRST = np.int64(0)
 COARSEST = np.int64(4)
+#: A short side of a polygon moves edge and front by at most this share of the contact.
+SHORT = 0.05
 #: Widths of the slip zone within which a passage has a part of its own.
 NARROW = 30.0
 #: Instants are kept free for one round of doubled parts.
@@ -79,9 +81,7 @@ def functionals(P, K, s, H):
 @jit
 def slope_of(C, i):
     """do/dG of a piece that did not grow."""
-    if i == NONE or C.kind[i] == GROWN:
-        return 0.0
-    return 1.0 if C.kind[i] == UP else -1.0 if C.kind[i] == DOWN else 0.0
+    return 0.0 if i == NONE else C.slope[i]
 
 
 @jit
@@ -167,8 +167,8 @@ def sample(H, z, intervals, C, P, L, K, nu, mu):
     m = H.instants
     step = FINEST // intervals
     for j in range(intervals + 1):
-        if known > 0 and 2 * (j // 2) == j:
-            i = old + j // 2
+        if known > 0 and j * known % intervals == 0:
+            i = old + j * known // intervals
             sign = -1.0 if H.mirror[z] else 1.0
             H.p[m + j], H.within[m + j] = H.p[i], H.within[i]
             H.xx[m + j], H.yy[m + j], H.q[m + j] = sign * H.xx[i], sign * H.yy[i], sign * H.q[i]
@@ -200,8 +200,39 @@ def flip(H, a, b, to):
 
 @jit
 def refine(H, z, C, P, L, K, nu, mu):
-    """Double the intervals of part z."""
-    sample(H, z, 2 * H.intervals[z], C, P, L, K, nu, mu)
+    """Double the intervals of part z, or give it some if only its ends are known."""
+    sample(H, z, max(2 * H.intervals[z], COARSEST), C, P, L, K, nu, mu)
+
+
+@jit
+def is_calm(H, C, L, k):
+    """Whether stretch k is short, on a straight side, and neither its edge nor its front passes x.
+
+    Then stresses are next to monotone, and its ends tell how much higher they can be.
+    """
+    if L.sides == 0 or C.push[k] == OPEN:
+        return False
+    e0, e1, f0, f1 = C.edge[k, 0] - H.G, C.edge[k, 1] - H.G, C.front[k, 0] - H.G, C.front[k, 1] - H.G
+    moved = max(abs(e1 - e0), abs(f1 - f0))
+    return moved <= SHORT * C.largest and e0 * e1 > 0.0 and (f0 * f1 > 0.0 or C.push[k] == STICK)
+
+
+@jit
+def sample_ends(H, C, P, L, K, k, nu, mu):
+    """A part for stretch k of which only the ends are sampled; they are shared with the part before."""
+    edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
+    edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
+    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.G, C.front[k, 0], C.front[k, 1])
+    z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
+    m = H.instants
+    if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
+        m -= 1
+    else:
+        stress(H, m, C, P, K, k, edge, front, nu, mu)
+        H.bulk[m] = bulk_at(L, C.time[k, 0])
+    stress(H, m + 1, C, P, K, k, edge_end, front_end, nu, mu)
+    H.bulk[m + 1] = bulk_at(L, C.time[k, 1])
+    H.first[z], H.intervals[z], H.instants = m, 1, m + 2
 
 
 @jit
@@ -294,6 +325,9 @@ def sample_cycle(H, C, R, P, K, L, place, G, largest, nu, mu):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             C.overflow = 1
             return
+        if is_calm(H, C, L, k):
+            sample_ends(H, C, P, L, K, k, nu, mu)
+            continue
         before = H.parts
         split(H, C, P, L, k)
         for z in range(before, H.parts):

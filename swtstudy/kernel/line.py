@@ -59,6 +59,7 @@ SEARCH = np.dtype(
         ("cusp", "f8", (4 * MAX_STRETCHES,)),
         ("positions", "i8"),  # that have been evaluated
         ("singular", "i8"),  # 1: the face's edge is singular
+        ("crowd", "f8"),  # length over which many cusps are spread; 0 if there are few
         ("best", "f8"),
         ("place", "f8"),  # s there
         ("sign", "f8"),  # of x
@@ -68,6 +69,8 @@ SEARCH = np.dtype(
         ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
         ("piece", "f8", (MAX_INTERVALS, 2)),  # ends of the piece
         ("beside", "f8", (MAX_INTERVALS, 2)),  # lengths of the pieces beside it
+        ("rise", "f8", (MAX_INTERVALS,)),  # among many cusps: relative, over the root of the length
+        ("cusps", "i8", (MAX_INTERVALS, 2)),  # a group of pieces: its first and last cusp; 0, 0 if it is none
         ("at_ends", "f8", (MAX_INTERVALS, 2, 2)),  # values at both ends, on both sides
         ("upper", "i8", (MAX_INTERVALS,)),  # 1: the upper half of what was halved
         ("unseen", "i8", (MAX_INTERVALS,)),  # 1: a piece on which the growth may turn, without a value within
@@ -80,6 +83,11 @@ SEARCH = np.dtype(
 ROUNDS = 12
 #: A side that is asked for; no literal, for which Numba would compile anew.
 ASKED = np.bool_(True)
+#: With more cusps than this, pieces are looked at in groups first, so many, and long pieces by themselves.
+CROWD, GROUPS, LONG = 100, 48, 0.02
+#: Values within a width w of such cusps, spread over d, are higher than at its ends by this times √(w/d) at
+#: most. Less where less is seen in a group: so many times of what is, and this share of the group's own.
+RISE, RISE_SAFETY, RISE_MEMORY = 4.0, 4.0, 0.5
 #: Largest ratio of the lengths of two pieces beside each other, where it matters.
 GRADED = 50.0
 #: Positions whose value is lower than the best by no more than this share are looked at most closely.
@@ -263,11 +271,20 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
 
 
 @jit
+def bound_of(S, k, side):
+    """Bound of interval k on one side."""
+    f1, f2, drop = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.drop[k, side]
+    if S.unseen[k]:
+        return 1e300
+    if S.crowd > 0.0 and S.ends[k, 1] - S.ends[k, 0] > 3.0:
+        return max(f1, f2) + 0.125 * drop
+    return above(f1, f2, drop)
+
+
+@jit
 def set_bound(S, k):
     """Bound of interval k over both sides."""
-    plus = above(S.at_ends[k, 0, 0], S.at_ends[k, 1, 0], S.drop[k, 0])
-    minus = above(S.at_ends[k, 0, 1], S.at_ends[k, 1, 1], S.drop[k, 1])
-    S.bound[k] = 1e300 if S.unseen[k] else max(plus, minus)
+    S.bound[k] = max(bound_of(S, k, 0), bound_of(S, k, 1))
 
 
 @jit
@@ -284,20 +301,39 @@ def position(S, k, angle):
 def set_piece(S, k, left, right, Q):
     """Make interval k a whole piece from left to right, between whose values the trust is a bound."""
     S.piece[k, 0], S.piece[k, 1], S.ends[k, 0], S.ends[k, 1] = left, right, 0.0, pi
+    S.upper[k] = 0
+    trust = Q.trust
+    if S.crowd > 0.0:  # roots of distances within the piece
+        trust *= min(1.0, S.rise[k] * sqrt((right - left) / S.crowd))
     for side in range(2):
-        S.drop[k, side] = Q.trust * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])
+        S.drop[k, side] = trust * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])
     set_bound(S, k)
 
 
 @jit
-def grade(S, H, W, C, R, P, K, L, Q, largest, m):
-    """Cut pieces beside much shorter ones, where the value may be the largest; returns their number.
+def set_group(S, k, first, last, cusps, L, Q, smallest, largest):
+    """Make interval k the pieces between two cusps: a group, or a piece if there is but one."""
+    left, right = S.cusp[first], S.cusp[last]
+    S.cusps[k, 0], S.cusps[k, 1] = (first, last) if last > first + 1 else (0, 0)
+    S.unseen[k] = 0
+    if last == first + 1:
+        inside = left >= smallest * (1.0 - 1e-9) and right <= largest * (1.0 + 1e-9)
+        S.unseen[k] = L.sides == 0 and inside and right - left > Q.narrow * largest
+        S.beside[k, 0] = left - S.cusp[first - 1] if first > 0 else right - left
+        S.beside[k, 1] = S.cusp[last + 1] - right if last < cusps else right
+    set_piece(S, k, left, right, Q)
+
+
+@jit
+def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
+    """Cut interval k beside much shorter pieces, where the value may be the largest; returns their number.
 
     The cusps at the other end of a short piece are close to this one, too. A piece that is at most GRADED
-    times as long as its neighbour has them at some distance, in its angle.
+    times as long as its neighbour has them at some distance, in its angle. Of m intervals, new ones are the
+    last.
     """
-    k = 0
-    while k < m and m + 1 < MAX_INTERVALS:
+    new = m
+    while k < m and m + 1 < MAX_INTERVALS and S.cusps[k, 1] == 0:
         cut = False
         for end in range(2):
             length = S.piece[k, 1] - S.piece[k, 0]
@@ -312,13 +348,70 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, m):
                 S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = S.at_ends[k, end, side], S.value[side]
                 S.at_ends[k, end, side] = S.value[side]
             S.beside[m, end], S.beside[m, 1 - end], S.beside[k, end] = S.beside[k, end], length - step, step
-            S.unseen[m] = S.unseen[k]
+            S.unseen[m], S.cusps[m, 0], S.cusps[m, 1], S.rise[m] = S.unseen[k], 0, 0, S.rise[k]
             set_piece(S, m, x if end else outer, outer if end else x, Q)
             set_piece(S, k, S.piece[k, 0] if end else x, x if end else S.piece[k, 1], Q)
             m += 1
             cut = True
         if not cut:
+            k = max(k + 1, new)
+    return m
+
+
+@jit
+def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m):
+    """Divide the group of pieces k at its middle cusp; returns the number of intervals."""
+    first, last = S.cusps[k, 0], S.cusps[k, 1]
+    middle = (first + last) // 2
+    limit = S.best * (1.0 + Q.line)
+    plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
+    evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[middle], plus, minus)
+    left, right, seen = S.piece[k, 0], S.piece[k, 1], 0.0
+    share = (S.cusp[middle] - left) / (right - left)
+    for side in range(2):
+        f1, f2, f = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.value[side]
+        if plus if side == 0 else minus:
+            seen = max(seen, abs(f - f1 - share * (f2 - f1)) / max(f1, f2, f))
+        else:  # nothing here can matter
+            S.at_ends[k, 0, side], S.at_ends[k, 1, side] = 0.0, 0.0
+        S.at_ends[m, 0, side], S.at_ends[m, 1, side] = S.value[side], S.at_ends[k, 1, side]
+        S.at_ends[k, 1, side] = S.value[side]
+    seen *= RISE_SAFETY * sqrt(S.crowd / (right - left))
+    S.rise[k] = S.rise[m] = min(max(seen, RISE_MEMORY * S.rise[k]), RISE)
+    set_group(S, k, first, middle, cusps, L, Q, smallest, largest)
+    set_group(S, m, middle, last, cusps, L, Q, smallest, largest)
+    upper = m
+    m = grade(S, H, W, C, R, P, K, L, Q, largest, k, m + 1)
+    return grade(S, H, W, C, R, P, K, L, Q, largest, upper, m)
+
+
+@jit
+def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
+    """Evaluate cusps and make intervals of the pieces between them, and groups if there are many.
+
+    Returns the number of intervals.
+    """
+    S.crowd, step = 0.0, 1
+    if cusps > CROWD:
+        k = 0
+        while S.cusp[k] < 0.5 * smallest:
             k += 1
+        S.crowd, step = max(largest - S.cusp[k], 1e-6 * largest), max(cusps // GROUPS, 1)
+    m, after, plus, minus = 0, -1, 0.0, 0.0
+    for j in range(cusps, -1, -1):  # the largest values are near the edges
+        gap = max(S.cusp[min(j + 1, cusps)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
+        if not (j % step == 0 or j == cusps or gap > LONG * largest):
+            continue
+        evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[j], ASKED, ASKED)
+        if after > 0:
+            S.at_ends[m, 0, 0], S.at_ends[m, 0, 1] = S.value[0], S.value[1]
+            S.at_ends[m, 1, 0], S.at_ends[m, 1, 1] = plus, minus
+            S.rise[m] = RISE
+            set_group(S, m, j, after, cusps, L, Q, smallest, largest)
+            m += 1
+        after, plus, minus = j, S.value[0], S.value[1]
+    for k in range(m):
+        m = grade(S, H, W, C, R, P, K, L, Q, largest, k, m)
     return m
 
 
@@ -326,24 +419,11 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, m):
 def search_line(S, H, W, C, R, P, K, L, Q):
     """Find the largest swt on the line; returns by how much a higher one may be hidden."""
     largest = place_of(P, C.largest)
-    m = cusps(S, C, P, L, Q, largest) - 1
+    cusp_count = cusps(S, C, P, L, Q, largest) - 1
     smallest = place_of(P, C.smallest)
     S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
-    for j in range(m, -1, -1):  # the largest values are near the edges
-        evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[j], ASKED, ASKED)
-        for side in range(2):
-            S.at_ends[j, 0, side] = S.value[side]
-            if j > 0:
-                S.at_ends[j - 1, 1, side] = S.value[side]
-    for j in range(m):
-        left, right = S.cusp[j], S.cusp[j + 1]
-        inside = left >= smallest * (1.0 - 1e-9) and right <= largest * (1.0 + 1e-9)
-        S.unseen[j] = inside and right - left > Q.narrow * largest
-        S.beside[j, 0] = left - S.cusp[j - 1] if j > 0 else right - left
-        S.beside[j, 1] = S.cusp[j + 2] - right if j + 1 < m else right
-        set_piece(S, j, left, right, Q)
-    m = grade(S, H, W, C, R, P, K, L, Q, largest, m)
+    m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
     gap = 0.0
     while True:
         k = FIRST
@@ -353,8 +433,11 @@ def search_line(S, H, W, C, R, P, K, L, Q):
         gap = S.bound[k] - S.best
         if gap <= Q.line * S.best or m + 2 > MAX_INTERVALS or S.positions > 20_000:
             break
-        halve(S, H, W, C, R, P, K, L, Q, largest, k, m)
-        m += 1
+        if S.cusps[k, 1] > 0:
+            m = divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m)
+        else:
+            halve(S, H, W, C, R, P, K, L, Q, largest, k, m)
+            m += 1
     return max(gap, 0.0)
 
 
@@ -368,12 +451,11 @@ def halve(S, H, W, C, R, P, K, L, Q, largest, k, m):
     middle = 0.5 * (S.ends[k, 0] + S.ends[k, 1])
     whole = S.ends[k, 1] - S.ends[k, 0] > 3.0
     limit = S.best * (1.0 + Q.line)
-    plus = S.unseen[k] > 0 or above(S.at_ends[k, 0, 0], S.at_ends[k, 1, 0], S.drop[k, 0]) > limit
-    minus = S.unseen[k] > 0 or above(S.at_ends[k, 0, 1], S.at_ends[k, 1, 1], S.drop[k, 1]) > limit
+    plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
     evaluate(S, H, W, C, R, P, K, L, Q, largest, position(S, k, middle), plus, minus)
     S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]
     S.ends[m, 0], S.ends[m, 1], S.ends[k, 1] = middle, S.ends[k, 1], middle
-    S.unseen[k] = S.unseen[m] = 0
+    S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = 0, 0, 0, 0
     upper = S.upper[k]
     S.upper[k], S.upper[m] = 0, 1
     for side in range(2):

@@ -2,14 +2,17 @@
 
 The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the tangential load v a
 displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
-(`swtstudy.kernel.contact`). A bulk stress B may go with them, of which the contact knows nothing. Time runs
-over [0, period): 2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
+(`swtstudy.kernel.contact`). If one of both is a displacement and the other one a force, the harmonics are
+those of the prescribed normal load, and n is what it is in the kind of the tangential load, a function of
+the profile. A bulk stress B may go with them, of which the contact knows nothing. Time runs over [0, period):
+2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
 """
 
 from math import cos, sin, sqrt
 
 import numpy as np
 
+from swtstudy.kernel.chebyshev import panel_of
 from swtstudy.kernel.compiled import jit
 
 #: The four functions of time: n, v, α = v - n, β = v + n.
@@ -17,7 +20,12 @@ NORMAL, TANGENTIAL, DIFFERENCE, SUM = np.arange(4)
 #: Components of a load: n, v, B.
 BULK = 2
 
-MAX_HARMONICS, MAX_VERTICES = 64, 2001
+#: How a normal load becomes a coordinate of the diagram: it is one, by a power law, by series on panels.
+UNMAPPED, BY_POWER, BY_SERIES = np.arange(3)
+#: Smaller normal loads are mapped in proportion: a power law has derivatives without bounds at 0.
+LEAST = 1e-12
+
+MAX_HARMONICS, MAX_VERTICES, MAX_MAP, MAP_ORDER = 64, 2001, 509, 18
 LOAD = np.dtype(
     [
         ("sides", "i8"),  # of a polygon; 0 for harmonics
@@ -27,18 +35,23 @@ LOAD = np.dtype(
         ("bulk_moves", "i8"),  # 1: B changes
         ("bulk_turns", "i8"),  # 1: so much faster than n and v that its turning points are events
         ("bulk_range", "f8", (2,)),  # smallest and largest B
+        ("normal_range", "f8", (2,)),  # and n
         ("period", "f8"),
         ("rest", "f8", (3,)),  # mean of n, v and B
         ("order", "i8", (MAX_HARMONICS,)),
         ("cosine", "f8", (3, MAX_HARMONICS)),
         ("sine", "f8", (3, MAX_HARMONICS)),
         ("vertex", "f8", (3, MAX_VERTICES)),  # of n, v and B; the first one once more at the end
+        ("normal_force", "i8"),  # 1: the normal load is a force
+        ("tangential_force", "i8"),
+        ("map", "i8"),  # how n follows from the harmonics: UNMAPPED, BY_POWER or BY_SERIES
+        ("waves", "f8"),  # half waves of the profile that the edge passes
+        ("map_power", "f8"),
+        ("map_panels", "i8"),
+        ("map_begin", "f8", (MAX_MAP + 1,)),
+        ("map_series", "f8", (MAX_MAP, MAP_ORDER)),
     ]
 )
-#: Cells of the fastest harmonic in which turning points are searched.
-CELLS = 24
-#: Instants closer than this share of the period are one.
-SAME_INSTANT = 1e-10
 
 
 @jit
@@ -53,6 +66,33 @@ def power(c, s, k):
         c, s = c * c - s * s, 2.0 * c * s
         k >>= 1
     return x, y
+
+
+@jit
+def mapped(L, x):
+    """The diagram's normal load n of a prescribed one, and two derivatives; bodies that are apart stay so."""
+    if x <= 0.0:
+        return x, 1.0, 0.0
+    first = L.map_begin[1] if L.map == BY_SERIES else LEAST
+    if L.map == BY_POWER or x < first:
+        p = L.map_power
+        scale = 1.0
+        if L.map == BY_SERIES:  # up to the first panel
+            scale = L.map_series[0, 0] / first**p
+        elif x < first:
+            scale, p = LEAST ** (p - 1.0), 1.0
+        value = scale * x**p
+        return value, p * value / x, p * (p - 1.0) * value / (x * x)
+    k = panel_of(L.map_begin, np.int64(1), L.map_panels, x)
+    width = 2.0 / (L.map_begin[k + 1] - L.map_begin[k])
+    y = (x - L.map_begin[k]) * width - 1.0
+    b1, b2, d1, d2, e1, e2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for i in range(MAP_ORDER - 1, 0, -1):
+        e1, e2 = 4.0 * d1 + 2.0 * y * e1 - e2, e1
+        d1, d2 = 2.0 * b1 + 2.0 * y * d1 - d2, d1
+        b1, b2 = L.map_series[k, i] + 2.0 * y * b1 - b2, b1
+    value, rate, bend = L.map_series[k, 0] + y * b1 - b2, b1 + y * d1 - d2, 2.0 * d1 + y * e1 - e2
+    return value, width * rate, width * width * bend
 
 
 @jit
@@ -72,6 +112,8 @@ def load_at(L, t):
         c, s = power(x, y, L.order[i])
         n += L.cosine[0, i] * c + L.sine[0, i] * s
         v += L.cosine[1, i] * c + L.sine[1, i] * s
+    if L.map != UNMAPPED:
+        n = mapped(L, n)[0]
     return n, v
 
 
@@ -99,6 +141,9 @@ def rates_at(L, t):
         v += term
         ddv -= k * k * term
         dv += k * (L.sine[1, i] * c - L.cosine[1, i] * s)
+    if L.map != UNMAPPED:
+        n, rate, bend = mapped(L, n)
+        dn, ddn = rate * dn, rate * ddn + bend * dn * dn
     return n, v, dn, dv, ddn, ddv
 
 
@@ -221,44 +266,6 @@ def instant_of(L, which, level, begin, end):
 
 
 @jit
-def event_function(L, which, t):
-    """Value and rate of n′, v′, α′ or β′ (which 0 to 3), of n itself (4) or of B′ (5): roots are events."""
-    if which == 5:
-        return bulk_rates(L, t)
-    n, v, dn, dv, ddn, ddv = rates_at(L, t)
-    if which == NORMAL:
-        return dn, ddn
-    if which == TANGENTIAL:
-        return dv, ddv
-    if which == DIFFERENCE:
-        return dv - dn, ddv - ddn
-    if which == SUM:
-        return dv + dn, ddv + ddn
-    return n, dn
-
-
-@jit
-def event_root(L, which, of_rate, a, b):
-    """Root of an event function, or of its rate, whose signs at a and b differ: Illinois' method."""
-    fa = event_function(L, which, a)[1 if of_rate else 0]
-    fb = event_function(L, which, b)[1 if of_rate else 0]
-    for _ in range(80):
-        if fb == 0.0 or fa == fb:
-            break
-        c = b - fb * (b - a) / (fb - fa)
-        f = event_function(L, which, c)[1 if of_rate else 0]
-        if f * fb < 0.0:
-            a, fa = b, fb
-        else:
-            fa *= 0.5
-        done = abs(c - b) < 1e-14 * (1.0 + abs(c)) or f == 0.0
-        b, fb = c, f
-        if done:
-            break
-    return b
-
-
-@jit
 def distinct(z, count, gap):
     """Sort the first values of z, drop those closer than gap to the one before; returns how many are left."""
     step = count // 2
@@ -276,68 +283,3 @@ def distinct(z, count, gap):
             z[kept] = z[i]
             kept += 1
     return kept
-
-
-@jit
-def is_constant(L, which):
-    """True if n, v, α or β is constant up to rounding; its turning points would be noise."""
-    largest, scale = 0.0, 0.0
-    for i in range(L.terms):
-        for of in (L.cosine, L.sine):
-            n, v = of[0, i], of[1, i]
-            f = (
-                n
-                if which == NORMAL
-                else v
-                if which == TANGENTIAL
-                else v - n
-                if which == DIFFERENCE
-                else v + n
-            )
-            largest = max(largest, abs(f))
-            scale = max(scale, abs(n), abs(v))
-    return largest <= 1e-14 * scale
-
-
-@jit
-def turning_points(L, out):
-    """Write the sorted instants at which n, v, α or β turn or n passes 0; returns how many.
-
-    The first one is 0 and the last one the period.
-    """
-    m = 0
-    if L.sides > 0:
-        for j in range(L.sides + 1):
-            out[m] = j
-            m += 1
-            if j < L.sides and L.vertex[0, j] * L.vertex[0, j + 1] < 0.0:
-                out[m] = j + L.vertex[0, j] / (L.vertex[0, j] - L.vertex[0, j + 1])
-                m += 1
-        return m
-    cells = CELLS * L.fastest
-    step = L.period / cells
-    out[0], out[1] = 0.0, L.period
-    m = 2
-    for which in range(6 if L.bulk_turns else 5):
-        if which < 4 and is_constant(L, which):
-            continue
-        before, rate_before = event_function(L, which, 0.0)
-        for j in range(1, cells + 1):
-            a, b = (j - 1) * step, j * step
-            now, rate = event_function(L, which, b)
-            up = now >= 0.0
-            if (before >= 0.0) != up:
-                out[m] = event_root(L, which, False, a, b)
-                m += 1
-            elif (rate_before >= 0.0) != (rate >= 0.0) and (
-                rate_before < 0.0
-            ) == up:  # perhaps two in one cell
-                c = event_root(L, which, True, a, b)
-                if (event_function(L, which, c)[0] >= 0.0) != up:
-                    out[m] = event_root(L, which, False, a, c)
-                    out[m + 1] = event_root(L, which, False, c, b)
-                    m += 2
-            before, rate_before = now, rate
-    m = distinct(out, m, SAME_INSTANT * L.period)
-    out[m - 1] = L.period
-    return m

@@ -1,9 +1,56 @@
 """Loads as records, made in Python from what is prescribed."""
 
+from functools import reduce
+from itertools import combinations
+from math import gcd
+
 import numpy as np
 
 from swtstudy.kernel.compiled import new_record
-from swtstudy.kernel.load import BULK, LOAD
+from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
+
+#: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
+SAMPLES = 32
+#: Rounding of a corner's sine, in the sizes of its products: each has two differences and a product.
+STRAIGHT = 4.0 * float(np.finfo(float).eps)
+
+
+def load_of(
+    loop,
+    normal_amplitude,
+    tangential_amplitude,
+    phase=0.0,
+    frequency_ratio=None,
+    bulk_amplitude=0.0,
+    bulk_mean=0.0,
+    bulk_phase=0.0,
+):
+    """Load of one point from its parameters.
+
+    Parameters
+    ----------
+    loop
+        A loop of the package: with ``vertices``, shape (k, 2) or (k, 3), or with ``harmonics``, rows of
+        order, amplitude and phase by component. None for two sines, which the phase ψ and the fraction
+        ω2/ω1 belong to.
+    normal_amplitude, tangential_amplitude
+        δ_A/δ0 and G*u_A/(μE*δ0), or F_A/F_0 and Q_A/(μF_0); factors of a loop.
+    bulk_amplitude, bulk_mean, bulk_phase
+        Bulk stress in E* δ0/a_H, its amplitude a factor of a loop's third component; ψ_B in rad.
+    """
+    amplitudes = normal_amplitude, tangential_amplitude, bulk_amplitude
+    if loop is None:
+        own = bulk_amplitude, bulk_mean, bulk_phase
+        return bimodal(normal_amplitude, frequency_ratio, tangential_amplitude, phase, *own)
+    if hasattr(loop, "vertices"):
+        columns = [size * column for size, column in zip(amplitudes, loop.vertices.T, strict=False)]
+        bulk = bulk_mean + columns[2] if len(columns) == 3 else np.full(len(columns[0]), bulk_mean)
+        return polygon(1.0 + columns[0], columns[1], bulk)
+    rows = [
+        [(order, size * amplitude, phase) for order, amplitude, phase in loop.harmonics.get(key, ())]
+        for size, key in zip(amplitudes, ("normal", "tangential", "bulk"), strict=True)
+    ]
+    return harmonic_sum(*rows, means=(1.0, 0.0, bulk_mean))
 
 
 def bimodal(
@@ -20,35 +67,108 @@ def bimodal(
     A bulk stress oscillates with the tangential load, B = B_m + B_A sin(pt + ψ_B).
     """
     p, q = frequency_ratio.numerator, frequency_ratio.denominator
+    own = [(q, normal_amplitude, phase)], [(p, tangential_amplitude, 0.0)], [(p, bulk_amplitude, bulk_phase)]
+    return harmonic_sum(*own, means=(1.0, 0.0, bulk_mean))
+
+
+def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
+    """Load of sums of harmonics, mean + Σ amplitude · sin(order · t + phase).
+
+    Parameters
+    ----------
+    normal, tangential, bulk
+        Rows of order, amplitude and phase of n, v and B.
+    means
+        What is added to each.
+    """
+    components = [
+        [row for row in rows if row[0] > 0 and row[1] != 0.0] for rows in (normal, tangential, bulk)
+    ]
+    moving = sorted({row[0] for rows in components for row in rows})
+    if len(moving) > MAX_HARMONICS:
+        raise ValueError(f"a load of {len(moving)} harmonics: at most {MAX_HARMONICS}")
+    common = reduce(gcd, moving, 0) or 1  # the cycle is run through so often in a period
     load = new_record(LOAD)
-    load["fastest"], load["period"] = max(p, q), 2.0 * np.pi
-    load["rest"][0] = 1.0
-    load["terms"] = 1 if p == q else 2
-    own = load["terms"] - 1
-    load["order"][:2] = q, p
-    load["cosine"][0, 0] = normal_amplitude * np.sin(phase)
-    load["sine"][0, 0] = normal_amplitude * np.cos(phase)
-    load["sine"][1, own] = tangential_amplitude
-    load["rest"][BULK] = bulk_mean
-    load["cosine"][BULK, own] = bulk_amplitude * np.sin(bulk_phase)
-    load["sine"][BULK, own] = bulk_amplitude * np.cos(bulk_phase)
-    load["bulk_range"] = bulk_mean - bulk_amplitude, bulk_mean + bulk_amplitude
-    load["bulk_moves"] = bulk_amplitude != 0.0
-    load["bulk_turns"] = bulk_amplitude != 0.0 and tangential_amplitude == 0.0
-    load["mirrored"] = q % 2 == 0 and bulk_amplitude == 0.0
+    load["period"], load["terms"] = 2.0 * np.pi, len(moving)
+    load["order"][: len(moving)] = [order // common for order in moving]
+    for component, rows in enumerate((normal, tangential, bulk)):
+        load["rest"][component] = means[component]
+        for order, amplitude, phase in rows:
+            if order == 0:
+                load["rest"][component] += amplitude * np.sin(phase)
+            elif amplitude != 0.0:
+                i = moving.index(order)
+                load["cosine"][component, i] += amplitude * np.sin(phase)
+                load["sine"][component, i] += amplitude * np.cos(phase)
+    orders = [[row[0] // common for row in rows] for rows in components]
+    fastest = max([0, *orders[0], *orders[1]])
+    load["bulk_moves"] = len(orders[2]) > 0
+    load["bulk_turns"] = max(orders[2], default=0) > fastest
+    load["fastest"] = max([1, fastest, *orders[2]])
+    even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
+    load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
+    load["normal_range"], load["bulk_range"] = _range(load, 0), _range(load, BULK)
     return load
+
+
+def _range(load, component):
+    """Smallest and largest value of one component of a sum of harmonics."""
+    count = load["terms"]
+    cosine, sine = load["cosine"][component, :count], load["sine"][component, :count]
+    size, rest = np.hypot(cosine, sine), load["rest"][component]
+    moving = np.flatnonzero(size)
+    if len(moving) < 2:
+        return rest - size.sum(), rest + size.sum()
+    order = load["order"][:count]
+    waves = np.outer(2.0 * np.pi / (SAMPLES * order.max()) * np.arange(SAMPLES * order.max()), order)
+    values = np.cos(waves) @ cosine + np.sin(waves) @ sine
+    ends = []
+    for best in (values.argmin(), values.argmax()):
+        t, value = waves[best, moving[0]] / order[moving[0]], values[best]
+        for _ in range(6):
+            of_cos, of_sin = np.cos(order * t), np.sin(order * t)
+            rate = order * (sine * of_cos - cosine * of_sin)
+            bend = order**2 * (cosine * of_cos + sine * of_sin)
+            t += rate.sum() / bend.sum() if bend.sum() else 0.0
+        found = np.cos(order * t) @ cosine + np.sin(order * t) @ sine
+        ends.append(rest + (min if best == values.argmin() else max)(value, found))
+    return ends
 
 
 def polygon(normal, tangential, bulk=None):
     """Load along a closed polygon through vertices, each of shape (k,)."""
+    bulk = np.zeros(len(normal)) if bulk is None else bulk
+    vertices = _without_collinear(np.stack([normal, tangential, bulk], axis=1).astype(float))
+    sides = len(vertices)
+    if sides >= MAX_VERTICES:
+        raise ValueError(f"a loop of {sides} vertices: at most {MAX_VERTICES - 1}")
     load = new_record(LOAD)
-    sides = len(normal)
     load["sides"], load["period"] = sides, sides
-    bulk = np.zeros(sides) if bulk is None else np.asarray(bulk, dtype=float)
-    for component, values in enumerate((normal, tangential, bulk)):
-        load["vertex"][component, :sides] = values
-        load["vertex"][component, sides] = values[0]
-    load["rest"][BULK] = bulk[0]
-    load["bulk_range"] = bulk.min(), bulk.max()
-    load["bulk_moves"] = bulk.min() < bulk.max()
+    load["vertex"][:, :sides], load["vertex"][:, sides] = vertices.T, vertices[0]
+    load["rest"] = vertices[0]
+    load["normal_range"], load["bulk_range"] = (_ends(vertices[:, component]) for component in (0, BULK))
+    load["bulk_moves"] = load["bulk_range"][0] < load["bulk_range"][1]
+    half = np.roll(vertices, -(sides // 2), axis=0) * (1.0, -1.0, 1.0)
+    load["mirrored"] = sides % 2 == 0 and not load["bulk_moves"] and np.array_equal(half, vertices)
     return load
+
+
+def _ends(values):
+    return values.min(), values.max()
+
+
+def _without_collinear(loop):
+    """A closed polygon (k, d) without repeated vertices and those on the straight line between neighbours."""
+    moves = (loop != np.roll(loop, 1, axis=0)).any(axis=1)
+    if not moves.any():
+        return loop[:1]
+    loop = loop[moves]
+    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
+    straight = np.ones(len(loop), dtype=bool)
+    for i, j in combinations(range(loop.shape[1]), 2):
+        products = before[:, i] * after[:, j], before[:, j] * after[:, i]
+        size = np.abs(products[0]) + np.abs(products[1])
+        straight &= np.abs(products[0] - products[1]) <= STRAIGHT * size
+    # A vertex at which the loop turns back stays.
+    straight &= (before * after).sum(axis=1) > 0.0
+    return loop[~straight]

@@ -155,7 +155,10 @@ def find_peaks(H, W, Q, C, S):
                 low, at_low = swing, i
         for which in range(3):
             node = at_top if which == STRESS else at_high if which == SWING else at_low
-            height = estimate(H, W, Q, z, node, which, C, S)
+            if H.intervals[z] == 1:
+                height = top if which == STRESS else high if which == SWING else -low
+            else:
+                height = estimate(H, W, Q, z, node, which, C, S)
             if height > W.top[which]:
                 W.top[which], W.part[which], W.node[which] = height, z, node
 
@@ -174,6 +177,13 @@ def locate(H, W, Q, which, C, S):
     z, node = W.part[which], W.node[which]
     first, intervals = H.first[z], H.intervals[z]
     step = FINEST // intervals
+    if intervals == 1:
+        of_cos, of_sin = W.b[node], W.c[node]
+        if which != STRESS:
+            of_cos, of_sin = in_swing(Q, of_cos, of_sin)
+        W.at_peak[which, 0] = W.a[node] if which == STRESS else W.d[node]
+        W.at_peak[which, 1], W.at_peak[which, 2] = of_cos, of_sin
+        return
     values = W.curve[0]
     for j in range(intervals + 1):
         values[j] = curve_at(W, Q, first + j, which, C, S)
@@ -346,6 +356,20 @@ def unresolved(H, W, Q, z, C, S, tolerance):
             at_low = i
     of_tension, of_swing = sensitivities(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
     miss = 0.0
+    if intervals == 1:  # of a short side, between whose ends the stress is next to monotone
+        db, dc = abs(W.b[first + 1] - W.b[first]), abs(W.c[first + 1] - W.c[first])
+        of_b, of_c = max(abs(of_b), abs(of_c)), max(abs(of_b), abs(of_c))
+        for which in range(3):
+            if which == STRESS:
+                top, moved = max(W.curve[0, 0], W.curve[0, 1]), abs(W.a[first + 1] - W.a[first]) + db + dc
+            else:
+                top = max(W.curve[1, 0], W.curve[1, 1]) if which == SWING else -min(W.curve[1, 0], W.curve[1, 1])
+                moved = abs(W.d[first + 1] - W.d[first]) + of_b * db + of_c * dc
+            share = of_tension if which == STRESS else of_swing
+            rise = top + moved - W.top[which]
+            if rise > 0.0 and moved * share > tolerance:
+                miss = max(miss, min(rise, moved) * share)
+        return miss
     for which in range(3):
         node = at_top if which == STRESS else at_high if which == SWING else at_low
         share = of_tension if which == STRESS else of_swing

@@ -104,6 +104,8 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
     solve_cycle(C, L)
+    if C.no_equilibrium:
+        return
     out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
     if out.regime == NOT_FINITE or C.overflow:
         return

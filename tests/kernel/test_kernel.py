@@ -51,7 +51,7 @@ def test_constant_normal_load_is_cattaneo_mindlin(nu: float, mu: float, U: float
         ({}, 0.155137),
         (
             {"friction": [0.5], "normal_amplitude": [0.5], "tangential_amplitude": [0.35], "phase": [1.1]}
-            | {"in_force": True},
+            | {"control": (True, True)},
             0.1238493,
         ),
         # Maxima within half a wave of the tangential load, where it turns as the contact grows.
@@ -106,7 +106,7 @@ def test_profiles_are_those_of_the_package(name: str, shape: dict[str, float], f
         normal_amplitude=[0.5],
         tangential_amplitude=[0.3],
         shape={key: [value] for key, value in shape.items()},
-        in_force=forces,
+        control=(forces, forces),
         rtol=1e-6,
     )
     assert found["s"] == pytest.approx(float(known.s), rel=3e-6)
@@ -117,8 +117,8 @@ def test_profiles_are_those_of_the_package(name: str, shape: dict[str, float], f
 @pytest.mark.parametrize("ratio", [1, 2])
 def test_a_polygon_on_the_cycle_is_nearly_the_cycle(phase: float, ratio: int) -> None:
     t = 2.0 * np.pi * np.arange(1200) / 1200
-    loop = 1.0 + 0.75 * np.sin(t + phase), 0.5 * np.sin(ratio * t)
-    polygon = solve_batch("paraboloid", [0.3], [0.3], loops=[loop])[0]
+    loop = swtstudy.LoadPath("polygon", np.stack([np.sin(t + phase), np.sin(ratio * t)], axis=1))
+    polygon = solve_batch("paraboloid", [0.3], [0.3], [0.75], [0.5], loops=[loop])[0]
     cycle = solve_one(tangential_amplitude=[0.5], frequency_ratio=[ratio], phase=[phase])
     assert polygon["s"] == pytest.approx(cycle["s"], rel=2e-4)
 

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 import pytest
 
+import swtstudy
+from swtstudy.kernel.batch import solve_batch
+from swtstudy.kernel.compiled import new_record
+from swtstudy.kernel.contact import CYCLE, solve_cycle
+from swtstudy.kernel.control import prescribe
+from swtstudy.kernel.events import force_ratio, slide
 from swtstudy.kernel.load import bulk_at, largest_bulk, load_at, rates_at, smallest_bulk
 from swtstudy.kernel.loads import bimodal, polygon
+from swtstudy.mechanics.points import REGIMES
 
 pytestmark = pytest.mark.xdist_group("kernel")
+DISPLACEMENTS = {"normal_amplitude": 0.6, "tangential_amplitude": 0.4}
+FORCE_AND_DISPLACEMENT = {"normal_force_amplitude": 0.5, "tangential_amplitude": 0.3}
+DISPLACEMENT_AND_FORCE = {"normal_amplitude": 0.5, "tangential_force_amplitude": 0.1}
+BULK = {"bulk_stress_amplitude": 0.02, "bulk_stress_mean": 0.01}
+WAVES = {"waviness_amplitude": 0.02, "wavelength": 5.0}
 
 
 @pytest.mark.parametrize("ratio", ["1", "3/2", "2/3"])
@@ -33,3 +46,121 @@ def test_bulk_stress_of_a_polygon() -> None:
     )
     assert (smallest_bulk(load), largest_bulk(load)) == (-0.02, 0.03)
     assert rates_at(load, 0.5)[2:4] == pytest.approx((0.5, 0.2))
+
+
+MAJOR_AND_MINOR = swtstudy.LoadPath.harmonic_sum(
+    "major and minor cycles",
+    [(1, 0.7, 0.3), (3, 0.3, 1.0)],
+    [(1, 0.8, 0.0), (5, 0.2, 0.4)],
+    [(1, 1.0, 0.5), (40, 0.5, 0.0)],
+)
+MIRRORED = swtstudy.LoadPath.harmonic_sum(
+    "its own mirror image", [(4, 0.7, 0.3), (8, 0.3, 1.0)], [(2, 0.8, 0.0), (6, 0.2, 0.4)]
+)
+WITH_BULK = swtstudy.LoadPath("bulk stress", [[0, 0.5, 1], [0.5, 0.5, -1], [0.5, -0.5, 0.5], [0, -0.5, 0]])
+STEADY = swtstudy.LoadPath("constant normal load", [[0, 0.5], [0, 0.1], [0, 0.6], [0, -0.5]])
+
+
+def solved(name: str, given: dict[str, Any], rtol: float) -> np.void:
+    """The kernel's result for parameters of `swtstudy.solve`, which are otherwise ν = 0.3 and μ = 0.5."""
+    control = "normal_force_amplitude" in given, "tangential_force_amplitude" in given
+    normal = given["normal_force_amplitude" if control[0] else "normal_amplitude"]
+    tangential = given["tangential_force_amplitude" if control[1] else "tangential_amplitude"]
+    others = {
+        key: [given[f"bulk_stress_{key[5:]}" if key.startswith("bulk") else key]]
+        for key in ("phase", "frequency_ratio", "bulk_amplitude", "bulk_mean", "bulk_phase")
+        if (f"bulk_stress_{key[5:]}" if key.startswith("bulk") else key) in given
+    }
+    shape = {key: [given[key]] for key in ("flat_radius", "waviness_amplitude", "wavelength") if key in given}
+    loops = [given["load"]] if "load" in given else None
+    found = solve_batch(
+        name,
+        [0.3],
+        [0.5],
+        [normal],
+        [tangential],
+        loops=loops,
+        shape=shape,
+        control=control,
+        rtol=rtol,
+        **others,
+    )
+    return found[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [
+        ("paraboloid", {"load": MAJOR_AND_MINOR} | DISPLACEMENTS | BULK),
+        ("paraboloid", {"load": MIRRORED} | DISPLACEMENTS),
+        ("paraboloid", {"load": MIRRORED, "normal_force_amplitude": 0.3, "tangential_force_amplitude": 0.3}),
+        ("paraboloid", {"load": WITH_BULK} | DISPLACEMENTS | BULK),
+        ("paraboloid", {"load": STEADY} | FORCE_AND_DISPLACEMENT),
+        ("paraboloid", {"load": STEADY} | DISPLACEMENT_AND_FORCE),
+        ("paraboloid", DISPLACEMENTS | BULK | {"bulk_stress_phase": 1.0, "phase": 0.3}),
+        ("paraboloid", {"normal_amplitude": 0.0, "tangential_amplitude": 0.0} | BULK),
+        ("paraboloid", FORCE_AND_DISPLACEMENT | {"phase": 2.0}),
+        ("paraboloid", DISPLACEMENT_AND_FORCE | {"phase": 2.0, "frequency_ratio": "3/2"}),
+        ("paraboloid", {"normal_amplitude": 1.2, "tangential_force_amplitude": 0.0}),
+        ("rounded_punch", FORCE_AND_DISPLACEMENT | {"phase": 2.0, "flat_radius": 0.5}),
+        ("truncated_paraboloid", DISPLACEMENT_AND_FORCE | {"phase": 2.0, "flat_radius": 0.5}),
+        ("wavy_paraboloid", FORCE_AND_DISPLACEMENT | {"phase": 2.0} | WAVES),
+        ("wavy_paraboloid", DISPLACEMENT_AND_FORCE | {"phase": 2.0, "frequency_ratio": "3/2"} | WAVES),
+    ],
+)
+def test_values_are_those_of_the_package(name: str, given: dict[str, Any]) -> None:
+    known = swtstudy.solve(profile=name, poisson_ratio=0.3, friction=0.5, **given, rtol=1e-6)
+    found = solved(name, given, 1e-6)
+    assert found["s"] == pytest.approx(float(known.s), rel=1e-6)
+    assert found["s_error"] <= 1e-5 * found["s"]
+    assert solved(name, given, 1e-4)["s"] == pytest.approx(float(known.s), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("control", "normal", "tangential", "phase", "held"),
+    [
+        ((True, True), 0.6, 0.6, 1.0, False),
+        ((True, True), 0.6, 0.4, 0.0, True),
+        ((True, True), 0.3, 0.7, 0.0, True),  # |v| = n at an instant
+        ((True, True), 0.3, 0.7 + 1e-9, 0.0, False),
+        ((True, False), 1.0, 0.3, 1.0, True),
+        ((True, False), 1.0 + 1e-9, 0.3, 1.0, False),
+        ((False, False), 1.5, 0.3, 1.0, True),
+        ((False, True), 1.2, 0.0, 1.0, True),
+        ((False, True), 1.2, 1e-9, 1.0, False),
+    ],
+)
+def test_friction_carries_the_forces_or_there_is_no_s(
+    control: tuple[bool, bool], normal: float, tangential: float, phase: float, held: bool
+) -> None:
+    found = solve_batch("paraboloid", [0.3], [0.5], [normal], [tangential], [1], [phase], control=control)[0]
+    assert np.isfinite(found["s"]) == held
+    assert (REGIMES[found["regime"]] == "no_equilibrium") == (not held)
+
+
+def test_margins_follow_from_the_load() -> None:
+    cycle = new_record(CYCLE)
+
+    def margins(
+        control: tuple[bool, bool], normal: float, tangential: float, ratio: int
+    ) -> tuple[float, float]:
+        load = bimodal(normal, Fraction(ratio), tangential, 0.3)
+        prescribe(load, control, None)
+        solve_cycle(cycle, load)
+        return force_ratio(load, cycle["event"], cycle["events"]), slide(
+            load, cycle["event"], cycle["events"]
+        )
+
+    t = np.linspace(0.0, 2.0 * np.pi, 100_001)
+    largest = np.max(0.3 * np.abs(np.sin(2 * t)) / (1.0 + 0.5 * np.sin(t + 0.3)))
+    assert margins((True, True), 0.5, 0.3, 2)[0] == pytest.approx(largest, rel=1e-4)
+    assert np.isnan(margins((True, True), 0.5, 0.3, 2)[1])
+    assert np.isnan(margins((False, False), 0.5, 0.3, 2)[0])
+    assert margins((False, False), 0.5, 0.3, 2)[1] == 0.0
+    assert margins((False, False), 0.0, 1.25, 1)[1] == pytest.approx(0.25)
+    assert np.isnan(margins((False, False), 1.5, 0.3, 2)[1])
+
+
+def test_a_curved_side_is_refused() -> None:
+    with pytest.raises(ValueError, match="needs two displacements or two forces"):
+        solved("paraboloid", {"load": WITH_BULK} | FORCE_AND_DISPLACEMENT, 1e-4)

@@ -1,0 +1,113 @@
+"""Mixed control: the normal load in the coordinate of the tangential one.
+
+The memory diagram lives in the kind of the tangential load. A depth prescribed with a tangential force
+becomes the normal force N(δ), a normal force prescribed with a tangential displacement the depth G(N):
+increasing functions of the profile, through the place s of the edge.
+"""
+
+import numpy as np
+
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.load import BY_POWER, BY_SERIES, MAP_ORDER, MAX_MAP, UNMAPPED, mapped
+from swtstudy.kernel.profile import force_at, place_of
+
+#: Panels of the map are halved, so many times at most, until its last coefficients are this share of the
+#: largest one, or this much: rounding of the place at small loads.
+TOLERANCE, ROUNDING, HALVINGS = 1e-12, 1e-13, 6
+#: The map is a power law below this share of the first panel of the profile.
+POWER_LAW = 1e-6
+_NODES = -np.cos(np.pi * np.arange(MAP_ORDER) / (MAP_ORDER - 1))
+_SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_NODES, MAP_ORDER - 1))
+
+
+def prescribe(load, control, profile):
+    """Note what of a load is prescribed, and map its normal load where both kinds are mixed.
+
+    Parameters
+    ----------
+    load
+        Record whose normal load is the prescribed one.
+    control
+        Whether the normal and the tangential load are forces; else displacements.
+    profile
+        Record in the kind of the normal load, up to its largest value; used where the kinds are mixed.
+    """
+    normal_force, tangential_force = control
+    load["normal_force"], load["tangential_force"], load["map"] = normal_force, tangential_force, UNMAPPED
+    if normal_force == tangential_force:
+        return
+    low, high = load["normal_range"]
+    if load["sides"] and low < high:
+        raise ValueError(
+            "a loop whose normal load is not constant needs two displacements or two forces: "
+            "with one of each its straight sides are curved in the memory diagram"
+        )
+    if profile["is_paraboloid"]:
+        load["map"], load["map_power"] = BY_POWER, 1.5 if tangential_force else 2.0 / 3.0
+        load["waves"] = 0.0
+    else:
+        _tabulate(load, profile)
+    load["normal_range"] = [mapped(load, float(each))[0] for each in (low, high)]
+    if load["sides"]:
+        load["vertex"][0, : load["sides"] + 1] = load["normal_range"][0]
+        load["map"] = UNMAPPED
+
+
+def _tabulate(load, profile):
+    """Write the map as series on panels: those of the profile, halved towards 0 and where it needs them."""
+    largest = float(load["normal_range"][1])
+    edges = profile["coordinate_begin"][: profile["panels"] + 1].copy()
+    edges = np.append(edges[edges < largest], largest * (1.0 + 1e-9))
+    first = POWER_LAW * edges[1]
+    towards = first * 2.0 ** np.arange(0, np.log2(1.0 / POWER_LAW))
+    edges = np.concatenate([towards, edges[1:]])
+    lower, upper, done = edges[:-1], edges[1:], []
+    for halved in range(HALVINGS + 1):
+        x = lower[:, None] + 0.5 * (upper - lower)[:, None] * (_NODES + 1.0)
+        series = _other_coordinate(profile, x) @ _SERIES.T
+        size = np.abs(series)
+        rough = size[:, -2:].max(axis=1) > TOLERANCE * size.max(axis=1) + ROUNDING
+        rough &= halved < HALVINGS
+        done.append((lower[~rough], upper[~rough], series[~rough]))
+        middle = (0.5 * (lower + upper))[rough]
+        lower, upper = np.concatenate([lower[rough], middle]), np.concatenate([middle, upper[rough]])
+    begin, end, series = (np.concatenate(part) for part in zip(*done, strict=True))
+    order = np.argsort(begin)
+    count = len(order)
+    if count + 1 >= MAX_MAP:
+        raise ValueError(f"the map of the normal load needs {count} panels, more than {MAX_MAP - 2}")
+    load["map"], load["map_panels"] = BY_SERIES, count + 1
+    load["map_begin"][1 : count + 1], load["map_begin"][count + 1] = begin[order], end[order[-1]]
+    load["map_series"][1 : count + 1] = series[order]
+    x = first * np.array([[1.0, 1.001]])
+    y = _other_coordinate(profile, x)[0]
+    load["map_series"][0, 0] = y[0]
+    load["map_power"] = np.log(y[1] / y[0]) / np.log(1.001)
+    reach = float(profile["end"][profile["panels"] - 1])
+    load["waves"] = max(reach / profile["longest"] - reach / 0.5, 0.0)
+
+
+def _other_coordinate(profile, x):
+    """Force at depths, or depth at forces, as the profile's coordinate is; array of any shape."""
+    place, force = np.empty(x.size), np.empty(x.size)
+    unit = _places(profile, x.ravel(), place, force)
+    if not profile["in_force"]:
+        return (force / unit).reshape(x.shape)
+    count = profile["panels"]
+    begin, end = profile["begin"][:count], profile["end"][:count]
+    series = np.polynomial.chebyshev.chebint(profile["density"][:count], lbnd=-1, axis=1)
+    series *= 0.5 * (end - begin)[:, None]
+    before = np.concatenate([[0.0], np.cumsum(series.sum(axis=1))])
+    panel = np.clip(np.searchsorted(begin, place, "right") - 1, 0, count - 1)
+    y = 2.0 * (place - begin[panel]) / (end - begin)[panel] - 1.0
+    depth = before[panel] + np.polynomial.chebyshev.chebval(y, series[panel].T, tensor=False)
+    return depth.reshape(x.shape)
+
+
+@jit
+def _places(P, x, place, force):
+    """Write the places of coordinates and ∫ ξ dG up to there; returns that up to the coordinate 1."""
+    for i in range(x.shape[0]):
+        place[i] = place_of(P, x[i])
+        force[i] = force_at(P, place[i])
+    return force_at(P, place_of(P, 1.0))

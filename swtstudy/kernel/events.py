@@ -1,0 +1,263 @@
+"""Events of the load cycle: the instants at which a component turns, or contact is made or lost.
+
+And what follows from the load at these instants alone: equilibrium, and margins from where it ends.
+"""
+
+from math import ceil, inf, nan
+
+import numpy as np
+
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.load import (
+    DIFFERENCE,
+    NORMAL,
+    SUM,
+    TANGENTIAL,
+    UNMAPPED,
+    bulk_rates,
+    distinct,
+    load_at,
+    rates_at,
+)
+
+#: Functions whose roots are events, besides the rates of n, v, α and β: n itself, and B′.
+CONTACT, BULK_RATE = np.int64(4), np.int64(5)
+#: Cells of the fastest harmonic in which turning points are searched, and of a half wave of the profile.
+CELLS, CELLS_PER_WAVE = 24, 20
+#: Instants closer than this share of the period are one.
+SAME_INSTANT = 1e-10
+#: Rounding of a load.
+ROUNDING = 1e-12
+#: Cells next to an instant at which contact is made or lost, each a tenth of the one before.
+GRADES = 8
+#: Instants between two events at which the ratio of the forces is looked at.
+STEPS = 32
+
+
+@jit
+def event_function(L, which, t):
+    """Value and rate of n′, v′, α′ or β′ (which 0 to 3), of n itself (4) or of B′ (5): roots are events."""
+    if which == BULK_RATE:
+        return bulk_rates(L, t)
+    n, v, dn, dv, ddn, ddv = rates_at(L, t)
+    if which == NORMAL:
+        return dn, ddn
+    if which == TANGENTIAL:
+        return dv, ddv
+    if which == DIFFERENCE:
+        return dv - dn, ddv - ddn
+    if which == SUM:
+        return dv + dn, ddv + ddn
+    return n, dn
+
+
+@jit
+def event_root(L, which, of_rate, a, b):
+    """Root of an event function, or of its rate, whose signs at a and b differ: Illinois' method."""
+    fa = event_function(L, which, a)[1 if of_rate else 0]
+    fb = event_function(L, which, b)[1 if of_rate else 0]
+    for _ in range(80):
+        if fb == 0.0 or fa == fb:
+            break
+        c = b - fb * (b - a) / (fb - fa)
+        f = event_function(L, which, c)[1 if of_rate else 0]
+        if f * fb < 0.0:
+            a, fa = b, fb
+        else:
+            fa *= 0.5
+        done = abs(c - b) < 1e-14 * (1.0 + abs(c)) or f == 0.0
+        b, fb = c, f
+        if done:
+            break
+    return b
+
+
+@jit
+def is_constant(L, which):
+    """True if n, v, α or β is constant up to rounding; its turning points would be noise."""
+    largest, scale = 0.0, 0.0
+    for i in range(L.terms):
+        for of in (L.cosine, L.sine):
+            n, v = of[0, i], of[1, i]
+            f = (
+                n
+                if which == NORMAL
+                else v
+                if which == TANGENTIAL
+                else v - n
+                if which == DIFFERENCE
+                else v + n
+            )
+            largest = max(largest, abs(f))
+            scale = max(scale, abs(n), abs(v))
+    return largest <= 1e-14 * scale
+
+
+@jit
+def is_steady(L, which):
+    """True if a function has no events: it is constant."""
+    if which in (CONTACT, BULK_RATE):
+        return False
+    if L.map != UNMAPPED and which in (DIFFERENCE, SUM):  # no sum of harmonics
+        return is_constant(L, NORMAL) and is_constant(L, TANGENTIAL)
+    return is_constant(L, which)
+
+
+@jit
+def search_cell(L, which, a, before, b, now, out, m):
+    """Append the roots of an event function between a and b, whose values and rates are given.
+
+    Returns how many events there are now: one root, or two where the function turns within the cell.
+    """
+    up = now[0] >= 0.0
+    if m + 2 >= out.shape[0]:
+        return m
+    if (before[0] >= 0.0) != up:
+        out[m] = event_root(L, which, False, a, b)
+        return m + 1
+    if (before[1] >= 0.0) != (now[1] >= 0.0) and (before[1] < 0.0) == up:
+        c = event_root(L, which, True, a, b)
+        if (event_function(L, which, c)[0] >= 0.0) != up:
+            out[m] = event_root(L, which, False, a, c)
+            out[m + 1] = event_root(L, which, False, c, b)
+            return m + 2
+    return m
+
+
+@jit
+def search_beside(L, which, a, b, contacts, out, m):
+    """The same in a cell in which contact is made or lost: there rates of a mapped load have no bound."""
+    z = np.empty(2 + 2 * GRADES * 4)
+    z[0], z[1] = a, b
+    count = 2
+    for i in range(2, contacts):
+        if a <= out[i] <= b and count + 2 * GRADES <= z.shape[0]:
+            share = b - a
+            for _ in range(GRADES):
+                share *= 0.1
+                for t in (out[i] - share, out[i] + share):
+                    if a < t < b:
+                        z[count] = t
+                        count += 1
+    count = distinct(z, count, 0.0)
+    before = event_function(L, which, z[0])
+    for i in range(1, count):
+        now = event_function(L, which, z[i])
+        m = search_cell(L, which, z[i - 1], before, z[i], now, out, m)
+        before = now
+    return m
+
+
+@jit
+def turning_points(L, out):
+    """Write the sorted instants at which n, v, α or β turn or n passes 0; returns how many.
+
+    The first one is 0 and the last one the period.
+    """
+    m = 0
+    if L.sides > 0:
+        for j in range(L.sides + 1):
+            out[m] = j
+            m += 1
+            if j < L.sides and L.vertex[0, j] * L.vertex[0, j + 1] < 0.0:
+                out[m] = j + L.vertex[0, j] / (L.vertex[0, j] - L.vertex[0, j + 1])
+                m += 1
+        return m
+    cells = ceil((CELLS + CELLS_PER_WAVE * L.waves) * L.fastest)
+    step = L.period / cells
+    out[0], out[1] = 0.0, L.period
+    m = 2
+    contacts = 2  # beyond the instants at which contact is made or lost
+    for which in (CONTACT, NORMAL, TANGENTIAL, DIFFERENCE, SUM, BULK_RATE):
+        if is_steady(L, which) or (which == BULK_RATE and L.bulk_turns == 0):
+            continue
+        before = event_function(L, which, 0.0)
+        for j in range(1, cells + 1):
+            a, b = (j - 1) * step, j * step
+            now = event_function(L, which, b)
+            beside = False
+            if L.map != UNMAPPED:
+                for i in range(2, contacts):
+                    beside = beside or a <= out[i] <= b
+            if beside:
+                m = search_beside(L, which, a, b, contacts, out, m)
+            else:
+                m = search_cell(L, which, a, before, b, now, out, m)
+            before = now
+        if which == CONTACT:
+            contacts = m
+    m = distinct(out, m, SAME_INSTANT * L.period)
+    out[m - 1] = L.period
+    return m
+
+
+@jit
+def out_of_equilibrium(L, T, m):
+    """Whether there is no equilibrium at some of m events, so that there is no stationary cycle.
+
+    A tangential force needs |v| ≤ n, and a normal force n ≥ 0. Bodies that never touch have none either.
+    """
+    largest, smallest, carried = -inf, inf, inf
+    for i in range(m):
+        n, v = load_at(L, T[i])
+        largest, smallest = max(largest, n), min(smallest, n)
+        carried = min(carried, max(n, 0.0) - abs(v))
+    least = -ROUNDING * largest
+    lost = largest <= 0.0 or (L.normal_force == 1 and smallest < least)
+    return lost or (L.tangential_force == 1 and carried < least)
+
+
+@jit
+def stick_limit(L, T, m):
+    """Coordinate up to which springs stick throughout the cycle; negative if the whole contact slides.
+
+    A spring at G can keep one offset if that is in all of its bounds [α + G, β - G].
+    """
+    highest, lowest = -inf, inf
+    for i in range(m):
+        n, v = load_at(L, T[i])
+        highest, lowest = max(highest, v - n), min(lowest, v + n)
+    return 0.5 * (lowest - highest)
+
+
+@jit
+def slide(L, T, m):
+    """By how much the tangential displacement exceeds the limit of partial slip.
+
+    0 without gross slip; NaN where contact is lost, or the tangential force is prescribed.
+    """
+    for i in range(m):
+        if load_at(L, T[i])[0] <= 0.0:
+            return nan
+    return nan if L.tangential_force else max(-stick_limit(L, T, m), 0.0)
+
+
+@jit
+def ratio_at(L, t):
+    """|v|/n, inf where v is not 0 without n."""
+    n, v = load_at(L, t)
+    if v == 0.0:
+        return 0.0
+    return abs(v) / n if n > 0.0 else inf
+
+
+@jit
+def force_ratio(L, T, m):
+    """Largest |F_x|/(μ F_N) between m events; NaN where the tangential force is not prescribed."""
+    if L.tangential_force == 0:
+        return nan
+    best = 0.0
+    for i in range(m - 1):
+        a, b = T[i], T[i + 1]
+        if L.sides > 0:  # monotone on a straight side
+            best = max(best, ratio_at(L, a), ratio_at(L, b))
+            continue
+        low = middle = ratio_at(L, a)
+        best = max(best, low)
+        for j in range(1, STEPS + 1):
+            high = ratio_at(L, a + (b - a) * j / STEPS)
+            best = max(best, high)
+            if j > 1 and low < middle > high:
+                best = max(best, middle - 0.125 * (high - low) ** 2 / (low - 2.0 * middle + high))
+            low, middle = middle, high
+    return best
