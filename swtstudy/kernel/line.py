@@ -1,8 +1,9 @@
 """The largest value of the criterion along the surface line y = 0.
 
 Positions are places s = √(x² - b²) on the profile, in which roots at the edge of a face are smooth, and
--√(b² - x²) under the face. The value, here swt, is a maximum over planes and instants of smooth functions, so its kinks point down and only downward
-curvature can hide a higher value between two positions: on an interval of width w,
+-√(b² - x²) under the face. The value, here swt, is a maximum over planes and instants of smooth functions, so
+that its kinks point down and only downward curvature can hide a higher one between two places: on an interval
+of width w,
 
     swt ≤ chord + K (s - s₁)(s₂ - s)/2,   K ≥ -swt″.
 

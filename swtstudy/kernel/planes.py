@@ -363,7 +363,11 @@ def unresolved(H, W, Q, z, C, S, tolerance):
             if which == STRESS:
                 top, moved = max(W.curve[0, 0], W.curve[0, 1]), abs(W.a[first + 1] - W.a[first]) + db + dc
             else:
-                top = max(W.curve[1, 0], W.curve[1, 1]) if which == SWING else -min(W.curve[1, 0], W.curve[1, 1])
+                top = (
+                    max(W.curve[1, 0], W.curve[1, 1])
+                    if which == SWING
+                    else -min(W.curve[1, 0], W.curve[1, 1])
+                )
                 moved = abs(W.d[first + 1] - W.d[first]) + of_b * db + of_c * dc
             share = of_tension if which == STRESS else of_swing
             rise = top + moved - W.top[which]
