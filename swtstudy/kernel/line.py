@@ -343,7 +343,10 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
                 continue
             step = GRADED * S.beside[k, end]
             x = S.piece[k, 1] - step if end else S.piece[k, 0] + step
-            evaluate(S, H, W, C, R, P, K, L, Q, largest, x, ASKED, ASKED)
+            # A side that has not been looked at, since it cannot matter, has the value 0 at both ends.
+            plus = max(S.at_ends[k, 0, 0], S.at_ends[k, 1, 0]) > 0.0
+            minus = max(S.at_ends[k, 0, 1], S.at_ends[k, 1, 1]) > 0.0
+            evaluate(S, H, W, C, R, P, K, L, Q, largest, x, plus, minus)
             outer = S.piece[k, end]
             for side in range(2):
                 S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = S.at_ends[k, end, side], S.value[side]
