@@ -185,7 +185,7 @@ def sample(H, z, intervals, C, P, L, K, nu, mu):
         stress(H, m + j, C, P, K, k, edge, front, nu, mu)
     H.first[z], H.intervals[z] = m, intervals
     H.instants = m + intervals + 1
-    if known > 0 and H.mirror[z]:
+    if H.mirror[z]:
         flip(H, m, H.instants, m)
 
 
@@ -200,8 +200,27 @@ def flip(H, a, b, to):
 
 @jit
 def refine(H, z, C, P, L, K, nu, mu):
-    """Double the intervals of part z, or give it some if only its ends are known."""
-    sample(H, z, max(2 * H.intervals[z], COARSEST), C, P, L, K, nu, mu)
+    """Double the intervals of part z, or give it some if only its ends are known; the finest is cut in two."""
+    if H.intervals[z] < FINEST:
+        sample(H, z, max(2 * H.intervals[z], COARSEST), C, P, L, K, nu, mu)
+        return
+    k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
+    t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
+    edge, front = places_at(C, P, L, k, t, H.weight)
+    y = add_part(H, C, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
+    H.mirror[y] = H.mirror[z]
+    H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
+    H.places[z, 1, 0], H.places[z, 1, 1] = edge, front
+    sample(H, z, FINEST // 2, C, P, L, K, nu, mu)
+    sample(H, y, FINEST // 2, C, P, L, K, nu, mu)
+
+
+@jit
+def may_be_refined(H, C, z):
+    """Whether part z can be sampled more closely: it is not yet as short as rounding."""
+    return H.intervals[z] < FINEST or (
+        H.parts + 1 < MAX_PARTS and H.time[z, 1] - H.time[z, 0] > 1e-6 * (H.time[z, 1] - C.time[0, 0])
+    )
 
 
 @jit

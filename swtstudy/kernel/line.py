@@ -20,7 +20,7 @@ from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
-from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, refine, sample_cycle
+from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.load import distinct, has_bulk
 from swtstudy.kernel.planes import (
     MINUS_SWING,
@@ -191,7 +191,7 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
         for z in range(H.parts):
             W.double[z] = 0
             miss = unresolved(H, W, Q, z, Ct, St, Q.time)
-            if miss > 0.0 and H.intervals[z] < FINEST:
+            if miss > 0.0 and may_be_refined(H, C, z):
                 most = max(most, miss)
                 W.double[z] = 1
                 doubled += 1
