@@ -115,7 +115,7 @@ def solve_batch(
     sensitivity = zero if normal_sensitivity is None else normal_sensitivity
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
-        loads, asks = new_records(len(rows), LOAD), new_records(len(rows), ASK)
+        loads, asks = _loads()[: len(rows)], new_records(len(rows), ASK)
         keys = []
         for j, i in enumerate(rows):
             loop = None if loops is None else loops[i]
@@ -147,6 +147,13 @@ def _raise_to(largest, keys, loads):
     """Raise the largest normal load of each profile to those of its loads."""
     for key, load in zip(keys, loads, strict=True):
         largest[key] = max(largest[key], float(load["normal_range"][1]))
+
+
+def _loads():
+    """Room of this thread for the loads of a chunk."""
+    if not hasattr(_of_thread, "loads"):
+        _of_thread.loads = new_records(CHUNK, LOAD)
+    return _of_thread.loads
 
 
 def _workspace():

@@ -107,7 +107,13 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     load["fastest"] = max([1, fastest, *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
-    load["normal_range"], load["bulk_range"] = _range(load, 0), _range(load, BULK)
+    for component, name in ((0, "normal_range"), (BULK, "bulk_range")):
+        rest = float(load["rest"][component])
+        if len(components[component]) < 2:
+            swing = sum(abs(row[1]) for row in components[component])
+            load[name] = rest - swing, rest + swing
+        else:
+            load[name] = _range(load, component)
     return load
 
 
@@ -115,10 +121,7 @@ def _range(load, component):
     """Smallest and largest value of one component of a sum of harmonics."""
     count = load["terms"]
     cosine, sine = load["cosine"][component, :count], load["sine"][component, :count]
-    size, rest = np.hypot(cosine, sine), load["rest"][component]
-    moving = np.flatnonzero(size)
-    if len(moving) < 2:
-        return rest - size.sum(), rest + size.sum()
+    moving, rest = np.flatnonzero(np.hypot(cosine, sine)), load["rest"][component]
     order = load["order"][:count]
     waves = np.outer(2.0 * np.pi / (SAMPLES * order.max()) * np.arange(SAMPLES * order.max()), order)
     values = np.cos(waves) @ cosine + np.sin(waves) @ sine
