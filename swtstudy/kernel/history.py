@@ -200,7 +200,7 @@ def flip(H, a, b, to):
 
 @jit
 def refine(H, z, C, P, L, K, nu, mu):
-    """Double the intervals of part z, or give it some if only its ends are known; the finest is cut in two."""
+    """Double the intervals of part z, or give it some if only its ends are known; cut the finest in two."""
     if H.intervals[z] < FINEST:
         sample(H, z, max(2 * H.intervals[z], COARSEST), C, P, L, K, nu, mu)
         return

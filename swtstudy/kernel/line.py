@@ -65,6 +65,7 @@ SEARCH = np.dtype(
         ("place", "f8"),  # s there
         ("sign", "f8"),  # of x
         ("angle", "f8"),  # 2θ
+        ("unsettled", "f8"),  # by how much its value may still change with more instants
         ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
         ("value", "f8", (2,)),  # at the last position, on both sides
         ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
@@ -91,6 +92,8 @@ CROWD, GROUPS, LONG = 100, 48, 0.02
 RISE, RISE_SAFETY, RISE_MEMORY = 4.0, 4.0, 0.5
 #: Largest ratio of the lengths of two pieces beside each other, where it matters.
 GRADED = 50.0
+#: Least change by more instants that is reckoned with, as a share of the tolerance in time.
+SETTLED = 0.6
 #: Positions whose value is lower than the best by no more than this share are looked at most closely.
 CLOSE = 1e-3
 #: A position whose bound over planes is below this share of what is near the best is not looked at closer.
@@ -184,6 +187,7 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
     A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
     it stays. Returns swt and 2θ.
     """
+    W.change = Q.time * swt
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
         find_peaks(H, W, Q, Ct, St)
@@ -215,7 +219,8 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
         before = swt
         h, angle = climb(H, W, Q, angle, Q.plane)
         swt = value_of(Q, h)
-        if confirming and abs(swt - before) <= Q.time * swt:
+        W.change = abs(swt - before) if confirming else Q.time * swt
+        if confirming and W.change <= Q.time * swt:
             break
     return swt, angle
 
@@ -265,6 +270,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
         S.value[side] = swt
         if swt > S.best:
             S.best, S.place, S.sign, S.angle = swt, place, sign, angle
+            S.unsettled = min(max(W.change, SETTLED * Q.time * swt), Q.time * swt)
             find_peaks(H, W, Q, cos(angle), sin(angle))
             S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
             if Q.criterion == SWT:
