@@ -1,12 +1,10 @@
 """Named arrays of points in, results out: one compiled call for each chunk of points."""
 
 from fractions import Fraction
-from functools import partial
 from threading import local
 
 import numpy as np
 
-from swtstudy.kernel import profile
 from swtstudy.kernel.compiled import new_records
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.line import ASK, ask
@@ -14,49 +12,15 @@ from swtstudy.kernel.load import LOAD
 from swtstudy.kernel.loads import load_of
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
+from swtstudy.kernel.profiles import is_plane, profile_record
 
 #: Points of one compiled call: their loads and profiles take some 10 MB.
 CHUNK = 64
-#: No coordinate at which the profile is asked lies beyond its table by rounding.
-MARGIN = 1e-9
-#: The last coefficients of a profile's series are at most this share of rtol: what they leave out is less.
-PROFILE_SHARE = 0.01
 _of_thread = local()
 
 
-def profile_record(name, shape, in_force, largest, rtol):
-    """Profile as data.
-
-    Parameters
-    ----------
-    name
-        paraboloid, rounded_punch, truncated_paraboloid or wavy_paraboloid.
-    shape
-        flat_radius; or waviness_amplitude h/δ0 and wavelength λ/√(hR).
-    in_force
-        Whether the memory diagram lives in the normal force.
-    largest
-        Largest depth in δ0, or normal force in F_0.
-    rtol
-        Relative accuracy asked of s.
-    """
-    largest = largest * (1.0 + MARGIN)
-    tolerance = PROFILE_SHARE * rtol
-    tabulate = partial(profile.tabulate_profile, largest=largest, in_force=in_force, tolerance=tolerance)
-    if name in ("rounded_punch", "truncated_paraboloid") and shape["flat_radius"] > 0.0:
-        b = shape["flat_radius"]
-        return tabulate(partial(getattr(profile, name), b=b), b, singular=name == "truncated_paraboloid")
-    if name == "wavy_paraboloid" and shape["waviness_amplitude"] > 0.0:
-        amplitude = shape["waviness_amplitude"]
-        wavelength = shape["wavelength"] * np.sqrt(amplitude)
-        density = partial(profile.wavy_paraboloid, amplitude=amplitude, wavelength=wavelength)
-        longest = min(0.5, 0.5 * wavelength)
-        return tabulate(density, 0.0, longest=longest)
-    return tabulate(profile.paraboloid, 0.0, is_paraboloid=True)
-
-
 def solve_batch(
-    name,
+    profile,
     poisson_ratio,
     friction,
     normal_amplitude=None,
@@ -78,8 +42,8 @@ def solve_batch(
 
     Parameters
     ----------
-    name
-        Name of the profile.
+    profile
+        Name of a profile, or a table of one.
     poisson_ratio, friction
         Shape (n,).
     normal_amplitude, tangential_amplitude, phase
@@ -106,6 +70,8 @@ def solve_batch(
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.point.RESULT`.
     """
+    if is_plane(profile):
+        control = (True, True)  # depths have no meaning in the plane
     n = len(poisson_ratio)
     out = new_records(n, RESULT)
     zero = np.zeros(n)
@@ -129,14 +95,14 @@ def solve_batch(
         given = dict.fromkeys(keys)
         if control[0] != control[1]:
             _raise_to(largest, keys, loads)
-            given = {key: profile_record(name, dict(key), control[0], largest[key], rtol) for key in largest}
+            given = {key: profile_record(profile, dict(key), control[0], largest[key], rtol) for key in largest}
         for j, key in enumerate(keys):
             prescribe(loads[j], control, given[key])
         largest = dict.fromkeys(keys, 0.0)
         _raise_to(largest, keys, loads)
         profiles = new_records(len(largest), PROFILE)
         for k, key in enumerate(largest):
-            profiles[k] = profile_record(name, dict(key), control[1], largest[key], rtol)
+            profiles[k] = profile_record(profile, dict(key), control[1], largest[key], rtol)
         number = {key: k for k, key in enumerate(largest)}
         which = np.array([number[key] for key in keys])
         solve_points(*_workspace(), profiles, which, loads, asks, out[first : first + len(rows)])

@@ -16,6 +16,19 @@ _RUN = np.polynomial.chebyshev.chebint(np.eye(ORDER), lbnd=-1, axis=0)
 #: Shape (ORDER, ORDER + 1): values at the Gauss points → coefficients of the integral from -1.
 RUN = np.ascontiguousarray((_RUN @ FIT).T)
 
+
+def _means():
+    """Shape (3, ORDER, ORDER): values W at the Gauss points → coefficients of ∫_0^1 tʲ W(ts) dt, j = 0, 1, 2."""
+    t, weight = np.polynomial.legendre.leggauss(ORDER)
+    t, weight = 0.5 * (1.0 + t), 0.5 * weight
+    series_at = np.polynomial.chebyshev.chebvander(t * (GAUSS[:, None] + 1.0) - 1.0, ORDER - 1)
+    means = [FIT @ np.einsum("q,iqk->ik", weight * t**j, series_at) @ FIT for j in range(3)]
+    return np.ascontiguousarray(means)
+
+
+#: With W the density over s^j, sʲ⁺¹ times this mean is its integral from s = 0, exact to rounding at any s.
+MEANS = _means()
+
 #: Most intervals of a smooth part of the load cycle; the Lobatto points of fewer intervals are among these.
 FINEST = 32
 #: Shape (FINEST + 1,): Lobatto points on [-1, 1], ascending.

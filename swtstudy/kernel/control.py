@@ -7,15 +7,17 @@ increasing functions of the profile, through the place s of the edge.
 
 import numpy as np
 
+from swtstudy.kernel.chebyshev import panel_of
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.load import BY_POWER, BY_SERIES, MAP_ORDER, MAX_MAP, UNMAPPED, mapped
-from swtstudy.kernel.profile import force_at, place_of
+from swtstudy.kernel.profile import density_at, force_at, place_of
 
 #: Panels of the map are halved, so many times at most, until its last coefficients are this share of the
 #: largest one, or this much: rounding of the place at small loads.
 TOLERANCE, ROUNDING, HALVINGS = 1e-12, 1e-13, 6
 #: The map is a power law below this share of the first panel of the profile.
 POWER_LAW = 1e-6
+NODE, WEIGHT = np.polynomial.legendre.leggauss(12)
 _NODES = -np.cos(np.pi * np.arange(MAP_ORDER) / (MAP_ORDER - 1))
 _SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_NODES, MAP_ORDER - 1))
 
@@ -42,8 +44,9 @@ def prescribe(load, control, profile):
             "a loop whose normal load is not constant needs two displacements or two forces: "
             "with one of each its straight sides are curved in the memory diagram"
         )
-    if profile["is_paraboloid"]:
-        load["map"], load["map_power"] = BY_POWER, 1.5 if tangential_force else 2.0 / 3.0
+    n = profile["exponent"]
+    if n > 0.0:  # G = ξⁿ
+        load["map"], load["map_power"] = BY_POWER, (n + 1.0) / n if tangential_force else n / (n + 1.0)
         load["waves"] = 0.0
     else:
         _tabulate(load, profile)
@@ -93,15 +96,29 @@ def _other_coordinate(profile, x):
     unit = _places(profile, x.ravel(), place, force)
     if not profile["in_force"]:
         return (force / unit).reshape(x.shape)
-    count = profile["panels"]
-    begin, end = profile["begin"][:count], profile["end"][:count]
-    series = np.polynomial.chebyshev.chebint(profile["density"][:count], lbnd=-1, axis=1)
-    series *= 0.5 * (end - begin)[:, None]
-    before = np.concatenate([[0.0], np.cumsum(series.sum(axis=1))])
-    panel = np.clip(np.searchsorted(begin, place, "right") - 1, 0, count - 1)
-    y = 2.0 * (place - begin[panel]) / (end - begin)[panel] - 1.0
-    depth = before[panel] + np.polynomial.chebyshev.chebval(y, series[panel].T, tensor=False)
+    depth = np.empty(place.size)
+    _depths(profile, place, depth)
     return depth.reshape(x.shape)
+
+
+@jit
+def _depths(P, places, depth):
+    """Write G at places of a profile in the force: ∫ dG/ds ds by Gauss's rule on each panel."""
+    before = np.zeros(P.panels + 1)
+    for p in range(P.panels):
+        before[p + 1] = before[p] + _rise(P, P.begin[p], P.end[p])
+    for i in range(places.shape[0]):
+        p = panel_of(P.begin, 0, P.panels, places[i])
+        depth[i] = before[p] + _rise(P, P.begin[p], places[i])
+
+
+@jit
+def _rise(P, a, b):
+    """∫ dG/ds ds from a to b within a panel."""
+    total = 0.0
+    for i in range(NODE.shape[0]):
+        total += WEIGHT[i] * density_at(P, a + 0.5 * (b - a) * (NODE[i] + 1.0))
+    return 0.5 * (b - a) * total
 
 
 @jit

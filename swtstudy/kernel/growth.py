@@ -6,7 +6,7 @@ from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
 from swtstudy.kernel.load import NORMAL, instant_of, load_at, rates_at
-from swtstudy.kernel.profile import coordinate_at, density_at, place_of
+from swtstudy.kernel.profile import MAX_PANELS, coordinate_at, density_at, place_of
 
 MAX_GROWN = 8191
 #: No panel is thinner: its share of the tractions is the root of its width. Where both loads turn nearly at
@@ -14,6 +14,8 @@ MAX_GROWN = 8191
 THINNEST = 1e-12
 #: Places are interpolated over a stretch where the last coefficients of their series are this share of them.
 INTERPOLATED = 1e-9
+#: Panels that wait to be looked at: those of the profile, and those of some 50 halvings.
+WAITING = MAX_PANELS + 103
 #: And this share of the width of the slip zone: tractions follow the root of a distance within it.
 APART = 1e-6
 GROWTH = np.dtype(
@@ -47,7 +49,7 @@ def tabulate_growth(R, C, P, L, i, tolerance):
     R.first[i] = R.panels
     begin, end = C.born[i, 0], C.born[i, 1]
     lowest, highest = place_of(P, load_at(L, begin)[0]), place_of(P, load_at(L, end)[0])
-    waiting = np.empty((512, 2))
+    waiting = np.empty((WAITING, 2))
     slope, values, series = np.empty(ORDER), np.empty(ORDER), np.empty(ORDER)
     m = 0
     # The profile is smooth within its panels only.
@@ -67,7 +69,7 @@ def tabulate_growth(R, C, P, L, i, tolerance):
             values[j] = slope[j] * density_at(P, s)
         fit(slope, series)
         rough = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) > tolerance
-        if rough and b - a > THINNEST and m < 500 and R.panels < MAX_GROWN - 512:
+        if rough and b - a > THINNEST and m + 2 < WAITING and R.panels < MAX_GROWN - 512:
             middle = 0.5 * (a + b)
             waiting[m + 1, 0], waiting[m + 1, 1] = a, middle
             waiting[m, 0], waiting[m, 1] = middle, b

@@ -15,7 +15,7 @@ from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTE
 from swtstudy.kernel.growth import places_at
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import force_at
-from swtstudy.kernel.surface import hertz, running, tabulate
+from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
 
 MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
 #: Intervals of a part at first.
@@ -73,8 +73,8 @@ SPACED = _spaced()
 @jit
 def functionals(P, K, s, H):
     """T1, T3, B, V of the profile up to s."""
-    if P.is_paraboloid:
-        return hertz(s, H.x)
+    if P.is_hertz:
+        return strip_hertz(s, H.x) if P.plane else hertz(s, H.x)
     return running(K, FIRST, s, H.X, H.all_outside)
 
 
@@ -87,17 +87,19 @@ def slope_of(C, i):
 @jit
 def integrate_pieces(H, C, R, P, K, largest):
     """Tabulate the profile and what grew at x, and ∫ o′ (T1, T3, B) up to the start of each piece."""
-    k, b, x, X, outside = FIRST, P.flat_radius, H.x, H.X, H.all_outside
-    if not P.is_paraboloid:
+    k, b, x, X, outside, plane = FIRST, P.flat_radius, H.x, H.X, H.all_outside, P.plane
+    if not P.is_hertz:
         panels = P.begin[:], P.end[:], P.density[:]
-        k = tabulate(K, FIRST, FIRST, *panels, FIRST, P.panels, largest, b, x, X, outside)
+        k = tabulate(K, FIRST, FIRST, *panels, FIRST, P.panels, largest, b, x, X, outside, plane)
     for i in range(C.pieces):
         if C.used[i] == 0:
             continue
         if C.kind[i] == GROWN:
             first, last = R.first[i], R.last[i]
             panels = R.begin[:], R.end[:], R.density[:]
-            k = tabulate(K, 1 + i, k, *panels, first, last, 1e300, b, x, X, outside)
+            k = tabulate(K, 1 + i, k, *panels, first, last, 1e300, b, x, X, outside, plane)
+        if k + 2 >= MAX_TABLES:
+            C.overflow = 1
         beneath, s = C.beneath[i], C.start_s[i]
         t1, t3, b1, v1 = functionals(P, K, s, H)
         o1, o3, ob = 0.0, 0.0, 0.0
@@ -121,7 +123,7 @@ def stress(H, m, C, P, K, k, edge, front, nu, mu):
     """Write instant m: the stress at x in stretch k with its edge and front at these places s.
 
     Pressure and σ_xx of the normal load and of the tangential load are the sums of section 3 of the paper
-    over the pieces of the diagram, each a slope times a running integral.
+    over the pieces of the diagram, each a slope times a running integral. In plane strain σ_yy = ν (σ_xx + σ_zz).
     """
     push, i = C.push[k], C.piece[k]
     if push == OPEN or edge <= 0.0:
@@ -148,13 +150,15 @@ def stress(H, m, C, P, K, k, edge, front, nu, mu):
             o3 += jump * n3
             ob += jump * f_b
     friction = mu / pi
-    H.p[m] = nb / pi
+    H.p[m], H.q[m] = nb / pi, friction * ob
+    if P.plane:
+        H.within[m], H.xx[m], H.yy[m] = 0.0, -friction * o1, -friction * nu * o1
+        return
     if H.all_outside == 0:
         nv += force_at(P, min(edge, H.X)) / (H.x * H.x)
     H.within[m] = (1.0 - 2.0 * nu) / pi * nv
     H.xx[m] = -friction * ((1.0 + nu) * o1 - nu * o3)
     H.yy[m] = -friction * nu * o3
-    H.q[m] = friction * ob
 
 
 @jit

@@ -57,7 +57,7 @@ ASK = np.dtype(
 )
 SEARCH = np.dtype(
     [
-        ("cusp", "f8", (4 * MAX_STRETCHES,)),
+        ("cusp", "f8", (6 * MAX_STRETCHES,)),
         ("positions", "i8"),  # that have been evaluated
         ("singular", "i8"),  # 1: the face's edge is singular
         ("crowd", "f8"),  # length over which many cusps are spread; 0 if there are few
@@ -163,10 +163,9 @@ def cusps(S, C, P, L, Q, largest):
         for factor in BEYOND:
             z[m] = sqrt(factor * factor * radius * radius - b * b)
             m += 1
-    if not P.is_paraboloid:  # no piece is longer than half a wave of the profile
-        for j in range(1, int(largest / P.longest) + 1):
-            z[m] = j * P.longest
-            m += 1
+    for j in range(1, min(int(largest / P.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
+        z[m] = j * P.longest
+        m += 1
     for k in range(C.stretches):
         for e in range(2):
             for G in (C.edge[k, e], C.front[k, e]):

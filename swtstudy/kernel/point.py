@@ -125,7 +125,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s = S.best
     rounding = ROUNDING / share if S.best > 0.0 else 0.0
-    out.s_error = gap + 2.0 * S.unsettled + rounding * S.best
+    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
     if S.best > 0.0:
         b = P.flat_radius
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))

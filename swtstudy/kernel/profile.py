@@ -1,207 +1,247 @@
-"""Profiles (3) to (6) as data: dG/ds over s = √(ξ² - b²), which is smooth for all of them, and its integrals.
+"""A profile as data: dG/ds over s = √(ξ² - b²), which is smooth for all of them, and its integrals.
 
 G = g/δ0 is the depth at which the spring at radius ξ touches (11). The memory diagram lives in a coordinate:
-the depth G, or under prescribed forces the normal force N(ξ) = ∫ ξ dG / ∫_0^{G=1} ξ dG. Both are integrals
-of dG/ds, so that a profile is one function.
+the depth G, or under prescribed forces the normal force N(ξ) = ∫ ξ dG / ∫_0^{G=1} ξ dG. In a plane contact it
+is the line load, and the density is dN/ds with N in E* δ0, whose value at the mean load is π/4. All of these
+are integrals of one density, a function of s: `swtstudy.kernel.profiles` has those of all profiles.
 """
 
-from functools import cache
-from math import sqrt
+from math import pi, sqrt
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.special import struve
 
-from swtstudy.kernel.chebyshev import FIT, GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.chebyshev import GAUSS, MEANS, ORDER, RUN, clenshaw, fit, panel_of
+from swtstudy.kernel.compiled import jit
 
 #: Coordinates of the memory diagram.
 DEPTH, FORCE = 0, 1
+#: Line load N at the mean load, in E* δ0.
+MEAN_LOAD = 0.25 * pi
 
-MAX_PANELS, GUESSES = 509, 32
-#: Coefficients of the series of a wave, which die out to rounding.
-WAVE_ORDER = 26
+MAX_PANELS, GUESSES = 1021, 16
 PROFILE = np.dtype(
     [
-        ("is_paraboloid", "i8"),  # 1: closed forms are used
+        ("is_hertz", "i8"),  # 1: paraboloid or cylinder, whose functionals have closed forms
         ("plane", "i8"),  # 1: the contact is a strip
         ("singular", "i8"),  # 1: the pressure has no bound at the edge of the face
         ("in_force", "i8"),  # coordinate of the diagram: DEPTH or FORCE
         ("panels", "i8"),
+        ("exponent", "f8"),  # n of G = ξⁿ, whose coordinates have closed forms; else 0
+        ("power", "f8"),  # and of its coordinate of the diagram
         ("flat_radius", "f8"),  # b/a_H
-        ("force_unit", "f8"),  # ∫ ξ dG up to G = 1
+        ("unit", "f8"),  # coordinate in the units of the density where it is 1
         ("longest", "f8"),  # longest piece over which the profile is smooth
+        ("left_out", "f8"),  # relative error of s by what of the profile is left out
+        ("rises", "i8", (2,)),  # near s = 0 the density is as s^j, and the coordinate as sʲ
         ("begin", "f8", (MAX_PANELS,)),  # ends of the panels in s
         ("end", "f8", (MAX_PANELS,)),
         ("density", "f8", (MAX_PANELS, ORDER)),  # dG/ds
-        ("coordinate", "f8", (MAX_PANELS, ORDER + 1)),  # its increase within the panel
+        ("first_density", "f8", (ORDER,)),  # of the first panel: over s^j
+        ("coordinate", "f8", (MAX_PANELS, ORDER + 1)),  # its increase within the panel; of the first: over sʲ
         ("force", "f8", (MAX_PANELS, ORDER + 1)),  # increase of ∫ ξ dG within the panel
         ("coordinate_begin", "f8", (MAX_PANELS + 1,)),
         ("force_begin", "f8", (MAX_PANELS + 1,)),
-        ("guess", "f8", (MAX_PANELS, GUESSES + 1)),  # place within the panel at even shares of the coordinate
+        ("guess", "f8", (MAX_PANELS, GUESSES + 1)),  # share of the panel at even shares of the coordinate
     ]
 )
-_Y = np.linspace(-1.0, 1.0, 129)
-_SERIES_AT_Y = np.polynomial.chebyshev.chebvander(_Y, ORDER).T
-_SHARE = np.linspace(0.0, 1.0, GUESSES + 1)
+#: Values between which guesses are interpolated.
+SAMPLES = 4 * GUESSES
+#: What `assemble` returns.
+ENOUGH, MORE, TOO_MANY = np.arange(3)
 
 
-def paraboloid(s):
-    """dG/ds of (3)."""
-    return 2.0 * s
-
-
-def rounded_punch(s, b):
-    """dG/ds of (4): g′ = 2√(ξ²-b²) - b arccos(b/ξ)."""
-    return (2.0 * s - b * np.arctan(s / b)) * s / np.hypot(s, b)
-
-
-def truncated_paraboloid(s, b):
-    """dG/ds of (5): g′ = (2ξ²-b²)/√(ξ²-b²)."""
-    return (2.0 * s * s + b * b) / np.hypot(s, b)
-
-
-def wavy_paraboloid(s, amplitude, wavelength):
-    """dG/ds of (6): g = ξ² + (π/2) h k ξ H₀(kξ), k = 2π/λ."""
-    k = 2.0 * np.pi / wavelength
-    return 2.0 * s + 0.5 * np.pi * amplitude * k * wave(k * s)
-
-
-def wave(x):
-    """H₀(x) + x (2/π - H₁(x)), the derivative of x H₀(x), from series over one wave each."""
-    value = np.empty_like(x)
-    number = (x / (2.0 * np.pi)).astype(int)
-    for j in np.unique(number):
-        on_it = number == j
-        value[on_it] = np.polynomial.chebyshev.chebval(
-            x[on_it] / np.pi - 2.0 * j - 1.0, _series_of_wave(int(j))
-        )
-    return value
-
-
-@cache
-def _series_of_wave(j):
-    """Coefficients of `wave` over [2πj, 2π(j + 1)]; SciPy's Struve functions take 50 µs a value."""
-    y = np.cos(np.pi * (np.arange(WAVE_ORDER) + 0.5) / WAVE_ORDER)
-    x = np.pi * (2.0 * j + 1.0 + y)
-    value = struve(0, x) + x * (2.0 / np.pi - struve(1, x))
-    bad = ~np.isfinite(value)  # SciPy gives NaN next to the zeros
-    if bad.any():
-        near = x[bad] * (1.0 + 1e-7)
-        value[bad] = struve(0, near) + near * (2.0 / np.pi - struve(1, near))
-    return np.polynomial.chebyshev.chebfit(y, value, WAVE_ORDER - 1)
-
-
-def tabulate_profile(
-    density, flat_radius, largest, in_force, longest=0.5, tolerance=1e-8, is_paraboloid=False, singular=False
-):
-    """Profile as data, from the axis to where the coordinate of the diagram exceeds `largest`.
+@jit
+def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, rough):
+    """Append panels whose series has died out to those that are settled; returns how many these are.
 
     Parameters
     ----------
-    density
-        dG/ds as a function of an array of s.
-    flat_radius
-        b/a_H, radius of a flat face.
-    largest
-        Largest coordinate needed: depth in δ0, or normal force in F_0.
-    longest
-        Longest panel: half a wave at most.
-    tolerance
-        Relative size of the last coefficients of a panel's series.
+    values
+        Shape (m, ORDER): the density at the Gauss points of the panels from lower to upper.
+    tolerance, floor
+        Last coefficients over the largest one, or over the floor if that is more.
+    narrowest
+        Panels of this width are settled whatever they miss.
+    settled
+        Shape (capacity, 3 + ORDER): ends, what the last coefficients are, and values.
+    rough
+        Shape (m,): becomes True where a panel is not settled.
     """
-    panels = []
-    s, depth, force, unit = 0.0, 0.0, 0.0, np.nan  # unit: ∫ ξ dG up to G = 1
-    while not (force / unit if in_force else depth) >= largest:
-        new = _panels(density, flat_radius, s, s + 8.0 * longest, longest, tolerance)
-        if in_force and depth < 1.0 <= depth + new[3].sum():
-            unit = force + _force_at_unit_depth(new, 1.0 - depth)
-        panels.append(new)
-        s, depth, force = s + 8.0 * longest, depth + new[3].sum(), force + new[4].sum()
-    begin, end, series, depth_series, force_series = (
-        np.concatenate(part) for part in zip(*panels, strict=True)
-    )
-    coordinate = force_series / unit if in_force else depth_series
-    reached = np.cumsum(coordinate.sum(axis=1))
-    count = int(np.searchsorted(reached, largest)) + 1
-    if count > MAX_PANELS:
-        raise ValueError(f"the profile needs {count} panels, more than {MAX_PANELS}")
-    record = new_record(PROFILE)
-    record["singular"] = singular
-    record["is_paraboloid"], record["in_force"], record["panels"] = is_paraboloid, in_force, count
-    record["flat_radius"], record["force_unit"], record["longest"] = flat_radius, unit, longest
-    record["begin"][:count], record["end"][:count] = begin[:count], end[:count]
-    record["density"][:count], record["force"][:count] = series[:count], force_series[:count]
-    record["coordinate"][:count] = coordinate[:count]
-    record["coordinate_begin"][1 : count + 1] = reached[:count]
-    record["force_begin"][1 : count + 1] = np.cumsum(force_series.sum(axis=1))[:count]
-    share = coordinate[:count] @ _SERIES_AT_Y
-    share /= share[:, -1:]
-    share[0] = np.cbrt(np.maximum(share[0], 0.0)) if in_force else np.sqrt(np.maximum(share[0], 0.0))
-    for p in range(count):
-        record["guess"][p] = np.interp(_SHARE, share[p], _Y)
-    return record
+    series = np.empty(ORDER)
+    for i in range(lower.shape[0]):
+        fit(values[i], series)
+        size = floor
+        for k in range(ORDER):
+            size = max(size, abs(series[k]))
+        missed = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) / size
+        rough[i] = missed > tolerance and upper[i] - lower[i] > narrowest
+        if rough[i]:
+            continue
+        if count >= settled.shape[0]:
+            return count
+        settled[count, 0], settled[count, 1], settled[count, 2] = lower[i], upper[i], missed
+        for k in range(ORDER):
+            settled[count, 3 + k] = values[i, k]
+        count += 1
+    return count
 
 
-def _panels(density, flat_radius, begin, end, longest, tolerance):
-    """Panels of [begin, end], ascending, each halved until the series of dG/ds has died out."""
-    edges = np.linspace(begin, end, round((end - begin) / longest) + 1)
-    if begin == 0.0 and flat_radius > 0.0:  # a small face would fall between the Gauss points
-        near_face = flat_radius * 8.0 ** np.arange(1, 20)
-        edges = np.union1d(near_face[near_face < edges[1]], edges)
-    lower, upper, done = edges[:-1], edges[1:], []
-    while lower.size:
-        half = 0.5 * (upper - lower)[:, None]
-        s = lower[:, None] + half * (GAUSS + 1.0)
-        values = density(s)
-        series = values @ FIT.T
-        size = np.abs(series)
-        rough = size[:, -2:].max(axis=1) > tolerance * np.maximum(size.max(axis=1), 1e-3)
-        rough &= upper - lower > 1e-9 * longest
-        force = half * ((values * np.sqrt(flat_radius**2 + s * s)) @ RUN)
-        new = lower, upper, series, half * (values @ RUN), force
-        done.append([part[~rough] for part in new])
-        middle = (0.5 * (lower + upper))[rough]
-        lower, upper = np.concatenate([lower[rough], middle]), np.concatenate([middle, upper[rough]])
-    order = np.argsort(np.concatenate([part[0] for part in done]))
-    return [np.concatenate(parts)[order] for parts in zip(*done, strict=True)]
+@jit
+def assemble(P, settled, order, largest):
+    """Write the panels in their order, up to where the coordinate exceeds largest, and their integrals.
+
+    Under prescribed forces to G = 1 at least, where the unit of force is.
+    """
+    weighted = P.in_force and P.plane == 0
+    depth, raw, unit = 0.0, 0.0, MEAN_LOAD if P.plane else 1.0
+    if weighted:
+        unit = -1.0
+    values, weight, rise = np.empty(ORDER), np.empty(ORDER), np.empty(ORDER + 1)
+    P.coordinate_begin[0], P.force_begin[0] = 0.0, 0.0
+    status = MORE
+    for p in range(order.shape[0]):
+        if p >= MAX_PANELS:
+            return TOO_MANY
+        row = settled[order[p]]
+        begin, end = row[0], row[1]
+        half = 0.5 * (end - begin)
+        P.begin[p], P.end[p] = begin, end
+        for i in range(ORDER):
+            s = begin + half * (GAUSS[i] + 1.0)
+            values[i], weight[i] = row[3 + i], sqrt(P.flat_radius * P.flat_radius + s * s)
+        fit(values, P.density[p])
+        gain, load = 0.0, 0.0
+        for k in range(ORDER + 1):
+            rise[k], P.force[p, k] = 0.0, 0.0
+            for i in range(ORDER):
+                rise[k] += half * values[i] * RUN[i, k]
+                P.force[p, k] += half * values[i] * weight[i] * RUN[i, k]
+            P.coordinate[p, k] = P.force[p, k] if weighted else rise[k]
+            gain += rise[k]
+            load += P.force[p, k]
+        if weighted and depth < 1.0 <= depth + gain:
+            unit = P.force_begin[p] + clenshaw(P.force[p], root_of(rise, 1.0 - depth))
+        depth += gain
+        P.force_begin[p + 1] = P.force_begin[p] + load
+        raw = P.force_begin[p + 1] if weighted else depth
+        P.coordinate_begin[p + 1] = raw
+        P.panels = p + 1
+        if unit > 0.0 and raw >= largest * unit:
+            status = ENOUGH
+            break
+    P.unit = unit
+    for p in range(P.panels):
+        P.coordinate_begin[p + 1] /= unit
+        for k in range(ORDER + 1):
+            P.coordinate[p, k] /= unit
+    first_panel(P, settled[order[0]], weighted)
+    for p in range(P.panels):
+        tabulate_guesses(P, p)
+    return status
 
 
-def _force_at_unit_depth(panels, depth):
-    """∫ ξ dG from the first panel's begin to where G has increased by depth."""
-    _, _, _, depth_series, force_series = panels
-    reached = np.cumsum(depth_series.sum(axis=1))
-    p = int(np.searchsorted(reached, depth))
-    rest = depth - (reached[p - 1] if p else 0.0)
-    chebval = np.polynomial.chebyshev.chebval
-    y = brentq(lambda y: chebval(y, depth_series[p]) - rest, -1.0, 1.0, xtol=1e-15) if rest > 0.0 else -1.0
-    return force_series[:p].sum() + chebval(y, force_series[p])
+@jit
+def root_of(rise, goal):
+    """Where the series of a rise from -1 to 1 is a goal."""
+    low, high = -1.0, 1.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        if clenshaw(rise, middle) < goal:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@jit
+def first_panel(P, row, weighted):
+    """Series of density and coordinate over their powers of s: digits are kept down to the smallest depth."""
+    values = np.empty(ORDER)
+    for i in range(ORDER):
+        s = 0.5 * row[1] * (GAUSS[i] + 1.0)
+        values[i] = row[3 + i] / power_of(s, P.rises[0])
+    fit(values, P.first_density)
+    for i in range(ORDER):
+        s = 0.5 * row[1] * (GAUSS[i] + 1.0)
+        if weighted and P.flat_radius > 0.0:  # else ξ = s is in the power
+            values[i] *= sqrt(P.flat_radius * P.flat_radius + s * s)
+    for k in range(ORDER + 1):
+        P.coordinate[0, k] = 0.0
+    for k in range(ORDER):
+        for i in range(ORDER):
+            P.coordinate[0, k] += MEANS[P.rises[1] - 1, k, i] * values[i] / P.unit
+
+
+@jit
+def tabulate_guesses(P, p):
+    """Places within panel p at even shares of its coordinate; of the first one of the root of it."""
+    width, whole = P.end[p] - P.begin[p], P.coordinate_begin[p + 1] - P.coordinate_begin[p]
+    root = 1.0 / P.rises[1]
+    j, share, before = 0, 0.0, 0.0
+    for m in range(1, SAMPLES + 1):
+        new = (coordinate_on(P, p, P.begin[p] + width * m / SAMPLES) - P.coordinate_begin[p]) / whole
+        if p == 0:
+            new = max(new, 0.0) ** root
+        new = max(new, share)
+        while j <= GUESSES and (j <= GUESSES * new or m == SAMPLES):
+            part = (j / GUESSES - share) / (new - share) if new > share else 1.0
+            P.guess[p, j] = (before + min(part, 1.0)) / SAMPLES
+            j += 1
+        share, before = new, m
+
+
+@jit
+def power_of(s, j):
+    """The power s^j for j = 0, 1, 2 or 3."""
+    if j == 0:
+        return 1.0
+    return s if j == 1 else s * s if j == 2 else s * s * s
+
+
+@jit
+def any_power(s, n):
+    """The power s^n."""
+    return s * s if n == 2.0 else s * s * s if n == 3.0 else s**n
+
+
+@jit
+def coordinate_on(P, p, s):
+    """Coordinate of the diagram at s on panel p."""
+    value = clenshaw(P.coordinate[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
+    return power_of(s, P.rises[1]) * value if p == 0 else P.coordinate_begin[p] + value
+
+
+@jit
+def density_on(P, p, s):
+    """Density dG/ds at s on panel p."""
+    y = 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0
+    return power_of(s, P.rises[0]) * clenshaw(P.first_density, y) if p == 0 else clenshaw(P.density[p], y)
 
 
 @jit
 def coordinate_at(P, s):
     """Coordinate of the diagram, depth or force, at s."""
-    if P.is_paraboloid:
-        return s * s * s if P.in_force else s * s
-    p = panel_of(P.begin, 0, P.panels, s)
-    y = 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0
-    return P.coordinate_begin[p] + clenshaw(P.coordinate[p], y)
+    if P.exponent > 0.0:
+        return any_power(s, P.power)
+    return coordinate_on(P, panel_of(P.begin, 0, P.panels, s), s)
 
 
 @jit
 def density_at(P, s):
-    """dG/ds at s."""
-    if P.is_paraboloid:
-        return 2.0 * s
-    p = panel_of(P.begin, 0, P.panels, s)
-    return clenshaw(P.density[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
+    """Density dG/ds, or dN/ds in the plane, at s."""
+    n = P.exponent
+    if n > 0.0:
+        rate = 2.0 * s if n == 2.0 else n * s ** (n - 1.0)
+        return MEAN_LOAD * rate if P.plane else rate
+    return density_on(P, panel_of(P.begin, 0, P.panels, s), s)
 
 
 @jit
 def force_at(P, s):
-    """∫ ξ dG up to s."""
-    if P.is_paraboloid:
-        return 2.0 / 3.0 * s * s * s
+    """∫ ξ dG up to s, of a disc."""
+    n = P.exponent
+    if n > 0.0:
+        return n / (n + 1.0) * any_power(s, n + 1.0)
     p = panel_of(P.begin, 0, P.panels, s)
     return P.force_begin[p] + clenshaw(P.force[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
 
@@ -211,39 +251,110 @@ def place_of(P, coordinate):
     """Inverse of `coordinate_at`: a guess from the panel's table, then Newton's method within a bracket."""
     if coordinate <= 0.0:
         return 0.0
-    if P.is_paraboloid:
-        return coordinate ** (1.0 / 3.0) if P.in_force else sqrt(coordinate)
+    if P.exponent > 0.0:
+        return sqrt(coordinate) if P.power == 2.0 else coordinate ** (1.0 / P.power)
     p = panel_of(P.coordinate_begin, 0, P.panels, coordinate)
-    half = 0.5 * (P.end[p] - P.begin[p])
+    low, high = P.begin[p], P.end[p]
     share = (coordinate - P.coordinate_begin[p]) / (P.coordinate_begin[p + 1] - P.coordinate_begin[p])
     share = min(max(share, 0.0), 1.0)
     if p == 0:
-        share = share ** (1.0 / 3.0) if P.in_force else sqrt(share)
+        share = share ** (1.0 / P.rises[1])
     z = GUESSES * share
     j = min(int(z), GUESSES - 1)
-    y = P.guess[p, j] + (z - j) * (P.guess[p, j + 1] - P.guess[p, j])
-    low, high = -1.0, 1.0
-    for _ in range(50):
-        f = P.coordinate_begin[p] + clenshaw(P.coordinate[p], y) - coordinate
+    s = low + (high - low) * (P.guess[p, j] + (z - j) * (P.guess[p, j + 1] - P.guess[p, j]))
+    for _ in range(60):
+        f = coordinate_on(P, p, s) - coordinate
         if f > 0.0:
-            high = y
+            high = s
         else:
-            low = y
-        rate = half * clenshaw(P.density[p], y)
-        if P.in_force:
-            s = P.begin[p] + half * (y + 1.0)
-            rate *= sqrt(P.flat_radius * P.flat_radius + s * s) / P.force_unit
-        new = y - f / rate if rate > 0.0 else 0.5 * (low + high)
+            low = s
+        rate = density_on(P, p, s) / P.unit
+        if P.in_force and P.plane == 0:
+            rate *= sqrt(P.flat_radius * P.flat_radius + s * s)
+        new = s - f / rate if rate > 0.0 else 0.5 * (low + high)
         if not (new >= low and new <= high):
             new = 0.5 * (low + high)
-        moved = abs(new - y)
-        y = new
-        if moved < 1e-8:  # the next step would be its square
+        moved = abs(new - s)
+        s = new
+        if moved <= 1e-8 * s:  # the next step would be its square
             break
-    return P.begin[p] + half * (y + 1.0)
+    return s
 
 
 @jit
 def radius_of(P, s):
     """Radius ξ at s."""
     return sqrt(s * s + P.flat_radius * P.flat_radius)
+
+
+def tabulate_profile(
+    P, density, rises, largest, tolerance, floor=1e-3, narrowest=1e-9, span=2.0, knots=(), first_edges=()
+):
+    """Fill in the panels of a profile, from the axis to where the coordinate of the diagram exceeds `largest`.
+
+    Parameters
+    ----------
+    P
+        Record whose kind, coordinate, flat_radius and longest are known.
+    density
+        dG/ds as a function of an array of s; dN/ds in the plane.
+    rises
+        1, 2 or 3, the power of s as which its integral rises at s = 0.
+    largest
+        Largest coordinate needed.
+    tolerance, floor
+        Last coefficients of a panel's series over the largest one, or over the floor if that is more.
+    narrowest
+        Least width of a panel.
+    span
+        So far it is tabulated at first, and each time that this is too short.
+    knots
+        Ascending places at which panels end rather than in the middle.
+    first_edges
+        Ends of panels beside those of the longest panels.
+
+    Returns
+    -------
+    float
+        The largest share that panels as narrow as allowed miss of the density, each times the root of its
+        share of the whole: so much it is of tractions. Infinite if there are too many panels.
+    """
+    P.rises[0], P.rises[1] = rises - 1, rises
+    if P.in_force and not P.plane and P.flat_radius == 0.0:
+        P.rises[1] += 1
+    settled, count, begin = np.empty((2 * MAX_PANELS, 3 + ORDER)), 0, 0.0
+    while True:
+        edges = np.linspace(begin, begin + span, max(int(np.ceil(span / P.longest - 1e-9)), 1) + 1)
+        if begin == 0.0 and len(first_edges):
+            edges = np.union1d(edges, first_edges[first_edges < span])
+        lower, upper = edges[:-1], edges[1:]
+        while lower.size:
+            half = 0.5 * (upper - lower)[:, None]
+            rough = np.zeros(lower.size, np.bool_)
+            values = density(lower[:, None] + half * (GAUSS + 1.0))
+            count = settle(values, lower, upper, tolerance, floor, narrowest, settled, count, rough)
+            if count >= len(settled):
+                return np.inf
+            middle = (0.5 * (lower + upper))[rough]
+            lower, upper = lower[rough], upper[rough]
+            if len(knots) and lower.size:
+                middle = _at_knots(knots, lower, middle, upper)
+            lower, upper = np.concatenate([lower, middle]), np.concatenate([middle, upper])
+        status = assemble(P, settled, np.argsort(settled[:count, 0]), largest)
+        if status == TOO_MANY:
+            return np.inf
+        if status == ENOUGH:
+            break
+        begin += span
+    begin, end, missed = settled[:count, :3].T
+    whole = P.end[P.panels - 1]
+    share = np.sqrt((end - begin) / whole) * np.where((missed > tolerance) & (begin < whole), missed, 0.0)
+    return float(share.max())
+
+
+def _at_knots(knots, lower, middle, upper):
+    """The knots nearest to the middles, where they are not next to an end."""
+    k = np.clip(np.searchsorted(knots, middle), 1, len(knots) - 1)
+    nearest = np.where(middle - knots[k - 1] < knots[k] - middle, knots[k - 1], knots[k])
+    margin = 0.02 * (upper - lower)
+    return np.where((nearest > lower + margin) & (nearest < upper - margin), nearest, middle)

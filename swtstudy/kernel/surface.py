@@ -8,6 +8,8 @@ springs outside x on the tractions there, and all springs on the load within x, 
 
     B = ∫ dG/√(ξ²-x²),   V = ∫ (ξ - √(ξ²-x²)) dG/x²  (inside x: ∫ ξ dG/x²).
 
+In a plane contact a strip has T1 = ∫ 2 dN/√(x²-ξ²) inside x in the place of these, and B with N for G.
+
 With X² = x² - b², s = X sin α inside and s = X cosh η outside remove the singularities; where x < b, all
 springs are outside, and s = √(b²-x²) sinh η does.
 """
@@ -50,7 +52,7 @@ def asinh(c):
 
 
 @jit
-def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside):
+def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, plane):
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
     K.first[row] = k
     K.total[row, 0], K.total[row, 1] = 0.0, 0.0
@@ -61,14 +63,18 @@ def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside):
         low = begin[p]
         if not all_outside and low < X:
             high = min(end[p], X)
-            tabulate_panel(K, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, sums)
+            tabulate_panel(
+                K, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, plane, sums
+            )
             k += 1
             low = high
         while low < end[p] and k + 1 < MAX_TABLES:
             high = min(end[p], SPAN * max(low, X))
             if high > 0.9 * end[p]:
                 high = end[p]
-            tabulate_panel(K, k, density[p], begin[p], end[p], low, high, b, x, X, 0, all_outside, sums)
+            tabulate_panel(
+                K, k, density[p], begin[p], end[p], low, high, b, x, X, 0, all_outside, plane, sums
+            )
             k += 1
             low = high
     K.last[row] = k
@@ -77,7 +83,7 @@ def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside):
 
 
 @jit
-def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_outside, sums):
+def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_outside, plane, sums):
     """Table k: running integrals of the panel's density from low to high, added to the sums up to there."""
     f, h = np.empty(ORDER), np.empty(ORDER)
     K.begin[k] = low
@@ -94,7 +100,9 @@ def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_ou
         if inside:
             s = X * sin(z)
             share = (b * b + s * s) / (x * x)
-            f[i] = 2.0 * sqrt(share) * half * clenshaw(density, (s - begin) * width - 1.0)
+            f[i] = 2.0 * half * clenshaw(density, (s - begin) * width - 1.0)
+            if plane == 0:
+                f[i] *= sqrt(share)
             h[i] = share * f[i]
         else:
             s = X * (sinh(z) if all_outside else cosh(z))
@@ -148,3 +156,11 @@ def hertz(s, x):
     f = asin(y)
     sc = y * c
     return 2.0 * x * (f - sc), 4.0 * x * (0.375 * f - 0.5 * sc + 0.125 * sc * (1.0 - 2.0 * y * y)), 0.0, 0.0
+
+
+@jit
+def strip_hertz(s, x):
+    """T1 and B of the cylinder up to s, in closed form (McEwen), where those of `hertz` are."""
+    if s >= x:
+        return np.pi * x, 0.0, 0.5 * np.pi * sqrt((s - x) * (s + x)), 0.0
+    return np.pi * s * s / (x + sqrt((x - s) * (x + s))), 0.0, 0.0, 0.0
