@@ -95,7 +95,9 @@ def solve_batch(
         given = dict.fromkeys(keys)
         if control[0] != control[1]:
             _raise_to(largest, keys, loads)
-            given = {key: profile_record(profile, dict(key), control[0], largest[key], rtol) for key in largest}
+            given = {
+                key: profile_record(profile, dict(key), control[0], largest[key], rtol) for key in largest
+            }
         for j, key in enumerate(keys):
             prescribe(loads[j], control, given[key])
         largest = dict.fromkeys(keys, 0.0)

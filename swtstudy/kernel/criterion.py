@@ -60,10 +60,10 @@ def swing_weights(Q, C, S):
 
 
 @jit
-def lifted(Q, T, A):
-    """H of T and A, 0 at least."""
+def lifted(Q, T, A, noise):
+    """H of T and A, 0 at least; a tension up to noise is none."""
     if Q.criterion == SWT:
-        T, A = max(T, 0.0), max(A, 0.0)
+        T, A = T if noise < T else 0.0, max(A, 0.0)
         if Q.power == 1.0:
             return T * A
         return T * A**Q.power if Q.of_swing else A * T**Q.power
@@ -118,7 +118,7 @@ def curvature_bound(Q, T, A, of_tension, of_swing):
 @jit
 def sensitivities(Q, T, A):
     """Relative change of the criterion by a change of T, and by one of A."""
-    h = lifted(Q, T, A)
+    h = lifted(Q, T, A, 0.0)
     if h <= 0.0:
         return 0.0, 0.0
     h_t, h_a, _, _, _ = partials(Q, T, A)
@@ -138,7 +138,7 @@ def far_field(Q, largest, smallest, plane):
     """
     swing, nu, k = largest - smallest, Q.poisson_ratio, Q.sensitivity
     if Q.criterion == SWT:
-        return value_of(Q, lifted(Q, largest, swing * (1.0 - nu * nu) if plane else swing)), 0.0
+        return value_of(Q, lifted(Q, largest, swing * (1.0 - nu * nu) if plane else swing, 0.0)), 0.0
     if Q.criterion == FINDLEY:
         pull, shear = k * largest, 0.5 * swing
         return max(0.5 * (pull + hypot(shear, pull)), 0.0), atan2(shear, pull)
@@ -146,7 +146,7 @@ def far_field(Q, largest, smallest, plane):
     m = 0.5 * k * max(largest, 0.0)
     cosine = 2.0 * m / (1.0 + m + sqrt((1.0 + m) * (1.0 + m) + 8.0 * m * m))
     T, A = 0.5 * largest * (1.0 + cosine), 0.5 * swing * sqrt(1.0 - cosine * cosine)
-    return value_of(Q, lifted(Q, T, A)), acos(cosine)
+    return value_of(Q, lifted(Q, T, A, 0.0)), acos(cosine)
 
 
 @jit

@@ -25,6 +25,8 @@ COS_2, SIN_2 = np.cos(STEP * np.arange(PLANES)), np.sin(STEP * np.arange(PLANES)
 #: Curves over time on a plane: σ_n, the swing, its negative.
 STRESS, SWING, MINUS_SWING = 0, 1, 2
 
+#: Tension that rounding may make on a plane, as a share of the stresses of which it is the sum, and some.
+NOISE = 1e-11
 #: Share of h by which the largest values at the instants may fall short of the maxima between them.
 BETWEEN = 5e-3
 #: Larger last coefficients of the finest series, over the range of its values: its peak is its largest value.
@@ -40,6 +42,7 @@ WORK = np.dtype(
         ("curve", "f8", (2, FINEST + 1)),  # of one part
         ("weight", "f8", (FINEST + 1,)),
         ("value", "f8", (PLANES,)),
+        ("noise", "f8"),  # tension that rounding may make
         ("curvature", "f8"),  # bound of -d²/d(2θ)²
         ("waiting", "f8", (128, 4)),  # intervals of planes: 2θ, value, width, value at the other end
         ("top", "f8", (3,)),  # largest estimate of each curve
@@ -60,8 +63,8 @@ def above(f1, f2, drop):
 
 @jit_reordered
 def fill(H, W, side, Q):
-    """Write a, b, c, d of all instants at side · x; returns the largest b² + c²."""
-    largest, nu = 0.0, Q.poisson_ratio
+    """Write a, b, c, d of all instants at side · x; returns the largest b² + c², and the largest |a|."""
+    largest, of_a, nu = 0.0, 0.0, Q.poisson_ratio
     of_strain = 1.0 if Q.criterion == SWT else 0.0
     of_bulk = nu if H.plane else 0.0
     for i in range(H.instants):
@@ -72,7 +75,8 @@ def fill(H, W, side, Q):
         W.a[i], W.b[i], W.c[i] = a, b, c
         W.d[i] = of_strain * ((1.0 + nu) * a - nu * (xx + yy + zz))
         largest = max(largest, b * b + c * c)
-    return largest
+        of_a = max(of_a, abs(a))
+    return largest, of_a
 
 
 @jit_reordered
@@ -240,7 +244,7 @@ def climb(H, W, Q, angle, tolerance):
         s0, s1, s2 = W.at_peak[0, 0], W.at_peak[0, 1], W.at_peak[0, 2]
         r0, r1 = W.at_peak[1, 0] - W.at_peak[2, 0], W.at_peak[1, 1] - W.at_peak[2, 1]
         r2 = W.at_peak[1, 2] - W.at_peak[2, 2]
-        value = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S)
+        value = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S, W.noise)
         gained = value - best
         if gained > 0.0:
             best, best_angle = value, angle
@@ -253,7 +257,7 @@ def climb(H, W, Q, angle, tolerance):
             rate = of_T * dT + of_A * dA
             bend = of_T * (s0 - T) + of_A * (r0 - A)
             bend += of_TT * dT * dT + 2.0 * of_TA * dT * dA + of_AA * dA * dA
-            h = lifted(Q, T, A)
+            h = lifted(Q, T, A, W.noise)
             bend = h * bend - rate * rate  # Newton's method for ln h
             move = -h * rate / bend if bend < 0.0 else (0.1 if rate > 0.0 else -0.1)
             move = min(max(move, -0.3), 0.3)
@@ -261,7 +265,7 @@ def climb(H, W, Q, angle, tolerance):
             C, S = cos(angle), sin(angle)
             if abs(move) < 1e-5:
                 break
-        promised = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S)
+        promised = lifted(Q, s0 + s1 * C + s2 * S, r0 + r1 * C + r2 * S, W.noise)
         if promised <= best * (1.0 + tolerance):
             break
     return best, best_angle
@@ -274,19 +278,21 @@ def survey_planes(H, W, Q, side):
     Returns which is the largest, and the bound of all planes.
     """
     m = H.instants
-    amplitude = sqrt(fill(H, W, side, Q))
+    largest, of_a = fill(H, W, side, Q)
+    amplitude = sqrt(largest)
+    W.noise = NOISE * (of_a + amplitude)
     best, tops, ranges = 0, 0.0, 0.0
     for k in range(PLANES):
         of_b, of_c = swing_weights(Q, COS_2[k], SIN_2[k])
         top, high, low = extremes(W, m, COS_2[k], SIN_2[k], of_b, of_c)
-        W.value[k] = lifted(Q, top, high - low)
+        W.value[k] = lifted(Q, top, high - low, W.noise)
         tops, ranges = max(tops, top), max(ranges, high - low)
         if W.value[k] > W.value[best]:
             best = k
     tops *= 1.1
     ranges *= 1.1
-    largest = 1.0 + Q.poisson_ratio if Q.criterion == SWT else 1.0
-    swing = min(2.0 * largest * amplitude, ranges)
+    of_plane = 1.0 + Q.poisson_ratio if Q.criterion == SWT else 1.0
+    swing = min(2.0 * of_plane * amplitude, ranges)
     W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing)
     bound = 0.0
     for k in range(PLANES):
@@ -316,10 +322,10 @@ def higher_plane(H, W, Q, best, tolerance, closely):
             C, S = cos(angle + width), sin(angle + width)
             of_b, of_c = swing_weights(Q, C, S)
             top, high, low = extremes(W, H.instants, C, S, of_b, of_c)
-            f = lifted(Q, top, high - low)
+            f = lifted(Q, top, high - low, W.noise)
             if closely and f > f1 and f > f2 and f > (1.0 - BETWEEN) * limit:
                 find_peaks(H, W, Q, C, S)
-                f = lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
+                f = lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING], W.noise)
             if f > limit:
                 best, where, limit = f, angle + width, f * (1.0 + tolerance)
             W.waiting[depth, 0], W.waiting[depth, 1], W.waiting[depth, 2], W.waiting[depth, 3] = (
