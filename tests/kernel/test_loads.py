@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -164,3 +165,51 @@ def test_margins_follow_from_the_load() -> None:
 def test_a_curved_side_is_refused() -> None:
     with pytest.raises(ValueError, match="needs two displacements or two forces"):
         solved("paraboloid", {"load": WITH_BULK} | FORCE_AND_DISPLACEMENT, 1e-4)
+
+
+def around(count: int, noise: float = 0.0) -> swtstudy.LoadPath:
+    """A loop of vertices on a smooth cycle, or beside it."""
+    t = 2.0 * np.pi * np.arange(count) / count
+    loads = np.stack([np.sin(t + 1.0), np.sin(2.0 * t)], axis=1)
+    off = np.random.default_rng(1).normal(size=(2, count)).T
+    return swtstudy.LoadPath(f"{count} vertices", loads + noise * off)
+
+
+def one_loop(loop: swtstudy.LoadPath, rtol: float = 1e-4) -> np.void:
+    return solve_batch("paraboloid", [0.3], [0.5], [0.5], [0.3], loops=[loop], rtol=rtol)[0]
+
+
+@pytest.mark.parametrize(
+    ("count", "noise", "s"),
+    [(200, 0.0, 0.1285864), (1600, 0.0, 0.1286002), (800, 0.01, 0.1304281), (1600, 0.1, 0.1742219)],
+)
+def test_long_loops_have_the_value_of_a_look_at_every_vertex(count: int, noise: float, s: float) -> None:
+    found = one_loop(around(count, noise))
+    assert abs(found["s"] - s) <= found["s_error"]
+    assert found["s"] == pytest.approx(s, rel=2e-5)
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.01, 0.1])
+def test_long_loops_are_no_dearer_than_they_are_long(noise: float) -> None:
+    seconds = []
+    for count in (200, 1600):
+        loop = around(count, noise)
+        one_loop(loop)
+        taken = []
+        for _ in range(3):
+            begin = process_time()
+            one_loop(loop)
+            taken.append(process_time() - begin)
+        seconds.append(min(taken))
+    assert seconds[1] <= 13.0 * seconds[0]
+    assert seconds[1] <= 1.0
+
+
+def test_sides_of_the_line_that_cannot_matter_stay_out() -> None:
+    # Many cusps, and a maximum on one side of the line only.
+    normal = [(14, 0.26, 1.6), (15, 0.3, 5.7), (11, 0.12, 1.7)]
+    tangential = [(14, 0.14, 2.5), (16, 0.36, 1.5), (7, 0.39, 6.0), (9, 0.06, 3.6)]
+    loop = swtstudy.LoadPath.harmonic_sum("many turns", normal, tangential)
+    found = solve_batch("paraboloid", [0.3], [0.5], [0.3], [0.05], loops=[loop])[0]
+    assert found["positions"] < 2000
+    assert found["s_error"] <= 1.2e-4 * found["s"]
