@@ -18,7 +18,7 @@ RUN = np.ascontiguousarray((_RUN @ FIT).T)
 
 
 def _means():
-    """Shape (3, ORDER, ORDER): values W at the Gauss points → coefficients of ∫_0^1 tʲ W(ts) dt, j = 0, 1, 2."""
+    """Shape (3, ORDER, ORDER): values W at Gauss points → coefficients of ∫_0^1 tʲ W(ts) dt."""
     t, weight = np.polynomial.legendre.leggauss(ORDER)
     t, weight = 0.5 * (1.0 + t), 0.5 * weight
     series_at = np.polynomial.chebyshev.chebvander(t * (GAUSS[:, None] + 1.0) - 1.0, ORDER - 1)

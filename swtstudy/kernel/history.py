@@ -123,7 +123,8 @@ def stress(H, m, C, P, K, k, edge, front, nu, mu):
     """Write instant m: the stress at x in stretch k with its edge and front at these places s.
 
     Pressure and σ_xx of the normal load and of the tangential load are the sums of section 3 of the paper
-    over the pieces of the diagram, each a slope times a running integral. In plane strain σ_yy = ν (σ_xx + σ_zz).
+    over the pieces of the diagram, each a slope times a running integral. In plane strain
+    σ_yy = ν (σ_xx + σ_zz).
     """
     push, i = C.push[k], C.piece[k]
     if push == OPEN or edge <= 0.0:

@@ -290,7 +290,7 @@ def radius_of(P, s):
 def tabulate_profile(
     P, density, rises, largest, tolerance, floor=1e-3, narrowest=1e-9, span=2.0, knots=(), first_edges=()
 ):
-    """Fill in the panels of a profile, from the axis to where the coordinate of the diagram exceeds `largest`.
+    """Fill in the panels of a profile, from the axis to where the coordinate exceeds `largest`.
 
     Parameters
     ----------
@@ -301,7 +301,7 @@ def tabulate_profile(
     rises
         1, 2 or 3, the power of s as which its integral rises at s = 0.
     largest
-        Largest coordinate needed.
+        Largest coordinate of the diagram that is needed.
     tolerance, floor
         Last coefficients of a panel's series over the largest one, or over the floor if that is more.
     narrowest

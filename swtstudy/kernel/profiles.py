@@ -1,6 +1,6 @@
 """All profiles of the product as data: a profile is one function of s and one row of a table.
 
-The functions give dG/ds, G = g/δ0, or in the plane dG/ds with G = N/N_0, at s = √(ξ² - b²) (rig.md; (3) to (6)).
+The functions give dG/ds at s = √(ξ² - b²), with G = g/δ0, or in the plane G = N/N_0.
 """
 
 from functools import cache, lru_cache, partial
@@ -154,8 +154,8 @@ def profile_record(profile, shape, in_force, largest, rtol):
     missed = tabulate_profile(record, density, rises, largest, tolerance, floor, narrowest, first_edges=face)
     if missed == np.inf:
         raise ValueError(
-            f"{profile} {shape} needs more panels than there is room for, up to the coordinate {largest:g} at "
-            f"rtol {rtol:g}: take a larger rtol or a smaller load"
+            f"{profile} {shape} needs more panels than there is room for, up to the depth or force "
+            f"{largest:g} at rtol {rtol:g}: take a larger rtol or a smaller load"
         )
     return record
 
@@ -229,7 +229,7 @@ def _of_table(table, in_force, largest, rtol):
     f is a cubic spline from the edge b of a face on, where it has no slope. Beyond its end g′/ξ is constant.
     """
     fit = table.fit
-    b, end = float(fit.x[0]), float(fit.x[-1])
+    b = float(fit.x[0])
     knots = np.sqrt((fit.x - b) * (fit.x + b))
     at, jumps = fit.x[:-1].copy(), _jumps(fit, table.plane)
 
@@ -275,8 +275,7 @@ def _sum_knots(at, places, jumps, b, plane, s, values):
     Each knot inside ξ adds its jump times an integral of 1, r and r² over the root from there to ξ.
     """
     for i in range(s.shape[0]):
-        xi = sqrt(s[i] * s[i] + b * b)
-        total = 0.0
+        xi, total = sqrt(s[i] * s[i] + b * b), 0.0
         for k in range(at.shape[0]):
             if places[k] >= s[i]:
                 break
@@ -285,4 +284,6 @@ def _sum_knots(at, places, jumps, b, plane, s, values):
             total += jumps[0, k] * angle + jumps[1, k] * root
             if not plane:
                 total += jumps[2, k] * 0.5 * (xi * xi * angle + at[k] * root)
-        values[i] = total * s[i] if plane else total * s[i] / xi
+        values[i] = total * s[i]
+        if not plane and s[i] > 0.0:
+            values[i] /= xi
