@@ -14,7 +14,7 @@ import numpy as np
 from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
 from swtstudy.mechanics.control.coordinate import unit_half_load
-from swtstudy.mechanics.line.counted import FewCycles
+from swtstudy.mechanics.counted import FewCycles
 from swtstudy.mechanics.line.maximum import SAME_MAXIMUM, candidates
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
@@ -106,16 +106,17 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    for index, scene in scenes(points):
+    of_cycles = asked.names or asked.distances
+    for index, scene in scenes(points) if of_cycles else ():
         some = points.take(index)
         parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
         own = solution.take(index)
         if asked.distances:
             parts |= _nonlocal(scene, own, asked.distances)
-        if asked.counts:
-            parts |= _counted(scene, own)
         for column, values in parts.items():
             found[column][index] = values
+    if asked.counts:
+        found |= _counted(points, solution)
     return found
 
 
@@ -146,10 +147,10 @@ def _nonlocal(scene: Scene, solution: Solution, distances: Sequence[float]) -> d
     return found
 
 
-def _counted(scene: Scene, solution: Solution) -> dict[str, FloatArray]:
-    made = FewCycles.of(scene, solution.critical_x, np.radians(2.0 * solution.critical_angle))
+def _counted(points: Points, solution: Solution) -> dict[str, FloatArray]:
+    made = FewCycles.of(points, solution)
     found: dict[str, FloatArray] = {}
     for row in COUNTED.values():
-        values = getattr(made, row.function).reshape(len(scene), -1)
+        values = getattr(made, row.function).reshape(len(points), -1)
         found |= zip(columns_in(row, row.name, COUNTS), values.T, strict=True)
     return found
