@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from functools import partial
+from itertools import pairwise
 from threading import local
 
 import numpy as np
@@ -97,7 +98,9 @@ def chunks(
         given = dict.fromkeys(keys)
         if control[0] != control[1]:
             _raise_to(largest, keys, loads)
-            given = {key: profile_record(profile, dict(key), control[0], largest[key], rtol) for key in largest}
+            given = {
+                key: profile_record(profile, dict(key), control[0], largest[key], rtol) for key in largest
+            }
         for j, key in enumerate(keys):
             prescribe(loads[j], control, given[key])
         largest = dict.fromkeys(keys, 0.0)
@@ -155,7 +158,7 @@ def count_batch(x, double_angle, *points, **given):
             for row, load in zip(out[first:done], loads[first:done], strict=True):
                 _refuse_overflow(row["overflow"])
                 ends = row["begin"][: row["places"] + 1]
-                shares = (N["shares"][begin:end] for begin, end in zip(ends[:-1], ends[1:], strict=True))
+                shares = (N["shares"][begin:end] for begin, end in pairwise(ends))
                 found.append([np.repeat(-np.sort(-each), load["rounds"]) for each in shares])
             first = done
     return found
@@ -174,8 +177,8 @@ def maxima_batch(least, s, *points, **given):
     Returns
     -------
     list
-        For each point arrays of x, 2θ in rad and the value at its maxima, descending; of a mirrored load those
-        at x > 0 alone.
+        For each point arrays of x, 2θ in rad and the value at its maxima, descending; of a mirrored load
+        those at x > 0 alone.
     """
     found, M = [], _of_this_thread("maxima", maxima)
     for rows, profiles, which, loads, asks in chunks(*points, **given):

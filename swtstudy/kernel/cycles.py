@@ -1,14 +1,15 @@
 """Strain cycles of a round of the load at its worst places and planes, by rainflow counting.
 
-The swing of a plane is periodic. Counting begins and ends at its largest value, so that every cycle closes: one
-closes where the swing, after a turning point and a smaller excursion, comes back to the level of that turning
-point. Its time is from the turning point until then; the outermost one's is the whole round. Each has its own
-range of the swing and its own largest σ_n within its time, so its own value of the criterion.
+The swing of a plane is periodic. Counting begins and ends at its largest value, so that every cycle closes:
+one closes where the swing, after a turning point and a smaller excursion, comes back to the level of that
+turning point. Its time is from the turning point until then; the outermost one's is the whole round. Each has
+its own range of the swing and its own largest σ_n within its time, so its own value of the criterion.
 
 The place and plane with the largest value are not always those with the largest damage Σ 1/N_i. Between two
-values 1/N goes like a power of the criterion, so places and planes are looked for at which the sum of the values
-to the power of 1, 2, 4 or 8 is largest. Only those can be better whose value, to that power, times V/(2A) is
-larger than the sum at the critical place, V being the way that the swing goes in a round and A its range.
+values 1/N goes like a power of the criterion, so places and planes are looked for at which the sum of the
+values to the power of 1, 2, 4 or 8 is largest. Only those can be better whose value, to that power, times
+V/(2A) is larger than the sum at the critical place, V being the way that the swing goes in a round and A its
+range.
 """
 
 from math import cos, isnan, pi, sin, sqrt
@@ -58,7 +59,7 @@ OFFSETS, SHRINKING, ROUNDS = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.4, 4
 #: Smallest cycle that counts, over the largest one's value, and smallest range of its swing over the largest:
 #: what instants are off. Findley's criterion is not small where the range is.
 SMALLEST, LEAST_RANGE = 1e-6, 1e-3
-#: Cycles at the edge of a face are counted this far from it, over its radius: the stress may have no bound there.
+#: Cycles at the edge of a face, where the stress may have no bound, are counted so far from it, in its radii.
 BESIDE = 1e-6
 #: Instants to an oscillation of a bulk stress.
 SAMPLES = 64
@@ -81,7 +82,11 @@ COUNTING = np.dtype(
         ("reach", "f8", (4 * MAX_STRETCHES,)),  # how high cycles at these are, over what would matter
         ("largest", "f8"),  # value of the largest cycle at the critical place
         ("known", "f8", (len(POWERS),)),  # largest sums that are kept, over the power of that
-        ("better", "f8", (len(POWERS),)),  # largest sums that a look found, if better than at the critical place
+        (
+            "better",
+            "f8",
+            (len(POWERS),),
+        ),  # largest sums that a look found, if better than at the critical place
         ("found", "i8", (len(POWERS),)),  # whether there is one
         ("where", "f8", (len(POWERS), 3)),  # and where: number of the piece and share of its angle, side, 2θ
         ("shares", "f8", (MAX_SHARES,)),  # values of cycles over the largest one's
@@ -284,7 +289,7 @@ def look_at(N, H, W, C, R, P, K, L, Q, at, largest):
 
 @jit
 def look_along(N, S, H, W, C, R, P, K, L, Q, largest):
-    """Find the best places of a coarse look along the line: ends of pieces, and within those that may matter."""
+    """Find the best places of a coarse look along the line: ends of pieces, and within what may matter."""
     last = cusps(S, C, P, L, Q, largest) - 1
     step = max(last // GROUPS, 1) if last > CROWD else 1
     N.ends = -1
@@ -306,7 +311,7 @@ def look_along(N, S, H, W, C, R, P, K, L, Q, largest):
 
 @jit
 def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
-    """Find the largest sum for one power near the best place and plane of a coarse look; counts its cycles."""
+    """Count the cycles of the largest sum for one power near the best place and plane of a coarse look."""
     at, side, angle = N.where[power, 0], N.where[power, 1], N.where[power, 2]
     wide, turned, best_at, best_angle = 1.0 / QUARTERS, STEP, at, angle
     for _ in range(ROUNDS):

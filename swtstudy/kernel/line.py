@@ -441,9 +441,8 @@ def begin_search(S, H, W, C, R, P, K, L, Q):
     cusp_count = cusps(S, C, P, L, Q, largest) - 1
     S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
-    return smallest, largest, cusp_count, first_intervals(
-        S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count
-    )
+    m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
+    return smallest, largest, cusp_count, m
 
 
 @jit

@@ -1,9 +1,9 @@
 """Strain cycles of a round of the load, told as few numbers.
 
-The strain of a plane is counted by rainflow, each cycle with its own amplitude and its own largest σ_n: a swt of
-its own (`swtstudy.kernel.cycles`). A round does the damage Σ 1/N(SWT_i), which depends on a material's constants;
-so what is kept are the cycles themselves, over the largest swt: those that are alike are one, with how many they
-are.
+The strain of a plane is counted by rainflow, each cycle with its own amplitude and its own largest σ_n: a
+swt of its own (`swtstudy.kernel.cycles`). A round does the damage Σ 1/N(SWT_i), which depends on a material's
+constants; so what is kept are the cycles themselves, over the largest swt: those that are alike are one, with
+how many they are.
 """
 
 from __future__ import annotations
