@@ -1,15 +1,19 @@
 """Named arrays of points in, results out: one compiled call for each chunk of points."""
 
 from fractions import Fraction
+from functools import partial
+from itertools import pairwise
 from threading import local
 
 import numpy as np
 
 from swtstudy.kernel.compiled import new_records
 from swtstudy.kernel.control import prescribe
+from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
 from swtstudy.kernel.loads import load_of
+from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
@@ -19,7 +23,7 @@ CHUNK = 64
 _of_thread = local()
 
 
-def solve_batch(
+def chunks(
     profile,
     poisson_ratio,
     friction,
@@ -38,7 +42,7 @@ def solve_batch(
     normal_sensitivity=None,
     rtol=1e-4,
 ):
-    """Solve n points of one profile family, one kind of load and one criterion.
+    """Records of n points of one profile family, one kind of load and one criterion, some at a time.
 
     Parameters
     ----------
@@ -65,15 +69,14 @@ def solve_batch(
     rtol
         Relative accuracy asked of s.
 
-    Returns
-    -------
-    numpy.ndarray
-        Shape (n,) of `swtstudy.kernel.point.RESULT`.
+    Yields
+    ------
+    tuple
+        Slice of the points, and their profiles, numbers of these, loads and asks.
     """
     if is_plane(profile):
         control = (True, True)  # depths have no meaning in the plane
     n = len(poisson_ratio)
-    out = new_records(n, RESULT)
     zero = np.zeros(n)
     angle = zero if phase is None else phase
     bulk = [zero if each is None else each for each in (bulk_amplitude, bulk_mean, bulk_phase)]
@@ -107,8 +110,92 @@ def solve_batch(
             profiles[k] = profile_record(profile, dict(key), control[1], largest[key], rtol)
         number = {key: k for k, key in enumerate(largest)}
         which = np.array([number[key] for key in keys])
-        solve_points(*_workspace(), profiles, which, loads, asks, out[first : first + len(rows)])
-    return out
+        yield slice(first, first + len(rows)), profiles, which, loads, asks
+
+
+def solve_batch(*points, **given):
+    """Solve points.
+
+    Parameters
+    ----------
+    points, given
+        As of `chunks`.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (n,) of `swtstudy.kernel.point.RESULT`.
+    """
+    parts = []
+    for _, profiles, which, loads, asks in chunks(*points, **given):
+        parts.append(new_records(len(which), RESULT))
+        solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
+    return np.concatenate(parts).view(np.recarray) if parts else new_records(0, RESULT)
+
+
+def count_batch(x, double_angle, *points, **given):
+    """Strain cycles of points.
+
+    Parameters
+    ----------
+    x, double_angle
+        Shape (n,): critical x, NaN where s is that of the bulk stress alone, and 2θ of the critical planes in
+        rad, NaN where there is none.
+    points, given
+        As of `chunks`.
+
+    Returns
+    -------
+    list
+        For each point and place the values of the criterion of its cycles over the largest one, descending.
+    """
+    found, N = [], _of_this_thread("counting", counting)
+    for rows, profiles, which, loads, asks in chunks(*points, **given):
+        out, first = new_records(len(which), COUNTED), np.int64(0)
+        at = np.ascontiguousarray(x[rows]), np.ascontiguousarray(double_angle[rows])
+        while first < len(which):
+            done = np.int64(count_points(*_workspace(), N, profiles, which, loads, asks, *at, first, out))
+            for row, load in zip(out[first:done], loads[first:done], strict=True):
+                _refuse_overflow(row["overflow"])
+                ends = row["begin"][: row["places"] + 1]
+                shares = (N["shares"][begin:end] for begin, end in pairwise(ends))
+                found.append([np.repeat(-np.sort(-each), load["rounds"]) for each in shares])
+            first = done
+    return found
+
+
+def maxima_batch(least, s, *points, **given):
+    """Local maxima of the criterion along the surface line.
+
+    Parameters
+    ----------
+    least, s
+        Shape (n,): lower limit of the values, and the largest value.
+    points, given
+        As of `chunks`.
+
+    Returns
+    -------
+    list
+        For each point arrays of x, 2θ in rad and the value at its maxima, descending; of a mirrored load
+        those at x > 0 alone.
+    """
+    found, M = [], _of_this_thread("maxima", maxima)
+    for rows, profiles, which, loads, asks in chunks(*points, **given):
+        for i, (limit, largest) in enumerate(zip(least[rows], s[rows], strict=True)):
+            # All that may be above the limit is looked at closely.
+            asks["near"][i] = min(float(asks["near"][i]), float(limit / largest)) if largest > 0.0 else 1.0
+            find_maxima_of(*_workspace(), M, profiles, which, loads, asks, np.int64(i), float(limit))
+            _refuse_overflow(M["overflow"])
+            order = np.argsort(-M["value"][: M["maxima"]], kind="stable")
+            found.append(tuple(M[name][order] for name in ("x", "angle", "value")))
+    return found
+
+
+def _refuse_overflow(overflow):
+    """Raise if a load cycle has more pieces than there is room for."""
+    if overflow:
+        raise ArithmeticError("the load cycle has more pieces than the solver has room for")
 
 
 def _raise_to(largest, keys, loads):
@@ -119,13 +206,16 @@ def _raise_to(largest, keys, loads):
 
 def _loads():
     """Room of this thread for the loads of a chunk."""
-    if not hasattr(_of_thread, "loads"):
-        _of_thread.loads = new_records(CHUNK, LOAD)
-    return _of_thread.loads
+    return _of_this_thread("loads", partial(new_records, CHUNK, LOAD))
 
 
 def _workspace():
     """The memory of this thread."""
-    if not hasattr(_of_thread, "workspace"):
-        _of_thread.workspace = workspace()
-    return _of_thread.workspace
+    return _of_this_thread("workspace", workspace)
+
+
+def _of_this_thread(name, make):
+    """Memory of this thread, made once."""
+    if not hasattr(_of_thread, name):
+        setattr(_of_thread, name, make())
+    return getattr(_of_thread, name)

@@ -37,7 +37,9 @@ from swtstudy.kernel.planes import (
 )
 from swtstudy.kernel.profile import coordinate_at, place_of
 
-MAX_INTERVALS = 65_543
+MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
+#: A search ends after so many positions.
+MOST_POSITIONS = 20_000
 ASK = np.dtype(
     [
         ("poisson_ratio", "f8"),
@@ -68,6 +70,9 @@ SEARCH = np.dtype(
         ("unsettled", "f8"),  # by how much its value may still change with more instants
         ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
         ("value", "f8", (2,)),  # at the last position, on both sides
+        ("seen", "f8", (MAX_SEEN,)),  # places of the positions, in the order of the search
+        ("seen_value", "f8", (MAX_SEEN, 2)),  # values there on both sides; -1 where none was asked for
+        ("seen_angle", "f8", (MAX_SEEN, 2)),  # 2θ
         ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
         ("piece", "f8", (MAX_INTERVALS, 2)),  # ends of the piece
         ("beside", "f8", (MAX_INTERVALS, 2)),  # lengths of the pieces beside it
@@ -254,7 +259,9 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
 @jit
 def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
     """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
+    number = min(S.positions, MAX_SEEN - 1)
     S.positions += 1
+    S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
     G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
     sample_cycle(H, C, R, P, K, L, place, G, largest, Q.poisson_ratio, Q.friction)
     for side in range(2):
@@ -267,6 +274,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
         sign = 1.0 - 2.0 * side
         swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
         S.value[side] = swt
+        S.seen_value[number, side], S.seen_angle[number, side] = swt, angle
         if swt > S.best:
             S.best, S.place, S.sign, S.angle = swt, place, sign, angle
             S.unsettled = min(max(W.change, SETTLED * Q.time * swt), Q.time * swt)
@@ -368,11 +376,13 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
 
 
 @jit
-def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m):
-    """Divide the group of pieces k at its middle cusp; returns the number of intervals."""
+def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
+    """Divide the group of pieces k at its middle cusp; returns the number of intervals.
+
+    A side on which nothing exceeds the limit does not matter.
+    """
     first, last = S.cusps[k, 0], S.cusps[k, 1]
     middle = (first + last) // 2
-    limit = S.best * (1.0 + Q.line)
     plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
     evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[middle], plus, minus)
     left, right, seen = S.piece[k, 0], S.piece[k, 1], 0.0
@@ -425,41 +435,46 @@ def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
 
 
 @jit
-def search_line(S, H, W, C, R, P, K, L, Q):
-    """Find the largest swt on the line; returns by how much a higher one may be hidden."""
-    largest = place_of(P, C.largest)
+def begin_search(S, H, W, C, R, P, K, L, Q):
+    """Places s of the smallest and the largest contact, the last cusp's number, and the first intervals'."""
+    smallest, largest = place_of(P, C.smallest), place_of(P, C.largest)
     cusp_count = cusps(S, C, P, L, Q, largest) - 1
-    smallest = place_of(P, C.smallest)
     S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
     m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
+    return smallest, largest, cusp_count, m
+
+
+@jit
+def search_line(S, H, W, C, R, P, K, L, Q):
+    """Find the largest swt on the line; returns by how much a higher one may be hidden."""
+    smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
     gap = 0.0
     while True:
         k = FIRST
         for i in range(m):
             if S.bound[i] > S.bound[k]:
                 k = i
-        gap = S.bound[k] - S.best
-        if gap <= Q.line * S.best or m + 2 > MAX_INTERVALS or S.positions > 20_000:
+        gap, limit = S.bound[k] - S.best, S.best * (1.0 + Q.line)
+        if gap <= Q.line * S.best or m + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
             break
         if S.cusps[k, 1] > 0:
-            m = divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m)
+            m = divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
         else:
-            halve(S, H, W, C, R, P, K, L, Q, largest, k, m)
+            halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit)
             m += 1
     return max(gap, 0.0)
 
 
 @jit
-def halve(S, H, W, C, R, P, K, L, Q, largest, k, m):
-    """Halve interval k; its upper half becomes interval m.
+def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
+    """Halve interval k; its upper half becomes interval m. Below the limit nothing matters.
 
     Curvature follows from the second difference, and from how far the new value is off the parabola through
     the three values before: four times that distance is what a third derivative changes in the drop.
     """
     middle = 0.5 * (S.ends[k, 0] + S.ends[k, 1])
     whole = S.ends[k, 1] - S.ends[k, 0] > 3.0
-    limit = S.best * (1.0 + Q.line)
     plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
     evaluate(S, H, W, C, R, P, K, L, Q, largest, position(S, k, middle), plus, minus)
     S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]

@@ -37,6 +37,7 @@ LOAD = np.dtype(
         ("bulk_range", "f8", (2,)),  # smallest and largest B
         ("normal_range", "f8", (2,)),  # and n
         ("period", "f8"),
+        ("rounds", "i8"),  # how often a round of the load runs through the cycle
         ("rest", "f8", (3,)),  # mean of n, v and B
         ("order", "i8", (MAX_HARMONICS,)),
         ("cosine", "f8", (3, MAX_HARMONICS)),

@@ -89,7 +89,7 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
         raise ValueError(f"a load of {len(moving)} harmonics: at most {MAX_HARMONICS}")
     common = reduce(gcd, moving, 0) or 1  # the cycle is run through so often in a period
     load = new_record(LOAD)
-    load["period"], load["terms"] = 2.0 * np.pi, len(moving)
+    load["period"], load["terms"], load["rounds"] = 2.0 * np.pi, len(moving), common
     load["order"][: len(moving)] = [order // common for order in moving]
     for component, rows in enumerate((normal, tangential, bulk)):
         load["rest"][component] = means[component]
@@ -146,7 +146,7 @@ def polygon(normal, tangential, bulk=None):
     if sides >= MAX_VERTICES:
         raise ValueError(f"a loop of {sides} vertices: at most {MAX_VERTICES - 1}")
     load = new_record(LOAD)
-    load["sides"], load["period"] = sides, sides
+    load["sides"], load["period"], load["rounds"] = sides, sides, 1
     load["vertex"][:, :sides], load["vertex"][:, sides] = vertices.T, vertices[0]
     load["rest"] = vertices[0]
     load["normal_range"], load["bulk_range"] = (_ends(vertices[:, component]) for component in (0, BULK))

@@ -11,14 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from swtstudy.kernel.batch import maxima_batch
 from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
 from swtstudy.mechanics.control.coordinate import unit_half_load
-from swtstudy.mechanics.line.counted import FewCycles
-from swtstudy.mechanics.line.maximum import SAME_MAXIMUM, candidates
+from swtstudy.mechanics.counted import FewCycles
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import scenes
+from swtstudy.mechanics.solver import arguments_of, scenes
 from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.quantities import (
@@ -38,7 +38,14 @@ from swtstudy.vocabulary.quantities import (
 KINDS = ("volume", "point", "line")
 
 
-def worst_means(scene: Scene, position: FloatArray, angle: FloatArray, distance: FloatArray) -> NonlocalSwt:
+#: Relative accuracy of swt at local maxima.
+CANDIDATE_TOLERANCE = 1e-4
+#: Maxima nearer to one another than this share of the contact radius are one: a smooth maximum is found to
+#: the root of the accuracy.
+SAME_MAXIMUM = 0.01
+
+
+def worst_means(points: Points, scene: Scene, solution: Solution, distance: FloatArray) -> NonlocalSwt:
     """The largest values over critical distances among those about the critical points and other maxima.
 
     Each kind, distance and direction has its own place. Another local maximum of swt along the line is tried
@@ -47,22 +54,28 @@ def worst_means(scene: Scene, position: FloatArray, angle: FloatArray, distance:
 
     Parameters
     ----------
-    scene, position, angle, distance
-        As of `nonlocal_swt`, with the critical points.
+    points, scene, solution
+        n points, their scene and their solution.
+    distance
+        As of `nonlocal_swt`.
     """
-    found = nonlocal_swt(scene, position, angle, distance)
+    position = solution.critical_x
+    found = nonlocal_swt(scene, position, solution.critical_angle, distance)
     rows = np.flatnonzero(np.isfinite(position))
     if not rows.size:
         return found
-    others = candidates(scene.take(rows), _least(found)[rows])
+    limits = np.maximum(_least(found)[rows], 0.0), solution.s[rows]
+    others = maxima_batch(*limits, **arguments_of(points.take(rows)), rtol=CANDIDATE_TOLERANCE)
     near = SAME_MAXIMUM * scene.largest_radius
-    for number, x, double_angle, swt in zip(*others, strict=True):
-        row = rows[number : number + 1]
-        if np.abs(x - position[row]) <= near[row] or swt <= _least(found)[row]:
-            continue
-        degrees = np.degrees(0.5 * double_angle)
-        own = nonlocal_swt(scene.take(row), np.array([x]), np.array([degrees]), distance)
-        found = _larger(found, int(row[0]), own)
+    for row, maxima in zip(rows, others, strict=True):
+        tried = [float(position[row])]
+        for x, double_angle, swt in zip(*maxima, strict=True):
+            if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near[row]:
+                continue
+            tried.append(float(x))
+            degrees = np.degrees(0.5 * double_angle)
+            own = nonlocal_swt(scene.take(np.array([row])), np.array([x]), np.array([degrees]), distance)
+            found = _larger(found, int(row), own)
     return found
 
 
@@ -106,16 +119,17 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    for index, scene in scenes(points):
+    of_cycles = asked.names or asked.distances
+    for index, scene in scenes(points) if of_cycles else ():
         some = points.take(index)
         parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
         own = solution.take(index)
         if asked.distances:
-            parts |= _nonlocal(scene, own, asked.distances)
-        if asked.counts:
-            parts |= _counted(scene, own)
+            parts |= _nonlocal(some, scene, own, asked.distances)
         for column, values in parts.items():
             found[column][index] = values
+    if asked.counts:
+        found |= _counted(points, solution)
     return found
 
 
@@ -129,8 +143,10 @@ def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str
     return found
 
 
-def _nonlocal(scene: Scene, solution: Solution, distances: Sequence[float]) -> dict[str, FloatArray]:
-    made = worst_means(scene, solution.critical_x, solution.critical_angle, np.array(distances))
+def _nonlocal(
+    points: Points, scene: Scene, solution: Solution, distances: Sequence[float]
+) -> dict[str, FloatArray]:
+    made = worst_means(points, scene, solution, np.array(distances))
     # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:
@@ -146,10 +162,10 @@ def _nonlocal(scene: Scene, solution: Solution, distances: Sequence[float]) -> d
     return found
 
 
-def _counted(scene: Scene, solution: Solution) -> dict[str, FloatArray]:
-    made = FewCycles.of(scene, solution.critical_x, np.radians(2.0 * solution.critical_angle))
+def _counted(points: Points, solution: Solution) -> dict[str, FloatArray]:
+    made = FewCycles.of(points, solution)
     found: dict[str, FloatArray] = {}
     for row in COUNTED.values():
-        values = getattr(made, row.function).reshape(len(scene), -1)
+        values = getattr(made, row.function).reshape(len(points), -1)
         found |= zip(columns_in(row, row.name, COUNTS), values.T, strict=True)
     return found

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -52,30 +53,34 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
     ArithmeticError
         If a load cycle has more pieces than the solver has room for.
     """
-    found = solve_batch(
-        points.profile,
-        points.poisson_ratio,
-        points.friction,
-        points.normal_amplitude,
-        points.tangential_amplitude,
-        [Fraction(int(p), int(q)) for p, q in zip(points.p, points.q, strict=True)],
-        points.phase,
-        loops=None if points.path is None else [points.path] * len(points),
-        shape=points.shape,
-        control=(points.control.normal_force, points.control.tangential_force),
-        bulk_amplitude=points.bulk_stress_amplitude,
-        bulk_mean=points.bulk_stress_mean,
-        bulk_phase=points.bulk_stress_phase,
-        criterion=points.criterion,
-        walker_exponent=points.walker_exponent,
-        normal_sensitivity=points.normal_sensitivity,
-        rtol=rtol,
-    )
+    found = solve_batch(**arguments_of(points), rtol=rtol)
     if found["overflow"].any():
         raise ArithmeticError("the load cycle has more pieces than the solver has room for")
     s, error, x, angle = (found[name].copy() for name in ("s", "s_error", "critical_x", "critical_angle"))
     regime = found["regime"].astype(np.int8)
     return Solution(s, error, x, angle, regime, _on_circle(points, s, error, x))
+
+
+def arguments_of(points: Points) -> dict[str, Any]:
+    """Points as arguments of `swtstudy.kernel.batch.chunks`."""
+    return {
+        "profile": points.profile,
+        "poisson_ratio": points.poisson_ratio,
+        "friction": points.friction,
+        "normal_amplitude": points.normal_amplitude,
+        "tangential_amplitude": points.tangential_amplitude,
+        "frequency_ratio": [Fraction(int(p), int(q)) for p, q in zip(points.p, points.q, strict=True)],
+        "phase": points.phase,
+        "loops": None if points.path is None else [points.path] * len(points),
+        "shape": points.shape,
+        "control": (points.control.normal_force, points.control.tangential_force),
+        "bulk_amplitude": points.bulk_stress_amplitude,
+        "bulk_mean": points.bulk_stress_mean,
+        "bulk_phase": points.bulk_stress_phase,
+        "criterion": points.criterion,
+        "walker_exponent": points.walker_exponent,
+        "normal_sensitivity": points.normal_sensitivity,
+    }
 
 
 def _on_circle(points: Points, s: FloatArray, error: FloatArray, x: FloatArray) -> FloatArray:

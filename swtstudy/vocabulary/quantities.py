@@ -40,7 +40,7 @@ class Quantity:
     function
         Name of the function in `swtstudy.mechanics.stress.work` or `swtstudy.mechanics.body.von_mises`, or of
         the attribute of `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or
-        `swtstudy.mechanics.line.counted.FewCycles`, that has it.
+        `swtstudy.mechanics.counted.FewCycles`, that has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims

@@ -52,9 +52,9 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     few = run(study(axes=NEAR.format("[0.05]")), path, workers=1)
     asked: list[float] = []
 
-    def counting(scene, position, angle, distance):
+    def counting(points, scene, solution, distance):
         asked.extend(distance.tolist())
-        return whole(scene, position, angle, distance)
+        return whole(points, scene, solution, distance)
 
     whole = quantities.worst_means
     monkeypatch.setattr(quantities, "worst_means", counting)

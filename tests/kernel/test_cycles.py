@@ -1,0 +1,49 @@
+"""Strain cycles that the kernel counts, against a library and by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import rainflow
+
+from swtstudy.kernel import cycles
+from swtstudy.kernel.line import ask
+
+pytestmark = pytest.mark.xdist_group("kernel")
+ROOM = cycles.counting()
+
+
+def counted(swing, stress, **criterion):
+    """Values of the cycles of a history, descending; ν is 0, so that swt is σ_n times the amplitude."""
+    ROOM.points = len(swing)
+    ROOM.swing[: len(swing)], ROOM.stress[: len(swing)] = swing, stress
+    cycles.count_cycles(ROOM, ask(0.0, 0.3, 1e-4, **criterion))
+    return -np.sort(-ROOM.value[: ROOM.cycles])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_ranges_are_those_of_a_library(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    swing = rng.normal(size=rng.integers(2, 200))
+    closed = np.roll(swing, -int(swing.argmax()))
+    closed = np.append(closed, closed[0])
+    ranges = [size for size, count in rainflow.count_cycles(closed) for _ in range(round(2 * count))]
+    expected = 0.5 * -np.sort(-np.array(ranges))[::2]
+    found = counted(swing, np.ones(swing.size))
+    expected = expected[expected > 0.5 * cycles.LEAST_RANGE * np.ptp(swing)]
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+
+def test_each_cycle_has_the_largest_stress_within_its_time() -> None:
+    swing = [3.0, 0.0, 2.0, 1.0, 2.5, -1.0]
+    # 2 → 1 → 2 closes with the stress 4; 0 → 2.5 → 0 holds it; the outermost one is the whole round.
+    assert counted(swing, [1.0, 1.0, 1.0, 4.0, 1.0, 1.0]).tolist() == [8.0, 5.0, 2.0]
+    # A shift in time changes nothing.
+    for shift in range(6):
+        found = counted(np.roll(swing, shift), np.roll([1.0, 1.0, 1.0, 4.0, 1.0, 1.0], shift))
+        assert found.tolist() == [8.0, 5.0, 2.0]
+
+
+def test_turning_back_by_next_to_nothing_is_no_cycle() -> None:
+    swing = [1.0, -1.0, 0.5, 0.4999, 0.6]
+    assert len(counted(swing, np.ones(5), criterion="findley", normal_sensitivity=0.3)) == 1
