@@ -47,8 +47,6 @@ MAX_PLACES = 1 + len(POWERS)
 GAIN = 0.01
 #: What an upper bound may be low by, since it is seen at instants.
 SLACK = 1.05
-#: Intervals of a part where cycles are counted.
-CLOSE_INTERVALS = 8
 #: Values between two ends of a piece are at most so much higher than at these.
 WITHIN = 2.0
 #: Places of a piece that are looked at, its lower end among them.
@@ -65,8 +63,9 @@ BESIDE = 1e-6
 SAMPLES = 64
 #: Room for the shares of the points of one call: any one point has room in it.
 MAX_SHARES = MAX_PLACES * MAX_INSTANTS
-#: How closely instants are looked at; no literals, for which Numba would compile anew.
-COARSELY, CLOSELY = np.bool_(False), np.bool_(True)
+#: Intervals of a part in a coarse and in a closer look and where they are counted in the end (8 in
+#: the place of 32: small ones are 5 % off); no literals, for which Numba would compile anew.
+COARSELY, CLOSELY, FINELY = np.int64(4), np.int64(8), np.int64(FINEST)
 COUNTING = np.dtype(
     [
         ("rank", "i8", (MAX_PARTS,)),  # parts in the order of time
@@ -236,20 +235,19 @@ def reach_of(N, Q, top, swing):
 
 
 @jit
-def sample_at(N, H, C, R, P, K, L, Q, place, largest, closely):
-    """Sample the cycle at place s, coarsely or closely."""
+def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals):
+    """Sample the cycle at place s with so many intervals of each part."""
     G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
     sample_cycle(H, C, R, P, K, L, place, G, largest, Q.poisson_ratio, Q.friction)
-    if closely:
-        sample_closely(H, C, P, K, L, Q)
+    sample_closely(H, C, P, K, L, Q, intervals)
     rank_parts(N, H, L)
 
 
 @jit
-def sample_closely(H, C, P, K, L, Q):
-    """Give all parts of the sampled cycle `CLOSE_INTERVALS`, but short sides of which the ends are enough."""
+def sample_closely(H, C, P, K, L, Q, intervals):
+    """Give all parts of the sampled cycle so many intervals, but short sides of which the ends are enough."""
     for z in range(H.parts):
-        while 1 < H.intervals[z] < CLOSE_INTERVALS and H.instants + ROOM < MAX_INSTANTS:
+        while 1 < H.intervals[z] < intervals and H.instants + ROOM < MAX_INSTANTS:
             refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
 
 
@@ -329,7 +327,7 @@ def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
                     best, best_at, best_angle = total, here, plane
         wide *= SHRINKING
         turned *= SHRINKING
-    sample_at(N, H, C, R, P, K, L, Q, place_at(N, best_at), largest, CLOSELY)
+    sample_at(N, H, C, R, P, K, L, Q, place_at(N, best_at), largest, FINELY)
     fill(H, W, side, Q)
     follow(N, H, W, Q, cos(best_angle), sin(best_angle))
     count_cycles(N, Q)
@@ -381,7 +379,7 @@ def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
     resolve(H, W, C, P, K, L, side, value, angle, Q, value)
-    sample_closely(H, C, P, K, L, Q)
+    sample_closely(H, C, P, K, L, Q, FINELY)
     rank_parts(N, H, L)
     fill(H, W, side, Q)
     follow(N, H, W, Q, cos(angle), sin(angle))

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 import rainflow
 
+from swtstudy import LoadPath
 from swtstudy.kernel import cycles
+from swtstudy.kernel.batch import count_batch
 from swtstudy.kernel.line import ask
 
 pytestmark = pytest.mark.xdist_group("kernel")
@@ -47,3 +49,26 @@ def test_each_cycle_has_the_largest_stress_within_its_time() -> None:
 def test_turning_back_by_next_to_nothing_is_no_cycle() -> None:
     swing = [1.0, -1.0, 0.5, 0.4999, 0.6]
     assert len(counted(swing, np.ones(5), criterion="findley", normal_sensitivity=0.3)) == 1
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"loops": [LoadPath("thrice", [[0.0, 1.0, 1.0], [0.0, -1.0, -1.0]] * 3)]},
+        {"frequency_ratio": ["3/2"], "phase": [0.4], "bulk_phase": [1.0]},
+    ],
+)
+@pytest.mark.parametrize(("criterion", "angle"), [("swt", 0.0), ("findley", 1.0)])
+def test_far_from_the_contact_the_bulk_stress_is_counted(given, criterion: str, angle: float) -> None:
+    sizes = {"poisson_ratio": [0.3], "friction": [0.3], "normal_amplitude": [0.3]}
+    sizes |= {"tangential_amplitude": [0.1], "bulk_amplitude": [0.3], "bulk_mean": [0.1]}
+    own = {"criterion": criterion, "normal_sensitivity": [0.3]}
+    (places,) = count_batch(np.array([np.nan]), np.array([angle]), "paraboloid", **sizes, **given, **own)
+    (shares,) = places
+    np.testing.assert_allclose(shares, np.ones(3), rtol=1e-4)
+
+
+def test_without_a_critical_plane_nothing_is_counted() -> None:
+    sizes = {"poisson_ratio": [0.3], "friction": [0.3], "normal_amplitude": [0.3]}
+    nothing = np.array([np.nan])
+    assert count_batch(nothing, nothing, "paraboloid", **sizes, tangential_amplitude=[0.1]) == [[]]

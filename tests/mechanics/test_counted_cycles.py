@@ -51,19 +51,6 @@ def test_four_tangential_cycles_in_a_slow_normal_one_do_about_four_times_the_dam
     assert_allclose(one / rounds, [1.0, 4.0, 7.0], rtol=0.01)
 
 
-def test_far_from_the_contact_the_bulk_stress_is_counted() -> None:
-    turns = [1, 3]
-    loads = [LoadPath(f"of {n}", [[0.0, 1.0, 1.0], [0.0, -1.0, -1.0]] * n) for n in turns]
-    given = {"load": loads, "normal_amplitude": 1e-3, "tangential_amplitude": 1e-7}
-    found = swtstudy.physical(**CONTACT | given, bulk_stress_amplitude=400.0).solve(
-        rtol=1e-3, constants=ALUMINIUM
-    )
-    found = found.isel(body=0)
-    assert np.isnan(found.critical_x).all()
-    one = ALUMINIUM.cycles(found.SWT).ravel()
-    assert_allclose(one / found.cycles.values.ravel(), turns, rtol=1e-9)
-
-
 def test_rounds_are_those_of_the_place_with_most_damage() -> None:
     counted = np.array([[1.0, 0.5], [0.9, 0.9]])
     number = np.array([[1.0, 2.0], [1.0, 3.0]])

@@ -1,18 +1,13 @@
-"""The maximum of swt over the surface line (eq. 10): global first, then local.
-
-Local maxima far below the largest one are found as well: a mean over a critical distance may be largest about
-one of these.
-"""
+"""The maximum of swt over the surface line (eq. 10)."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from swtstudy.mechanics.line.climb import Climb
-from swtstudy.mechanics.line.first_look import CLOSER, PLANES, first_look, joined_pieces, resolved
+from swtstudy.mechanics.line.first_look import joined_pieces, resolved
 from swtstudy.mechanics.line.look import Accuracy
 from swtstudy.mechanics.line.positions import Pieces, Positions
 from swtstudy.mechanics.line.rounding import of_rounding
@@ -93,68 +88,3 @@ def _climbed(split: Scene, positions: Positions, climb: Climb, accuracy: Accurac
     # Nothing finer than this was looked at.
     error = np.maximum(error, accuracy.tolerance * best.value)
     return Maximum(best.value, error, best.position, best.angle)
-
-
-#: Relative accuracy of swt there.
-CANDIDATE_TOLERANCE = 1e-4
-#: Maxima of a point nearer to one another than this share of the contact radius are one.
-SAME_MAXIMUM = 1e-5
-#: Distance, over the contact radius, at which swt is lower beside a maximum, and what a look is off there.
-#: All that climbs end at: values about flanks, 5 % above those about maxima
-#: (tests/mechanics/test_worst_means.py).
-NEIGHBOUR, LOOK_ERROR = 0.01, 1e-3
-
-
-class Candidates(NamedTuple):
-    """m local maxima, arrays of shape (m,).
-
-    Attributes
-    ----------
-    rows
-        Number of the point.
-    position, double_angle, swt
-        Signed x in a_H, 2θ of the best plane there, rad, and swt; descending in swt for each point.
-    """
-
-    rows: IndexArray
-    position: FloatArray
-    double_angle: FloatArray
-    swt: FloatArray
-
-
-def candidates(scene: Scene, least: FloatArray) -> Candidates:
-    """Local maxima of swt on the surface line of n points that are above the ``least``, shape (n,).
-
-    Of a load whose second half mirrors the first, those at x ≥ 0 alone.
-    """
-    split, accuracy = scene.split_at_breakpoints(), Accuracy.for_tolerance(CANDIDATE_TOLERANCE)
-    positions, seen = resolved(scene, Pieces.of(split), least)
-    climb = Climb.start(split, positions, seen, accuracy.search, least)
-    top = tops(split, positions, climb, accuracy)
-    top = top.take(_are_maxima(scene.take(top.climb.point), top.position))
-    found = Candidates(top.climb.point, top.position, top.angle, top.value)
-    return _apart(found, SAME_MAXIMUM * scene.largest_radius)
-
-
-def _are_maxima(scene: Scene, x: FloatArray) -> BoolArray:
-    """At which of m places, one of each scene, swt is as high as beside them.
-
-    Climbs may end where that of one plane is highest, on a flank of another one's.
-    """
-    r = np.abs(x)[:, None] + NEIGHBOUR * scene.largest_radius[:, None] * np.array([-1.0, 0.0, 1.0])
-    seen = first_look(scene, np.abs(r), CLOSER, PLANES).swt
-    side = np.where(x < 0.0, seen.shape[2] - 1, 0)
-    before, here, after = seen[np.arange(len(x)), :, side].T
-    return np.asarray(np.maximum(before, after) <= (1.0 + LOOK_ERROR) * here)
-
-
-def _apart(found: Candidates, distance: FloatArray) -> Candidates:
-    """In descending order for each point, without those near to higher ones."""
-    order = np.lexsort((-found.swt, found.rows))
-    kept: list[int] = []
-    for k in order:
-        same = [j for j in kept if found.rows[j] == found.rows[k]]
-        if all(abs(found.position[j] - found.position[k]) > distance[found.rows[k]] for j in same):
-            kept.append(int(k))
-    rows, position, double_angle, swt = found
-    return Candidates(rows[kept], position[kept], double_angle[kept], swt[kept])
