@@ -12,7 +12,7 @@ import numpy as np
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, offset
-from swtstudy.kernel.growth import places_at
+from swtstudy.kernel.growth import places_at, solved_places
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import force_at
 from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
@@ -24,6 +24,10 @@ FIRST = np.int64(0)
 COARSEST = np.int64(4)
 #: A short side of a polygon moves edge and front by at most this share of the contact.
 SHORT = 0.05
+#: A part of which the two ends are all.
+MONOTONE = np.int64(-1)
+#: Nearer to the edge of a face than this share of where the front begins, a passage has no time of its own.
+NEXT_TO_FACE = 1e-3
 #: Widths of the slip zone within which a passage has a part of its own.
 NARROW = 30.0
 #: Instants are kept free for one round of doubled parts.
@@ -223,6 +227,8 @@ def refine(H, z, C, P, L, K, nu, mu):
 @jit
 def may_be_refined(H, C, z):
     """Whether part z can be sampled more closely: it is not yet as short as rounding."""
+    if H.cusps[z] == MONOTONE:
+        return False
     return H.intervals[z] < FINEST or (
         H.parts + 1 < MAX_PARTS and H.time[z, 1] - H.time[z, 0] > 1e-6 * (H.time[z, 1] - C.time[0, 0])
     )
@@ -279,7 +285,32 @@ def add_part(H, C, k, begin, end, edge_begin, edge_end, front_begin, front_end, 
 
 
 @jit
-def split(H, C, P, L, k):
+def split_towards_face(H, C, R, P, K, L, k, nu, mu):
+    """Append the parts of stretch k whose front goes to the singular edge of the face, next to which x is.
+
+    The stress goes like the logarithm of the front's place, and the front passes x within rounding of the end:
+    the last part has no time of its own. From its begin to the passage the stress is monotone.
+    """
+    begin, end = C.time[k, 0], C.time[k, 1]
+    t, edge, front = begin, C.place[k, 0, 0], C.place[k, 0, 1]
+    cusps = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) & 1
+    for j in range(1, 12):
+        stop = end - (end - begin) / 16.0**j
+        e, f = solved_places(C, P, L, k, stop)
+        if f <= 16.0 * H.X or f >= front:
+            break
+        add_part(H, C, k, t, stop, edge, e, front, f, cusps)
+        t, edge, front, cusps = stop, e, f, 0
+    z = add_part(H, C, k, t, end, edge, C.place[k, FINEST, 0], front, H.X, MONOTONE)
+    m = H.instants
+    stress(H, m, C, P, K, k, edge, front, nu, mu)
+    stress(H, m + 1, C, P, K, k, C.place[k, FINEST, 0], H.X, nu, mu)
+    H.bulk[m], H.bulk[m + 1] = bulk_at(L, t), bulk_at(L, end)
+    H.first[z], H.intervals[z], H.instants = m, 1, m + 2
+
+
+@jit
+def split(H, C, R, P, K, L, k, nu, mu):
     """Append the parts of stretch k: it is cut where its edge and its front pass x."""
     begin, end = C.time[k, 0], C.time[k, 1]
     push, i, G = C.push[k], C.piece[k], H.G
@@ -287,6 +318,16 @@ def split(H, C, P, L, k):
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
     if push == OPEN:
         add_part(H, C, k, begin, end, edge, edge_end, front, front_end, 0)
+        return
+    if (
+        P.singular
+        and push != STICK
+        and i != NONE
+        and front_end <= 0.0
+        and H.all_outside == 0
+        and H.X < NEXT_TO_FACE * front
+    ):
+        split_towards_face(H, C, R, P, K, L, k, nu, mu)
         return
     at_edge, at_front, near = end, end, approaches(G, C.edge[k, 0], C.edge[k, 1])
     if (C.edge[k, 0] - G) * (C.edge[k, 1] - G) < 0.0:
@@ -353,9 +394,10 @@ def sample_cycle(H, C, R, P, K, L, place, G, largest, nu, mu):
             sample_ends(H, C, P, L, K, k, nu, mu)
             continue
         before = H.parts
-        split(H, C, P, L, k)
+        split(H, C, R, P, K, L, k, nu, mu)
         for z in range(before, H.parts):
-            sample(H, z, COARSEST, C, P, L, K, nu, mu)
+            if H.intervals[z] == 0:
+                sample(H, z, COARSEST, C, P, L, K, nu, mu)
     if L.mirrored:
         parts, instants = H.parts, H.instants
         for y in range(parts):

@@ -152,9 +152,12 @@ def cusps(S, C, P, L, Q, largest):
     m = 1
     z[0] = INNERMOST * largest
     if P.singular and C.gross_slip and Q.friction >= TEARING:
-        # Beyond this no plane is in tension: σ_n falls like (1 - μ) L, L = ln(b/(|x| - b)).
-        L_far = 20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2)
-        z[0] = min(z[0], b * exp(-0.5 * min(L_far, 600.0)))
+        # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
+        L_edge = 4.0
+        while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
+            z[m] = b * sqrt(2.0) * exp(-0.5 * L_edge)
+            L_edge *= 2.0
+            m += 1
     if Q.criterion != SWT or has_bulk(L):  # places in mere pressure, and outside of the contact
         if b > 0.0:
             z[m] = -b * (1.0 - INNERMOST)
@@ -207,7 +210,7 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
             confirming = True
             for which in range(3):
                 z = W.part[which]
-                if H.intervals[z] < FINEST and W.double[z] == 0:
+                if H.intervals[z] < FINEST and W.double[z] == 0 and may_be_refined(H, C, z):
                     W.double[z] = 1
                     doubled += 1
         if (

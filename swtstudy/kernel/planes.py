@@ -16,7 +16,7 @@ import numpy as np
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, tail
 from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
-from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS
+from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE
 
 #: Planes of the first look, over 2θ.
 PLANES = 16
@@ -363,6 +363,8 @@ def unresolved(H, W, Q, z, C, S, tolerance):
             at_low = i
     of_tension, of_swing = sensitivities(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
     miss = 0.0
+    if H.cusps[z] == MONOTONE:
+        return miss
     if intervals == 1:  # of a short side, between whose ends the stress is next to monotone
         db, dc = abs(W.b[first + 1] - W.b[first]), abs(W.c[first + 1] - W.c[first])
         of_b, of_c = max(abs(of_b), abs(of_c)), max(abs(of_b), abs(of_c))

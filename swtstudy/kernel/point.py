@@ -21,6 +21,9 @@ FINEST_GROWTH = 1e-11
 ROUNDING = 2e-7
 #: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
 NEAREST = 1e-9
+#: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
+#: there is no continuum that small.
+TEARS = 0.99
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
 SAME = 1e-12
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
@@ -76,7 +79,7 @@ def is_torn(C, L, P, Q):
             slips = slips or abs(v) >= n - margin
             moves = moves or v != 0.0
             pulled = pulled or (n <= margin and bulk_at(L, C.time[k, e]) > 0.0)
-    torn = (slips and Q.friction > 1.0) or (C.gross_slip and Q.friction >= 1.0) or lost
+    torn = (slips and Q.friction > 1.0) or (C.gross_slip and Q.friction >= TEARS) or lost
     if torn and Q.friction > 0.0 and moves:
         return True
     return lost and pulled and Q.poisson_ratio < 0.5
