@@ -288,8 +288,8 @@ def add_part(H, C, k, begin, end, edge_begin, edge_end, front_begin, front_end, 
 def split_towards_face(H, C, R, P, K, L, k, nu, mu):
     """Append the parts of stretch k whose front goes to the singular edge of the face, next to which x is.
 
-    The stress goes like the logarithm of the front's place, and the front passes x within rounding of the end:
-    the last part has no time of its own. From its begin to the passage the stress is monotone.
+    The stress goes like the logarithm of the front's place, and the front passes x within rounding of the
+    end: the last part has no time of its own. From its begin to the passage the stress is monotone.
     """
     begin, end = C.time[k, 0], C.time[k, 1]
     t, edge, front = begin, C.place[k, 0, 0], C.place[k, 0, 1]
@@ -325,7 +325,7 @@ def split(H, C, R, P, K, L, k, nu, mu):
         and i != NONE
         and front_end <= 0.0
         and H.all_outside == 0
-        and H.X < NEXT_TO_FACE * front
+        and NEXT_TO_FACE * front > H.X
     ):
         split_towards_face(H, C, R, P, K, L, k, nu, mu)
         return

@@ -97,6 +97,8 @@ CROWD, GROUPS, LONG = 100, 48, 0.02
 RISE, RISE_SAFETY, RISE_MEMORY = 4.0, 4.0, 0.5
 #: Largest ratio of the lengths of two pieces beside each other, where it matters.
 GRADED = 50.0
+#: A piece on which the growth may turn is seen at three places within if one is higher than this share.
+HIGH = 0.7
 #: Least change by more instants that is reckoned with, as a share of the tolerance in time.
 SETTLED = 0.6
 #: Positions whose value is lower than the best by no more than this share are looked at most closely.
@@ -482,7 +484,11 @@ def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
     evaluate(S, H, W, C, R, P, K, L, Q, largest, position(S, k, middle), plus, minus)
     S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]
     S.ends[m, 0], S.ends[m, 1], S.ends[k, 1] = middle, S.ends[k, 1], middle
-    S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = 0, 0, 0, 0
+    highest = max(S.value[0], S.value[1])
+    for side in range(2):
+        highest = max(highest, S.at_ends[k, 0, side], S.at_ends[k, 1, side])
+    unseen = 1 if whole and S.unseen[k] and highest > HIGH * S.best else 0
+    S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = unseen, unseen, 0, 0
     upper = S.upper[k]
     S.upper[k], S.upper[m] = 0, 1
     for side in range(2):

@@ -1,8 +1,8 @@
 """Local maxima of the criterion along the surface line, above a lower limit.
 
 The line is halved as in the search for the largest value (`swtstudy.kernel.line`), but until no interval
-hides anything that exceeds its own ends by more than `MAPPED`, or the limit. Places as high as both neighbours
-are maxima; about each of them intervals are halved until none hides more than `FOUND` above it.
+hides anything that exceeds its own ends by more than `MAPPED`, or the limit. Places as high as both
+neighbours are maxima; about each of them intervals are halved until none hides more than `FOUND` above it.
 """
 
 from math import sqrt

@@ -25,7 +25,7 @@ NEAREST = 1e-9
 #: there is no continuum that small.
 TEARS = 0.99
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
-SAME = 1e-12
+SAME = 1e-7
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(6)
 RESULT = np.dtype(
@@ -88,13 +88,14 @@ def is_torn(C, L, P, Q):
 @jit
 def is_idle(C, L, P, Q):
     """Whether s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
-    still, v0 = C.largest == C.smallest, load_at(L, C.time[0, 0])[1]
-    if Q.friction > 0.0:
-        for k in range(C.stretches):
-            still = still and load_at(L, C.time[k, 1])[1] == v0
+    still, pulls, v0 = C.largest == C.smallest, False, load_at(L, C.time[0, 0])[1]
+    for k in range(C.stretches):
+        v = load_at(L, C.time[k, 1])[1]
+        still = still and (v == v0 or Q.friction == 0.0)
+        pulls = pulls or (v != 0.0 and Q.friction > 0.0)
     if has_bulk(L):
         return still and largest_bulk(L) == smallest_bulk(L)
-    return still or (Q.criterion == SWT and Q.friction == 0.0 and (Q.poisson_ratio == 0.5 or P.plane))
+    return still or (Q.criterion == SWT and not pulls and (Q.poisson_ratio == 0.5 or P.plane))
 
 
 @jit

@@ -8,7 +8,6 @@ from math import atan2, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import j0, struve
 
 from swtstudy.kernel.chebyshev import clenshaw
 from swtstudy.kernel.compiled import jit, new_record
@@ -42,7 +41,7 @@ def power_law(s, exponent):
 
 def rounded_punch(s, b):
     """dG/ds of (4): g′ = 2√(ξ²-b²) - b arccos(b/ξ)."""
-    return (2.0 * s - b * np.arctan(s / b)) * s / np.hypot(s, b)
+    return (2.0 * s - b * np.arctan2(s, b)) * s / np.hypot(s, b)
 
 
 def truncated_paraboloid(s, b):
@@ -58,11 +57,13 @@ def wavy_paraboloid(s, amplitude, wavelength):
 
 def rounded_flat(s, b):
     """dG/ds of the flat with rounded edges: N = ½ [ξ² arctan(s/b) - b s]."""
-    return s * np.arctan(s / b) / MEAN_LOAD
+    return s * np.arctan2(s, b) / MEAN_LOAD
 
 
 def wavy_cylinder(s, amplitude, wavelength):
     """dG/ds of the wavy cylinder: N = πξ²/4 + (π/2) h k ξ J₁(kξ)."""
+    from scipy.special import j0  # as long to import as all else, and few need it
+
     k = 2.0 * np.pi / (wavelength * np.sqrt(amplitude))
     return 2.0 * s * (1.0 + amplitude * k * k * j0(k * s))
 
@@ -212,6 +213,8 @@ def _waves(count):
 @cache
 def _series_of_wave(j):
     """Coefficients of `wave` over [2πj, 2π(j + 1)]; SciPy's Struve functions take 50 µs a value."""
+    from scipy.special import struve
+
     y = np.cos(np.pi * (np.arange(WAVE_ORDER) + 0.5) / WAVE_ORDER)
     x = np.pi * (2.0 * j + 1.0 + y)
     value = struve(0, x) + x * (2.0 / np.pi - struve(1, x))
