@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import MAX_STRETCHES
+from swtstudy.kernel.contact import MAX_STRETCHES, STICK
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.load import distinct, has_bulk
@@ -113,8 +113,9 @@ INNERMOST = 1e-5
 BEYOND, FAR_BEYOND = np.array([1.3, 4.0]), np.array([1.3, 4.0, 12.0, 40.0])
 #: Pieces next to a singular edge are spaced in ln s where their ends differ by more than this factor.
 GEOMETRIC = 16.0
-#: Friction from which a sliding contact may have its maximum at the singular edge of a face.
-TEARING = 0.8
+#: Friction from which a contact whose slip front comes this near to the edge of its face, as a share of the
+#: face, may have its maximum at the singular edge of a face.
+TEARING, NEAR_FACE = 0.8, 0.1
 
 
 def ask(
@@ -153,7 +154,11 @@ def cusps(S, C, P, L, Q, largest):
     radius = sqrt(b * b + largest * largest)
     m = 1
     z[0] = INNERMOST * largest
-    if P.singular and C.gross_slip and Q.friction >= TEARING:
+    innermost = largest
+    for k in range(C.stretches):
+        if C.push[k] != STICK:
+            innermost = min(innermost, max(place_of(P, C.front[k, 1]), 0.0))
+    if P.singular and innermost < NEAR_FACE * b and Q.friction >= TEARING:
         # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
         L_edge = 4.0
         while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
