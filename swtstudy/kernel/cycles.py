@@ -24,18 +24,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, refine, sample_cycle
 from swtstudy.kernel.line import CROWD, GROUPS, LONG, cusps, resolve
 from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
-from swtstudy.kernel.planes import (
-    COS_2,
-    MINUS_SWING,
-    PLANES,
-    SIN_2,
-    STEP,
-    STRESS,
-    SWING,
-    fill,
-    find_peaks,
-    vertex,
-)
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks, vertex
 from swtstudy.kernel.point import FINEST_GROWTH
 from swtstudy.kernel.profile import coordinate_at, place_of
 
@@ -49,8 +38,10 @@ GAIN = 0.01
 SLACK = 1.05
 #: Values between two ends of a piece are at most so much higher than at these.
 WITHIN = 2.0
-#: Places of a piece that are looked at, its lower end among them.
-QUARTERS = 4
+#: Places of a piece that are looked at, its lower end among them, and planes there.
+QUARTERS, PLANES = 4, 32
+STEP = 2.0 * pi / PLANES
+COS_2, SIN_2 = np.cos(STEP * np.arange(PLANES)), np.sin(STEP * np.arange(PLANES))
 #: Places and planes around the best ones in a closer look, in steps of the former ones, how the steps shrink,
 #: and how often.
 OFFSETS, SHRINKING, ROUNDS = np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.4, 4
