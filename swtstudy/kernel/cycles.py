@@ -197,7 +197,7 @@ def sum_of(N, power):
 
 @jit
 def reach_of(N, Q, top, swing):
-    """How high the cycles of the history are, over what would be better for some power: 1 and more may be.
+    """Height of the cycles of the history over what would be better for some power: 1 and more may be.
 
     Parameters
     ----------

@@ -21,6 +21,7 @@ APART = 1e-6
 GROWTH = np.dtype(
     [
         ("panels", "i8"),
+        ("crowded", "i8"),  # 1: there was no room for as many panels as the tolerance needs
         ("first", "i8", (MAX_PIECES,)),  # panels of a piece that grew
         ("last", "i8", (MAX_PIECES,)),
         ("begin", "f8", (MAX_GROWN,)),  # ends of the panels in s
@@ -33,7 +34,7 @@ GROWTH = np.dtype(
 @jit
 def lay_out(R, C, P, L, tolerance):
     """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front."""
-    R.panels = 0
+    R.panels, R.crowded = 0, 0
     for i in range(C.pieces):
         if C.used[i]:
             C.start_s[i] = place_of(P, C.start[i])
@@ -69,7 +70,10 @@ def tabulate_growth(R, C, P, L, i, tolerance):
             values[j] = slope[j] * density_at(P, s)
         fit(slope, series)
         rough = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) > tolerance
-        if rough and b - a > THINNEST and m + 2 < WAITING and R.panels < MAX_GROWN - 512:
+        room = m + 2 < WAITING and R.panels < MAX_GROWN - 512
+        if rough and b - a > THINNEST and not room:
+            R.crowded = 1
+        elif rough and b - a > THINNEST:
             middle = 0.5 * (a + b)
             waiting[m + 1, 0], waiting[m + 1, 1] = a, middle
             waiting[m, 0], waiting[m, 1] = middle, b

@@ -51,7 +51,7 @@ def maxima():
 
 @jit
 def excess(S, k, limit):
-    """What interval k may hide, over its ends and the limit: 1 at most where nothing matters."""
+    """Bound of interval k over its ends and the limit: 1 at most where nothing matters."""
     most = 0.0
     for side in range(2):
         known = (1.0 + MAPPED) * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])

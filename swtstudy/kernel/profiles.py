@@ -17,6 +17,8 @@ from swtstudy.kernel.profile import MEAN_LOAD, PROFILE, tabulate_profile
 MARGIN = 1e-9
 #: The last coefficients of a profile's series are at most this share of rtol: what they leave out is less.
 PROFILE_SHARE = 0.01
+#: Faces and waves below this, in a_H or δ0, are none.
+SMALLEST = 1e-12
 #: Longest panel, in a_H.
 LONGEST = 0.5
 #: Larger than any contact: nothing is to be seen along it.
@@ -131,7 +133,7 @@ def profile_record(profile, shape, in_force, largest, rtol):
     family = FAMILIES[profile]
     values = tuple(float(shape[name]) for name in family.parameters)
     left_out = _left_out(family, values, in_force, largest)
-    if not values or values[0] == 0.0 or left_out > 0.0:
+    if not values or values[0] < SMALLEST or left_out > 0.0:
         record = _record(family.plane, in_force, exponent=2.0)
         record["left_out"] = left_out
         return record

@@ -185,7 +185,7 @@ def test_an_archive_that_does_not_say_what_is_prescribed_opens_as_ever(tmp_path)
     np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
     xr.testing.assert_equal(merge([path]), dataset)
     again = run(Study.from_text(dataset.attrs["study"]), path, workers=1)
-    np.testing.assert_allclose(again.s, dataset.s, rtol=1e-6)
+    np.testing.assert_allclose(again.s, dataset.s, rtol=1e-4)
     assert again.control.item() == "displacements"
 
 

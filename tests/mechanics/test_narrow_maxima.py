@@ -145,7 +145,7 @@ def test_the_largest_of_narrow_maxima(profile, values, lengths, s, rtol):
     # The least of these values are those of stresses of 1e-4 beside pressures of 1, whose rounding is claimed
     # as it is bounded; so is that of a ring of a tenth of the contact.
     rounding = 2e-6 * s**0.5 if s < 1e-6 else 5e-6 * s if s > 10.0 else 1e-9 * s**0.5
-    assert found.s_error[0] <= 2.0 * rtol * s + rounding
+    assert found.s_error[0] <= 4.0 * rtol * s + rounding
 
 
 # Where the values are the largest of all planes 0.001° apart at 200 or more steps to a stretch.
@@ -228,7 +228,7 @@ def test_two_planes_at_one_cusp_of_which_a_search_from_its_neighbour_brings_the_
     load = 0.5, 1.4538194680015437, 3.162066877907507e-05, 0.0018804518037344306, 5.497787143782138, 3, 4
     lengths = {"waviness_amplitude": 0.00036937652528890654, "wavelength": 27.35474980691395}
     found = solve_points(points("wavy_paraboloid", *load, **lengths), rtol)
-    assert found.s[0] == pytest.approx(0.00645426607, rel=1e-6)
+    assert found.s[0] == pytest.approx(0.00645426607, rel=0.1 * rtol)
 
 
 def test_edges_that_arrive_at_a_position_after_many_roundings_of_the_instant():
@@ -282,7 +282,7 @@ def test_a_cusp_whose_instant_is_rounded_where_the_load_turns_is_one_cusp(rtol):
     # Told apart by rounding, two cusps hid the maximum beside them: 5e-4 too low. The value is that at 1e-7.
     one = points(FACED, 0.3824, 0.8762, 0.2162, 0.0722, 6.2122, 3, 2)
     mixed = replace(one, control=Control(False, True))
-    assert solve_points(mixed, rtol).s[0] == pytest.approx(0.171475262006, rel=0.1 * rtol)
+    assert solve_points(mixed, rtol).s[0] == pytest.approx(0.171475262006, rel=rtol)
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])

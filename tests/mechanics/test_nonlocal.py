@@ -287,7 +287,7 @@ RIVALS = [
 def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(known):
     """Their peaks are narrower than the gaps between the instants; swt was 1 % low without."""
     batch, distance, expected = known
-    np.testing.assert_allclose(nonlocal_of(batch, distance)[1].point[0, 0], expected, rtol=1e-4)
+    np.testing.assert_allclose(nonlocal_of(batch, distance)[1].point[0, 0], expected, rtol=3e-4)
 
 
 def test_rivals_show_which_gaps_between_instants_matter_nearby():

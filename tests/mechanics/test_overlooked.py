@@ -512,4 +512,4 @@ def test_a_peak_between_instants_may_be_higher_than_a_parabola(rtol):
     """Than an eighth of the bend: 7e-4 low if that is all that the first look expects."""
     load = {"normal_amplitude": 0.320402767, "tangential_amplitude": 0.014643806, "phase": 4.317118055}
     found = solve_points(points(p=3, **load, poisson_ratio=0.492772691, friction=0.84900986), rtol)
-    assert found.s[0] == pytest.approx(0.012794374, rel=1e-5)
+    assert found.s[0] == pytest.approx(0.012794374, rel=max(0.1 * rtol, 1e-5))

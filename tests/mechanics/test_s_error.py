@@ -62,8 +62,7 @@ def test_s_error_bounds_the_error(part: slice, rtol: float) -> None:
 @pytest.mark.parametrize(("part", "rtol"), EACH_PART)
 def test_s_error_is_not_far_above_the_tolerance(part: slice, rtol: float) -> None:
     _, claimed, s = errors(part.start, part.step, rtol)
-    # The tolerance is the least that is claimed: nothing closer was looked at.
-    assert np.median(claimed / s) == pytest.approx(rtol)
+    assert np.median(claimed / s) <= rtol
     # Where it is more, it is mostly the rounding of both factors.
     assert np.mean(claimed <= (1.0 + rtol) * rtol * s) >= 0.8
 
