@@ -24,7 +24,7 @@ import swtstudy
 
 FOLDER = Path(__file__).parent / "data" / "truth"
 #: Columns that describe a point and are no parameters of `solve`.
-ABOUT = ("scene", "control", "kind", "s", "error", "critical_x", "critical_angle", "source")
+ABOUT = ("draw", "scene", "control", "kind", "s", "error", "critical_x", "critical_angle", "source")
 #: Parameters that are text; all others are numbers.
 TEXT = ("profile", "frequency_ratio", "load", "criterion")
 
@@ -137,14 +137,11 @@ def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
     columns = {name: [arguments[name] for arguments in several] for name in several[0]}
     fixed = {name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns}
     lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
-    for values, file, key in (
-        (columns.get("load", []), "loads", "vertices"),
-        ([fixed["profile"]], "profiles", ""),
-    ):
-        for name in dict.fromkeys(value.name for value in values if not isinstance(value, str)):
-            of = _defined(f"{file}*.json")[name]
-            table = {key: of} if key else of
-            lines += [f"[{file}.{json.dumps(name)}]", *_keys(table)]
+    for path in dict.fromkeys(columns.get("load", [])):
+        lines += [f"[loads.{json.dumps(path.name)}]", *_keys({"vertices": path.vertices.tolist()})]
+    if not isinstance(fixed["profile"], str):
+        name = fixed["profile"].name
+        lines += [f"[profiles.{json.dumps(name)}]", *_keys(_defined("profiles.json")[name])]
     lines += ["[fixed]", *_keys(fixed), "[sample.points]", *_keys(columns)]
     return "\n".join(lines)
 

@@ -1,9 +1,10 @@
 """How far is s from recorded values? All points of tests/data/truth, through `solve` and `run`.
 
 ``python studies/checks/truth.py``, from the project folder, writes results/truth.md: by scene, how many
-points are low or high by more than s_error at two tolerances, the worst of them, and s_error over the error.
-``--every 10`` takes every tenth point of each scene; ``--quick`` next to none. It ends with 1 if more values
-are wrong than ``--missed`` says.
+points are low or high by more than s_error at two tolerances, and the worst of them; and how s_error over the
+error is distributed, which results/truth.png draws. ``--every 10`` takes every tenth point of each scene,
+``--scenes`` some scenes, ``--workers`` so many processes; ``--quick`` next to no points. It ends with 1 if
+more values are wrong than ``--missed`` says.
 """
 
 from __future__ import annotations
@@ -16,10 +17,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 RTOLS = 1e-4, 1e-6
+#: Percentages of points that have less of s_error over the error.
+QUANTILES = 5.0, 25.0, 50.0, 75.0, 95.0, 99.9
 Array = NDArray[np.float64]
+#: Relative error of a record's digits.
+DIGITS = 1e-11
+#: Least ratio that is drawn, –.
+LEAST_DRAWN = 1e-2
 #: What is found at the points of a scene at each tolerance: the columns of `truth.solved`.
 Found = Mapping[str, tuple[Sequence[Any], list[dict[str, Array]]]]
 
@@ -35,21 +43,38 @@ def _records() -> Any:
         sys.path[:] = own
 
 
-def cells_of(
-    records: Any, points: Sequence[Any], s: NDArray[np.float64], error: NDArray[np.float64]
-) -> list[str]:
+def ratios_of(points: Sequence[Any], s: Array, error: Array) -> Array:
+    """s_error over the difference from the record, at points whose records are values, of an s > 0.
+
+    A record shows no difference below its own error: that is the least difference. So ratios are lower bounds
+    where s is as good as the record.
+    """
+    recorded, own = (np.array([getattr(point, name) for point in points]) for name in ("s", "error"))
+    known = np.array([point.kind == "value" for point in points]) & (recorded > 0.0) & (s > 0.0)
+    least = np.maximum(own, DIGITS * recorded)
+    return np.asarray((error / np.maximum(np.abs(s - recorded), least))[known])
+
+
+def cells_of(records: Any, points: Sequence[Any], s: Array, error: Array) -> list[str]:
     """The cells of a scene at a tolerance."""
     verdicts = [records.verdict(*each) for each in zip(points, s, error, strict=True)]
-    recorded, own = (np.array([getattr(point, name) for point in points]) for name in ("s", "error"))
+    recorded = np.array([point.s for point in points])
     is_value = np.array([point.kind == "value" for point in points])
     some = recorded > 0.0
     off = np.where(some, s / np.where(some, recorded, 1.0) - 1.0, 0.0)
-    known = some & is_value & (np.abs(s - recorded) > own + records.ROUNDING * recorded) & (off != 0.0)
-    ratios = error[known] / np.abs(s - recorded)[known]
-    shares = [f"{each:.2g}" for each in np.percentile(ratios, [1, 50])] if ratios.size else ["–", "–"]
     worst = [f"{max(0.0, -off.min(initial=0.0)):.1e}", f"{off[is_value].max(initial=0.0):.1e}"]
     low, high = verdicts.count("low"), verdicts.count("high")
-    return [f"{len(points)}", f"{low}", worst[0], f"{high}", worst[1], *shares]
+    return [f"{len(points)}", f"{low}", worst[0], f"{high}", worst[1], *quantiles(points, s, error)]
+
+
+def quantiles(points: Sequence[Any], s: Array, error: Array) -> list[str]:
+    """The cells of s_error over the error."""
+    ratios = ratios_of(points, s, error)
+    return (
+        [f"{each:.2g}" for each in np.percentile(ratios, QUANTILES)]
+        if ratios.size
+        else ["–"] * len(QUANTILES)
+    )
 
 
 def lines(records: Any, found: Found, every: int) -> Iterator[str]:
@@ -59,15 +84,17 @@ def lines(records: Any, found: Found, every: int) -> Iterator[str]:
     yield ""
     yield (
         f"{share} of `tests/data/truth`. A point is low or high if s differs from the record by more than "
-        "s_error and the record's own error; the lowest and the highest difference are relative. The last "
-        "two columns are s_error over the difference, where the record is good enough to show one: 1st "
-        "percentile and median. `python studies/checks/truth.py`"
+        "s_error and the record's own error; the lowest and the highest difference are relative. The other "
+        "columns are percentiles of s_error over the difference, or over the record's own error where that "
+        "is more, so that they are lower bounds where s is as good as its record. "
+        "`python studies/checks/truth.py`"
     )
     wrong: list[str] = []
     for index, rtol in enumerate(RTOLS):
         yield from ("", f"## rtol {rtol:g}", "")
-        yield "| scene | points | low | lowest | high | highest | s_error / difference, 1 % | 50 % |"
-        yield "|" + "---|" * 8
+        shares = " | ".join(f"{each:g} %" for each in QUANTILES)
+        yield f"| scene | points | low | lowest | high | highest | {shares} |"
+        yield "|" + "---|" * (6 + len(QUANTILES))
         for scene, (points, columns) in found.items():
             s, error = columns[index]["s"], columns[index]["s_error"]
             yield f"| {' | '.join([scene, *cells_of(records, points, s, error)])} |"
@@ -76,7 +103,33 @@ def lines(records: Any, found: Found, every: int) -> Iterator[str]:
                 if word != "right":
                     record = f"recorded {point.s:.9g} ± {point.error:.1e} ({point.kind})"
                     wrong.append(f"{point.name}, rtol {rtol:g}: {word}, {value:.9g} ± {own:.1e}; {record}")
+        every_point, values = joined(found, index)
+        yield f"| **all** | {' | '.join(cells_of(records, every_point, *values))} |"
     yield from ("", "## Wrong", "", *(f"* {each}" for each in wrong))
+
+
+def joined(found: Found, index: int) -> tuple[list[Any], tuple[Array, Array]]:
+    """The points of all scenes, and s and s_error there at a tolerance."""
+    several = [point for points, _ in found.values() for point in points]
+    s, error = (
+        np.concatenate([columns[index][name] for _, columns in found.values()]) for name in ("s", "s_error")
+    )
+    return several, (s, error)
+
+
+def chart(found: Found) -> Figure:
+    """The share of points that have less than a ratio of s_error to the error."""
+    figure = Figure(figsize=(3.35, 2.4), layout="constrained")
+    axes = figure.subplots()
+    for index, (rtol, style) in enumerate(zip(RTOLS, ("k-", "k--"), strict=True)):
+        several, values = joined(found, index)
+        ratios = np.sort(ratios_of(several, *values))
+        share = (np.arange(ratios.size) + 1.0) / max(ratios.size, 1)
+        axes.plot(np.maximum(ratios, LEAST_DRAWN), 100.0 * share, style, label=f"rtol {rtol:g}")
+    axes.axvline(1.0, color="0.6", linewidth=0.8)
+    axes.set(xscale="log", xlabel="s_error / |error|", ylabel="points with less / %", ylim=(0.0, 100.0))
+    axes.legend(frameon=False)
+    return figure
 
 
 def main() -> int:
@@ -85,20 +138,21 @@ def main() -> int:
     arguments.add_argument("--every", type=int, default=1, help="take one point of so many")
     arguments.add_argument("--scenes", nargs="+", help="only these scenes")
     arguments.add_argument("--missed", type=int, default=0, help="how many values are known to be wrong")
-    arguments.add_argument("--processes", type=int, default=2)
+    arguments.add_argument("--workers", type=int, default=2)
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
     records = _records()
     scenes = {name: points for name, points in records.points().items() if name in (given.scenes or [name])}
     if given.quick:
-        scenes, given.every, given.processes = dict([*scenes.items()][:1]), 1000, 1
+        scenes, given.every, given.workers = dict([*scenes.items()][:1]), 1000, 1
     found = {}
     for name, every in scenes.items():
         points = every[:: given.every]
-        found[name] = points, [records.solved(points, rtol, given.processes) for rtol in RTOLS]
+        found[name] = points, [records.solved(points, rtol, given.workers) for rtol in RTOLS]
         print(name, flush=True)
     text = "\n".join(lines(records, found, given.every)) + "\n"
     (given.results / "truth.md").write_text(text, encoding="utf-8")
+    chart(found).savefig(given.results / "truth.png", dpi=200)
     print(text)
     return int(sum(line.startswith("* ") for line in text.splitlines()) > given.missed)
 

@@ -7,7 +7,7 @@ from threading import local
 
 import numpy as np
 
-from swtstudy.kernel.compiled import new_records
+from swtstudy.kernel.compiled import new_records, once
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
@@ -126,11 +126,18 @@ def solve_batch(*points, **given):
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.point.RESULT`.
     """
+    warm_up()
     parts = []
     for _, profiles, which, loads, asks in chunks(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
     return np.concatenate(parts).view(np.recarray) if parts else new_records(0, RESULT)
+
+
+@once
+def warm_up():
+    """Compile what the points need, or load it: once in a process, in one process at a time."""
+    solve_batch("rounded_punch", [0.3], [0.5], [0.25], [0.25], shape={"flat_radius": [0.5]}, rtol=1e-2)
 
 
 def count_batch(x, double_angle, *points, **given):

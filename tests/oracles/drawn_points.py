@@ -2,8 +2,10 @@
 
 ``python tests/oracles/drawn_points.py --seed 1 --seconds 600``, from the project folder, draws points scene
 by scene, some ten seconds of a core each, and writes tests/data/truth/line_drawn_1.csv.gz, with loops in
-loads_drawn_1.json. A point is refused if `solve` refuses its parameters or finds no equilibrium. Where
-`solve` at rtol 1e-6 finds more than the dense evaluation, the record is a lower bound.
+loads_drawn_1.json. It goes on after the last draw of that file. A point is refused if `solve` refuses its
+parameters or finds no equilibrium. Where `solve` at rtol 1e-6 finds more than the dense evaluation, the
+record is a lower bound. ``--solver solver-22``, in an environment with that version (CONTRIBUTING.md), does
+without the dense evaluation, at a hundredth of the time: values of `solve` at rtol 1e-7, as lower bounds.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ import io
 import json
 import sys
 import time
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 from math import gcd, pi
@@ -28,13 +31,18 @@ import swtstudy
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "tests"))
 
-from oracles.line import line_s  # noqa: E402 – a folder of the tests
+import truth  # noqa: E402 – of the tests
+
+from oracles.line import line_s  # noqa: E402
 
 #: Largest numerator and denominator of ω2/ω1; the number of oscillations costs, so that short cycles prevail.
 TERMS = 11
 #: Relative error of the dense evaluation: differences from records at rtol 1e-6 in 99 of 100 cases.
 ERROR = 3e-6
+#: Digits of a loop's vertices after the point.
+DIGITS = 5
 COLUMNS = (
+    "draw",
     "scene",
     "profile",
     "control",
@@ -66,6 +74,7 @@ COLUMNS = (
     "source",
 )
 Arguments = dict[str, Any]
+Row = dict[str, str]
 
 
 def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
@@ -127,7 +136,7 @@ def loops(rng: np.random.Generator) -> Arguments:
         turn, (a, b) = 2.0 * pi * np.arange(count) / count, rng.uniform(0.0, 6.0, 2)
         minor = rng.uniform(0.0, 0.4) * np.sin(rng.integers(2, 4) * turn + b)
         vertices = np.stack([np.sin(turn + a), np.sin(turn) + minor], axis=1)
-    return of | {"load": vertices.tolist()}
+    return of | {"load": vertices.round(DIGITS).tolist()}
 
 
 def bulk(rng: np.random.Generator) -> Arguments:
@@ -188,55 +197,101 @@ SCENES = {
 }
 
 
-def solved(number: int, seed: int) -> dict[str, str] | None:
-    """A row of the table for a draw; None if there is no such contact."""
+def drawn(number: int, seed: int) -> tuple[str, Arguments]:
+    """Scene and arguments of `solve` of a draw."""
     rng = np.random.default_rng([seed, number])
     shares = np.array([share for _, share in SCENES.values()])
     scene = [*SCENES][int(rng.choice(len(SCENES), p=shares / shares.sum()))]
     arguments = SCENES[scene][0](rng)
-    given = dict(arguments)
-    if "load" in given:
-        given["load"] = swtstudy.LoadPath(f"drawn {seed}.{number}", given["load"])
+    if "load" in arguments:
+        arguments["load"] = swtstudy.LoadPath(f"drawn {seed}.{number}", arguments["load"])
+    return scene, arguments
+
+
+def evaluated(number: int, seed: int) -> Row | None:
+    """The row of a draw, by the dense evaluation; None if there is no such contact."""
+    scene, arguments = drawn(number, seed)
     try:
-        found = swtstudy.solve(**given, rtol=1e-6)
+        found = swtstudy.solve(**arguments, rtol=1e-6)
     except swtstudy.StudyError:
         return None
-    if not float(found.s) > 0.0:
+    own = float(found.s)
+    if not own > 0.0:
         return None
     with np.errstate(all="ignore"):
-        s, x, angle = line_s(given)
-    bound = float(found.s) > s * (1.0 + ERROR) + float(found.s_error)
-    row = {name: value if isinstance(value, str) else repr(value) for name, value in arguments.items()}
-    if "load" in row:
-        row |= {"load": f"drawn {seed}.{number}", "vertices": json.dumps(given["load"].vertices.tolist())}
-    kinds = [
-        "force" if f"{way}_force_amplitude" in row else "displacement" for way in ("normal", "tangential")
-    ]
-    control = f"{kinds[0]}s" if kinds[0] == kinds[1] else f"normal_{kinds[0]}+tangential_{kinds[1]}"
-    return row | {
-        "scene": scene,
-        "control": control,
-        "kind": "at_least" if bound else "value",
+        s, x, angle = line_s(arguments)
+    kind = "at_least" if own > s * (1.0 + ERROR) + float(found.s_error) else "value"
+    print(f"{scene}: {s:.11g}, solver {own:.11g} at {float(found.critical_x):.7g}", flush=True)
+    return row_of(number, scene, arguments) | {
+        "kind": kind,
         "s": f"{s:.11g}",
         "error": f"{ERROR * s:.1e}",
         "critical_x": "" if np.isnan(x) else f"{x:.9g}",
         "critical_angle": f"{angle:.6g}",
         "source": "independent dense evaluation",
-        "solver": f"{float(found.s):.11g} ± {float(found.s_error):.1e} at {float(found.critical_x):.7g}",
     }
 
 
-def save(folder: Path, seed: int, rows: list[dict[str, str]]) -> None:
+def by_solver(numbers: Iterable[int], seed: int, solver: str) -> Iterator[Row]:
+    """The rows of draws, by the solver that is installed."""
+    named = {number: drawn(number, seed) for number in numbers}
+    points = [
+        truth.Point(str(number), scene, arguments, "", np.nan, 0.0, np.nan, np.nan, "")
+        for number, (scene, arguments) in named.items()
+    ]
+    found = truth.solved(points, 1e-7)
+    columns = [found[name] for name in ("s", "s_error", "critical_x")]
+    for number, s, error, x in zip(named, *columns, strict=True):
+        if s > 0.0:
+            yield row_of(number, *named[number]) | {
+                "kind": "at_least",
+                "s": f"{s:.11g}",
+                "error": f"{error:.1e}",
+                "critical_x": f"{x:.9g}",
+                "source": f"{solver} at rtol 1e-7",
+            }
+
+
+def row_of(number: int, scene: str, arguments: Arguments) -> Row:
+    """The columns of a draw that tell its parameters."""
+    row = {name: value if isinstance(value, str) else repr(value) for name, value in arguments.items()}
+    if "load" in row:
+        path = arguments["load"]
+        row |= {"load": path.name, "vertices": json.dumps(path.vertices.tolist())}
+    kinds = [
+        "force" if f"{way}_force_amplitude" in row else "displacement" for way in ("normal", "tangential")
+    ]
+    control = f"{kinds[0]}s" if kinds[0] == kinds[1] else f"normal_{kinds[0]}+tangential_{kinds[1]}"
+    return row | {"draw": str(number), "scene": scene, "control": control}
+
+
+def files(folder: Path, seed: int) -> tuple[Path, Path]:
+    """The table of a seed, and the loops it names."""
+    return folder / f"line_drawn_{seed}.csv.gz", folder / f"loads_drawn_{seed}.json"
+
+
+def known(folder: Path, seed: int) -> list[Row]:
+    """The rows that are there."""
+    table, loads = files(folder, seed)
+    if not table.exists():
+        return []
+    paths = json.loads(loads.read_text(encoding="utf-8"))
+    with gzip.open(table, "rt", encoding="utf-8", newline="") as text:
+        rows = list(csv.DictReader(text))
+    return [row | {"vertices": json.dumps(paths[row["load"]])} if row["load"] else row for row in rows]
+
+
+def save(folder: Path, seed: int, rows: list[Row]) -> None:
     """Write the rows, and the loops' vertices."""
     text = io.StringIO()
     table = csv.DictWriter(text, COLUMNS, extrasaction="ignore", lineterminator="\n")
     table.writeheader()
-    table.writerows(sorted(rows, key=lambda row: row["scene"]))
+    table.writerows(rows)
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / f"line_drawn_{seed}.csv.gz").write_bytes(gzip.compress(text.getvalue().encode(), 9, mtime=0))
-    paths = {row["load"]: json.loads(row["vertices"]) for row in rows if "vertices" in row}
-    file = folder / f"loads_drawn_{seed}.json"
-    file.write_text(json.dumps(paths, separators=(",", ":")) + "\n", encoding="utf-8")
+    own, loads = files(folder, seed)
+    own.write_bytes(gzip.compress(text.getvalue().encode(), 9, mtime=0))
+    paths = {row["load"]: json.loads(row["vertices"]) for row in rows if row.get("vertices")}
+    loads.write_text(json.dumps(paths, separators=(",", ":")) + "\n", encoding="utf-8")
 
 
 def main() -> None:
@@ -244,19 +299,24 @@ def main() -> None:
     arguments.add_argument("--folder", type=Path, default=ROOT / "tests" / "data" / "truth")
     arguments.add_argument("--seed", type=int, required=True)
     arguments.add_argument("--seconds", type=float, default=600.0, help="no new points after so many seconds")
+    arguments.add_argument("--points", type=int, default=5000, help="nor with so many in the table")
+    arguments.add_argument("--solver", help="name of the installed version, whose values are recorded")
     arguments.add_argument("--processes", type=int, default=2)
     given = arguments.parse_args()
-    begin, number, rows = time.monotonic(), 0, []
+    begin, rows = time.monotonic(), known(given.folder, given.seed)
+    number = 1 + max((int(row["draw"]) for row in rows), default=-1)
+    together = 500 if given.solver else 4 * given.processes
     with ProcessPoolExecutor(given.processes) as pool:
-        while time.monotonic() - begin < given.seconds:
-            batch = range(number, number + 4 * given.processes)
-            for row in pool.map(partial(solved, seed=given.seed), batch):
-                if row is not None:
-                    rows.append(row)
-                    apart = float(row["s"]) / float(row["solver"].split()[0]) - 1.0
-                    print(f"{row['scene']}: {row['s']}, solver {row['solver']}, {apart:+.1e}", flush=True)
-            number += len(batch)
+        while time.monotonic() - begin < given.seconds and len(rows) < given.points:
+            batch = range(number, number + together)
+            if given.solver:
+                rows += by_solver(batch, given.seed, given.solver)
+            else:
+                several = pool.map(partial(evaluated, seed=given.seed), batch)
+                rows += [row for row in several if row is not None]
+            number += together
             save(given.folder, given.seed, rows)
+            print(f"{len(rows)} of {number} draws", flush=True)
 
 
 if __name__ == "__main__":
