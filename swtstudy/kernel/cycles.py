@@ -177,7 +177,7 @@ def count_cycles(N, Q):
             there = stress_before + share * (stress - stress_before)
             tension = max(there, N.highest[top - 1], N.highest[top])
             if abs(first - turn) > least:
-                N.value[cycles] = value_of(Q, lifted(Q, tension, abs(first - turn)))
+                N.value[cycles] = value_of(Q, lifted(Q, tension, abs(first - turn), 0.0))
                 cycles += 1
             top = max(top - 2, 0)
             N.highest[top] = max(N.highest[top], tension)  # of what is nested in it
