@@ -204,7 +204,7 @@ def reach_of(N, Q, top, swing):
     top, swing
         Largest σ_n, and range of the swing.
     """
-    value = value_of(Q, lifted(Q, top, swing)) / N.largest
+    value = value_of(Q, lifted(Q, top, swing, 0.0)) / N.largest
     if value <= 0.0 or swing <= 0.0:
         return 0.0
     way, turns, last = 0.0, 0, N.swing[0] - N.swing[N.points - 1]
@@ -363,7 +363,7 @@ def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
         fill(H, W, side, Q)
         find_peaks(H, W, Q, cos(angle), sin(angle))
         swing = W.top[SWING] + W.top[MINUS_SWING]
-        value = value_of(Q, lifted(Q, W.top[STRESS], swing))
+        value = value_of(Q, lifted(Q, W.top[STRESS], swing, 0.0))
         if Q.friction > 0.0 and value > 0.0:  # as for s itself: what grew is told to a share of the tension
             needed = Q.growth * min(min(W.top[STRESS], 0.5 * swing) / (Q.friction * sqrt(C.largest)), 1.0)
         if R.panels == 0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
