@@ -5,16 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from oracles.strips import STRIPS
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from solved import solve_points
 
-from swtstudy.mechanics.body.body import Body, closer_nodes, nodes_at, time_nodes
+from swtstudy.mechanics.body.body import Body, closer_nodes, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.events.stretches import Nodes
-from swtstudy.mechanics.stress.history import stresses
-from swtstudy.mechanics.stress.line import SurfaceLine
 from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.mechanics.stress.strip import StripFunctions, normal_components, tangential_components
 from swtstudy.mechanics.stress.superposition import STRIP, slope_cells, stress_history
@@ -76,38 +72,6 @@ def test_one_strip_is_its_line_loads() -> None:
         found = part(f, x, 0.0 * x, z, NU)
         for component, values in zip((0, 2, 4), expected, strict=True):
             np.testing.assert_allclose(found[:, component], values, atol=1e-12)
-
-
-@pytest.mark.parametrize("strip", STRIPS, ids=str)
-def test_the_field_ends_at_the_surface_line(strip: object) -> None:
-    """Superposed in another way, with bulk stress: the same at z = 0, and nearly so next to it."""
-    shape = {name: np.array([value]) for name, value in strip.shape.items()}
-    scene = scene_of(
-        plane_points(
-            strip.profile,
-            NU,
-            0.6,
-            0.3,
-            0.4,
-            1.0,
-            bulk_stress_amplitude=0.1,
-            bulk_stress_mean=0.05,
-            **strip.shape,
-        )
-    )
-    assert shape.keys() == strip.shape.keys()
-    a, b = float(scene.largest_radius[0]), strip.flat
-    x = np.concatenate([side * (b + (a - b) * np.array([0.13, 0.41, 0.77, 1.21])) for side in (1.0, -1.0)])
-    instants = np.array([0.2, 1.7, 3.9, 5.6])
-    found = Body(scene, nodes_at(scene, instants), 400).stress(x, 0.0, 0.0)
-    interval = np.searchsorted(scene.cycle.end[0], instants)[None]
-    index = np.broadcast_to(np.arange(instants.size), (1, x.size, instants.size))
-    line = SurfaceLine(scene.cycle, scene.coordinate, np.abs(x)[None], 12.0, scene.bulk)
-    history = line.history(Nodes(interval, instants[None], index))
-    expected = stresses(history, scene.poisson_ratio, scene.friction, np.sign(x)[None, :, None])
-    for component, values in zip((0, 1, 2, 4), expected, strict=True):
-        np.testing.assert_allclose(found[..., component], values[0], atol=2e-4)
-    np.testing.assert_array_equal(found, Body(scene, nodes_at(scene, instants), 400).stress(x, 7.0, 0.0))
 
 
 @pytest.mark.quick(2)

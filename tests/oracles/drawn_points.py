@@ -132,6 +132,9 @@ def loops(rng: np.random.Generator) -> Arguments:
     count = round(log_uniform(rng, 3.0, 200.0))
     if count < 13:
         vertices = rng.uniform(-1.0, 1.0, (count, 2))
+        if abs(np.sign(vertices[:, 0]).sum()) == count:
+            # All on one side of the mean, which is refused.
+            vertices[:, 0] -= vertices[:, 0].mean()
     else:
         turn, (a, b) = 2.0 * pi * np.arange(count) / count, rng.uniform(0.0, 6.0, 2)
         minor = rng.uniform(0.0, 0.4) * np.sin(rng.integers(2, 4) * turn + b)
