@@ -193,7 +193,7 @@ def turning_points(L, out):
 
 @jit
 def out_of_equilibrium(L, T, m):
-    """Whether there is no equilibrium at some of m events, so that there is no stationary cycle.
+    """True if there is no equilibrium at some of m events, so that there is no stationary cycle.
 
     A tangential force needs |v| ≤ n, and a normal force n ≥ 0. Bodies that never touch have none either.
     """

@@ -226,7 +226,7 @@ def refine(H, z, C, P, L, K, nu, mu):
 
 @jit
 def may_be_refined(H, C, z):
-    """Whether part z can be sampled more closely: it is not yet as short as rounding."""
+    """True if part z can be sampled more closely: it is not yet as short as rounding."""
     if H.cusps[z] == MONOTONE:
         return False
     return H.intervals[z] < FINEST or (
@@ -236,7 +236,7 @@ def may_be_refined(H, C, z):
 
 @jit
 def is_calm(H, C, L, k):
-    """Whether stretch k is short, on a straight side, and neither its edge nor its front passes x.
+    """True if stretch k is short, on a straight side, and neither its edge nor its front passes x.
 
     Then stresses are next to monotone, and its ends tell how much higher they can be.
     """

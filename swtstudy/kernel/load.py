@@ -181,7 +181,7 @@ def largest_bulk(L):
 
 @jit
 def has_bulk(L):
-    """Whether there is a bulk stress."""
+    """True if there is a bulk stress."""
     return L.bulk_range[0] != 0.0 or L.bulk_range[1] != 0.0
 
 

@@ -23,7 +23,7 @@ ROUNDING = 2e-7
 NEAREST = 1e-9
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
 #: there is no continuum that small.
-TEARS = 0.99
+TEARS = 0.995
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
 SAME = 1e-7
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
@@ -61,7 +61,7 @@ def regime_of(C, L, P, Q):
 
 @jit
 def is_torn(C, L, P, Q):
-    """Whether swt grows without bound, or nearly, towards the singular edge of a face.
+    """True if swt grows without bound, or nearly, towards the singular edge of a face.
 
     With |τ| = w at the innermost spring a plane near 45° is in tension that grows like ln(1/ε) for μ > 1; in
     gross slip the strain does, too. Where contact is lost, springs pull before the pressure comes.
@@ -87,7 +87,7 @@ def is_torn(C, L, P, Q):
 
 @jit
 def is_idle(C, L, P, Q):
-    """Whether s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
+    """True if s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
     still, pulls, v0 = C.largest == C.smallest, False, load_at(L, C.time[0, 0])[1]
     for k in range(C.stretches):
         v = load_at(L, C.time[k, 1])[1]

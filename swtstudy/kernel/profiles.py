@@ -106,7 +106,7 @@ FAMILIES = {
 
 
 def is_plane(profile):
-    """Whether a profile, a name or a table, is that of a strip."""
+    """True if a profile, a name or a table, is that of a strip."""
     return FAMILIES[profile].plane if isinstance(profile, str) else profile.plane
 
 

@@ -140,7 +140,7 @@ def test_functionals_are_the_integrals(name: str, shape: dict[str, float], depth
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])
 def test_a_cylinder_under_a_constant_load(mu: float, rtol: float) -> None:
     """The closed form: s = μ² Q_A/(μP), at the edge."""
-    found = solve_batch("cylinder", [0.3], [mu], [0.0], [0.6], [1], [0.0], in_force=True, rtol=rtol)[0]
+    found = solve_batch("cylinder", [0.3], [mu], [0.0], [0.6], [1], [0.0], control=(True, True), rtol=rtol)[0]
     assert abs(found["s"] - mu * mu * 0.6) <= found["s_error"] <= rtol * found["s"]
     assert abs(found["critical_x"]) == pytest.approx(1.0, abs=1e-6)
 
@@ -155,8 +155,8 @@ def test_a_fine_table_is_its_profile(geometry: str, b: float) -> None:
     table = swtstudy.TabulatedProfile("table", r, 0.5 * np.maximum(r - b, 0.0) ** 2, geometry=geometry)
     own = [0.3], [0.5], [0.5], [0.3], ["3/2"], [1.0]
     shape = {"flat_half_width" if plane else "flat_radius": [b]}
-    found = solve_batch(table, *own, in_force=True, rtol=1e-6)[0]
-    known = solve_batch(name, *own, shape=shape, in_force=True, rtol=1e-6)[0]
+    found = solve_batch(table, *own, control=(True, True), rtol=1e-6)[0]
+    known = solve_batch(name, *own, shape=shape, control=(True, True), rtol=1e-6)[0]
     assert found["s"] == pytest.approx(known["s"], rel=1e-5)
 
 
@@ -185,7 +185,7 @@ def test_a_wavy_cylinder_is_that_of_the_package() -> None:
     known = swtstudy.solve(profile="wavy_cylinder", phase=1.0, friction=0.5, **loads, **shape, rtol=1e-6)
     own = [0.3], [0.5], [0.5], [0.3], [1], [1.0]
     found = solve_batch(
-        "wavy_cylinder", *own, shape={k: [v] for k, v in shape.items()}, in_force=True, rtol=1e-6
+        "wavy_cylinder", *own, shape={k: [v] for k, v in shape.items()}, control=(True, True), rtol=1e-6
     )
     assert found["s"][0] == pytest.approx(float(known.s), rel=3e-6)
 
@@ -218,7 +218,9 @@ def test_recorded_points(scene: str) -> None:
             for name in SHAPES
             if name in several[0].arguments
         }
-        found = solve_batch(several[0].arguments["profile"], *columns, shape=shape, in_force=in_force)
+        found = solve_batch(
+            several[0].arguments["profile"], *columns, shape=shape, control=(in_force, in_force)
+        )
         for point, one in zip(several, found, strict=True):
             if verdict(point, one["s"], one["s_error"]) != "right":
                 wrong.append(point.name)
