@@ -7,7 +7,7 @@ from threading import local
 import numpy as np
 
 from swtstudy.kernel import profile
-from swtstudy.kernel.compiled import new_records
+from swtstudy.kernel.compiled import new_records, once
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD, bimodal, polygon
 from swtstudy.kernel.point import RESULT, solve_points, workspace
@@ -92,6 +92,7 @@ def solve_batch(
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.point.RESULT`.
     """
+    warm_up()
     n = len(poisson_ratio)
     out = new_records(n, RESULT)
     for first in range(0, n, CHUNK):
@@ -118,6 +119,14 @@ def solve_batch(
             profiles[k] = profile_record(name, dict(key), in_force, largest, rtol)
         solve_points(*_workspace(), profiles, which, loads, asks, out[first : first + len(rows)])
     return out
+
+
+@once
+def warm_up():
+    """Compile what one point of each kind of load needs, or load it."""
+    solve_batch("paraboloid", [0.3], [0.5], [0.25], [0.25], [1], [0.0], rtol=1e-2)
+    vertices = np.array([0.8, 1.2, 1.0]), np.array([0.0, 0.1, -0.1])
+    solve_batch("paraboloid", [0.3], [0.5], loops=[vertices], rtol=1e-2)
 
 
 def _workspace():

@@ -1,0 +1,139 @@
+"""Compiled code: where it is kept, that it is compiled once, and what is said of it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from folders import ROOT
+
+#: Beside a copy of the kernel's options: a function whose first call compiles, begun by all processes together.
+FIRST_CALL = """
+import sys, time
+from pathlib import Path
+from threading import Thread
+from swtstudy.kernel import compiled
+from first_call import count, warm_up
+if len(sys.argv) > 1:
+    Path(sys.argv[1]).touch()
+    while not Path("go").exists():
+        time.sleep(0.005)
+threads = [Thread(target=warm_up) for _ in range(2)]
+[thread.start() for thread in threads]
+[thread.join() for thread in threads]
+print(sum(count.stats.cache_misses.values()), len(count.signatures), compiled._FOLDER)
+"""
+MODULE = """
+from swtstudy.kernel.compiled import jit, once
+
+@jit
+def count(n):
+    total = 0
+    for i in range(n):
+        total += i
+    return total
+
+@once
+def warm_up():
+    count(3)
+"""
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    """A home and a temporary folder of its own."""
+    (tmp_path / "first_call.py").write_text(MODULE)
+    for name in ("home", "temporary"):
+        (tmp_path / name).mkdir()
+    kept = {key: value for key, value in os.environ.items() if not key.startswith(("NUMBA_", "XDG_"))}
+    folders = {"HOME": str(tmp_path / "home"), "TMPDIR": str(tmp_path / "temporary")}
+    return kept | folders | {"PYTHONPATH": f"{ROOT}{os.pathsep}{tmp_path}"}
+
+
+def start(
+    tmp_path: Path, environment: dict[str, str], *arguments: str, **options: int
+) -> subprocess.Popen[str]:
+    """A process that makes the first call."""
+    run = [sys.executable, "-c", FIRST_CALL, *arguments]
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | options
+    return subprocess.Popen(run, cwd=tmp_path, env=environment, text=True, **options)  # type: ignore[call-overload]
+
+
+def ended(process: subprocess.Popen[str]) -> tuple[int, int, str]:
+    """Functions compiled anew, functions there are, and the folder; nothing is said where there is no terminal."""
+    out, errors = process.communicate(timeout=120)
+    assert (process.returncode, errors or "") == (0, "")
+    misses, signatures, folder = out.rstrip("\n").split(" ", 2)
+    return int(misses), int(signatures), folder
+
+
+def test_processes_and_threads_compile_once(tmp_path: Path, environment: dict[str, str]) -> None:
+    processes = [start(tmp_path, environment, name) for name in ("a", "b")]
+    while not all((tmp_path / name).exists() for name in ("a", "b")):
+        assert all(process.poll() is None for process in processes)
+        time.sleep(0.01)
+    (tmp_path / "go").touch()
+    found = [ended(process) for process in processes]
+    assert sorted(misses for misses, _, _ in found) == [0, 1]
+    assert {signatures for _, signatures, _ in found} == {1}
+
+
+@pytest.mark.parametrize("home", ["home", "none"])
+def test_compiled_code_is_kept_where_one_can_write(
+    tmp_path: Path, environment: dict[str, str], home: str
+) -> None:
+    # A file in the place of the home: nobody can write below it, and the package is left alone.
+    (tmp_path / "none").touch()
+    copy = tmp_path / "package" / "swtstudy"
+    shutil.copytree(ROOT / "swtstudy", copy, ignore=shutil.ignore_patterns("__pycache__"))
+    environment |= {"HOME": str(tmp_path / home), "PYTHONPATH": f"{copy.parent}{os.pathsep}{tmp_path}"}
+    environment["PYTHONDONTWRITEBYTECODE"] = "1"
+    for folder in (copy / "kernel", copy):
+        folder.chmod(0o555)
+    before = sorted(copy.rglob("*"))
+    misses, _, folder = ended(start(tmp_path, environment))
+    assert misses == 1
+    assert Path(folder).is_relative_to(tmp_path / ("temporary" if home == "none" else "home"))
+    assert ended(start(tmp_path, environment))[0] == 0
+    assert sorted(copy.rglob("*")) == before
+    for written in (copy, copy / "kernel"):
+        written.chmod(0o755)
+
+
+def test_without_any_place_it_compiles_each_time(tmp_path: Path, environment: dict[str, str]) -> None:
+    (tmp_path / "none").touch()
+    environment |= {"HOME": str(tmp_path / "none"), "NUMBA_CACHE_DIR": str(tmp_path / "none" / "cache")}
+    place = "import tempfile; tempfile.gettempdir = lambda: '/dev/null'\n"
+    run = [sys.executable, "-c", place + FIRST_CALL]
+    done = subprocess.run(run, cwd=tmp_path, env=environment, capture_output=True, text=True)
+    assert (done.returncode, done.stdout.split()[1:]) == (0, ["1"]), done.stderr
+
+
+def test_a_terminal_is_told_of_the_first_compile(tmp_path: Path, environment: dict[str, str]) -> None:
+    pty = pytest.importorskip("pty")
+    heard = []
+    for _ in range(2):
+        ours, theirs = pty.openpty()
+        process = start(tmp_path, environment, stderr=theirs)
+        process.communicate(timeout=120)
+        os.write(theirs, b".")
+        heard.append(os.read(ours, 1000).decode())
+        os.close(ours)
+        os.close(theirs)
+    assert heard == ["compiling the solver, once, about 30 s\r\n.", "."]
+
+
+def test_folders_not_used_for_long_are_removed(tmp_path: Path, environment: dict[str, str]) -> None:
+    base = tmp_path / "cache"
+    environment["NUMBA_CACHE_DIR"] = str(base)
+    for name, days in (("kernel-old", 31), ("kernel-recent", 29), ("of-somebody", 99)):
+        (base / name).mkdir(parents=True)
+        (base / name / "code").touch()
+        os.utime(base / name, (time.time() - 86400 * days,) * 2)
+    folder = Path(ended(start(tmp_path, environment))[2])
+    assert {path.name for path in base.iterdir()} == {folder.name, "kernel-recent", "of-somebody"}
