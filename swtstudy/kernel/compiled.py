@@ -18,7 +18,7 @@ from numba.core import event
 try:
     import fcntl
 except ImportError:  # Windows: two processes may both compile, each of them what is right
-    fcntl = None
+    fcntl = None  # type: ignore[assignment]
 
 #: Folders of other sources are removed when they have not been used for so many days.
 KEPT_DAYS = 30

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from folders import ROOT
 
-#: Beside a copy of the kernel's options: a function whose first call compiles, begun by all at once.
+#: A function whose first call compiles, in two threads; processes with an argument begin together.
 FIRST_CALL = """
 import sys, time
 from pathlib import Path
@@ -65,7 +65,7 @@ def start(
 
 
 def ended(process: subprocess.Popen[str]) -> tuple[int, int, str]:
-    """Functions compiled anew, functions there are, the folder; without a terminal nothing is said."""
+    """Functions compiled anew, functions there are, and the folder; without a terminal nothing is said."""
     out, errors = process.communicate(timeout=120)
     assert (process.returncode, errors or "") == (0, "")
     misses, signatures, folder = out.rstrip("\n").split(" ", 2)
