@@ -81,26 +81,30 @@ class Family(NamedTuple):
         Names of the shape parameters; where the first one is 0 the profile is a paraboloid or a cylinder.
     rises
         Power of s as which the coordinate, depth or line load, rises at s = 0.
-    plane, singular
-        Whether it is a strip, and whether the pressure has no bound at the edge of its face.
+    plane, faced, singular
+        Whether it is a strip, whether its first parameter is the radius of a flat face, and whether the
+        pressure has no bound at the edge of that.
     """
 
     density: object
     parameters: tuple[str, ...] = ()
     rises: int = 2
     plane: bool = False
+    faced: bool = False
     singular: bool = False
 
 
 FAMILIES = {
     "paraboloid": Family(power_law),
     "power_law": Family(power_law, ("exponent",)),
-    "rounded_punch": Family(rounded_punch, ("flat_radius",), rises=3),
-    "truncated_paraboloid": Family(truncated_paraboloid, ("flat_radius",), rises=1, singular=True),
+    "rounded_punch": Family(rounded_punch, ("flat_radius",), rises=3, faced=True),
+    "truncated_paraboloid": Family(
+        truncated_paraboloid, ("flat_radius",), rises=1, faced=True, singular=True
+    ),
     "wavy_paraboloid": Family(wavy_paraboloid, ("waviness_amplitude", "wavelength")),
     "cylinder": Family(power_law, plane=True),
     "power_law_cylinder": Family(power_law, ("exponent",), plane=True),
-    "rounded_flat": Family(rounded_flat, ("flat_half_width",), rises=3, plane=True),
+    "rounded_flat": Family(rounded_flat, ("flat_half_width",), rises=3, plane=True, faced=True),
     "wavy_cylinder": Family(wavy_cylinder, ("waviness_amplitude", "wavelength"), plane=True),
 }
 
@@ -148,7 +152,7 @@ def profile_record(profile, shape, in_force, largest, rtol):
         record["longest"] = min(LONGEST, 0.5 * values[1] * np.sqrt(values[0]))
     elif family.density is power_law:
         narrowest = NEAR_AXIS
-    else:
+    if family.faced:
         record["flat_radius"], record["singular"] = values[0], family.singular
         face = values[0] * 8.0 ** np.arange(1, 20)  # a small face would fall between the Gauss points
         face = face[face < record["longest"]]

@@ -12,7 +12,6 @@ from swtstudy.kernel.batch import solve_batch
 from swtstudy.mechanics.contact.cycle import Cycle, out_of_equilibrium, solve_cycle
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import roughness
-from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO, surface_maximum
 from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.load.load import Load
@@ -95,8 +94,7 @@ def _on_circle(points: Points, s: FloatArray, error: FloatArray, x: FloatArray) 
     rows = np.flatnonzero(np.isfinite(surface) & ((points.poisson_ratio > SAFE_POISSON_RATIO) | everywhere))
     for index, scene in scenes(points.take(rows)):
         own = rows[index]
-        line = Maximum(s[own], error[own], x[own], np.zeros(len(own)))
-        surface[own] = surface_maximum(scene, line)
+        surface[own] = surface_maximum(scene, s[own], error[own], x[own])
     return surface
 
 

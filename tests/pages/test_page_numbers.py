@@ -15,8 +15,7 @@ from solved import REGIMES
 
 from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
-from swtstudy.mechanics.indenter.paraboloid import NEAREST, SMALLEST_FACE
-from swtstudy.mechanics.line.singular_edge import LEFT_OUT
+from swtstudy.kernel.point import NEAREST, TEARS
 from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.points.validity import LIMITS
@@ -361,9 +360,8 @@ def limits() -> None:
     says("contacts with \\|β\\|/μ above {} are warned of, above {} refused", NOTICEABLE_MISMATCH, SIMILAR)
     says("(exit code {}, `--retry-failed`)", POINTS_FAILED)
     says("never on an oblique plane ({} % of s left aside)", 100 * TOLERANCE)
-    says("at r = b, where it is never below {} s", LEFT_OUT)
+    says("slide with μ ≥ {}", TEARS)
     says("is nearer to b than {} of the face or of the ring beside it", NEAREST)
-    says("but for faces below {} of the contact", SMALLEST_FACE)
 
 
 def versions() -> None:

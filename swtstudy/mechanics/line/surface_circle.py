@@ -18,7 +18,6 @@ import numpy as np
 from swtstudy.mechanics.events.zoom import TimeBrackets
 from swtstudy.mechanics.line.first_look import CLOSE_SHARE, SHARE
 from swtstudy.mechanics.line.look import Extremes, Look
-from swtstudy.mechanics.line.maximum import Maximum
 from swtstudy.mechanics.numerics.arrays import SAME
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.all_planes import CoarsePlanes
@@ -65,7 +64,7 @@ class _Places(Rows):
     width: FloatArray
 
 
-def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
+def surface_maximum(scene: Scene, swt: FloatArray, error: FloatArray, position: FloatArray) -> FloatArray:
     """swt on the circle through the line's maximum, over all plane orientations, shape (n,).
 
     That of the line where nothing on the circle exceeds it, NaN where the maximum is at the edge of a flat
@@ -77,15 +76,15 @@ def surface_maximum(scene: Scene, found: Maximum) -> FloatArray:
     ----------
     scene
         n points.
-    found
-        The line's maxima.
+    swt, error, position
+        The line's maxima, their errors and places x, each of shape (n,).
     """
-    nowhere = (found.swt <= found.error) | (np.isnan(found.position) & np.isfinite(found.swt))
+    nowhere = (swt <= error) | (np.isnan(position) & np.isfinite(swt))
     nowhere &= scene.critical_everywhere
-    r = np.where(nowhere, scene.largest_radius, np.abs(found.position))
+    r = np.where(nowhere, scene.largest_radius, np.abs(position))
     flat = scene.profile.flat_radius
     at_edge = scene.profile.has_singular_edge & (flat > 0.0) & (r == flat)
-    surface = np.where(at_edge, np.nan, found.swt)
+    surface = np.where(at_edge, np.nan, swt)
     doubtful = ((scene.poisson_ratio > SAFE_POISSON_RATIO) | scene.critical_everywhere) & ~at_edge
     circles = [r]
     if scene.bulk is not None and not scene.profile.has_singular_edge:
