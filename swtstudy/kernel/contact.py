@@ -39,6 +39,7 @@ CYCLE = np.dtype(
         ("events", "i8"),
         ("overflow", "i8"),  # 1: more pieces or stretches than there is room for
         ("no_equilibrium", "i8"),  # 1: there is no cycle
+        ("may_slide", "i8"),  # 1: the whole contact slips, or parts
         ("gross_slip", "i8"),
         ("lift_off", "i8"),
         ("any_slip", "i8"),
@@ -128,7 +129,7 @@ def first_diagram(C, L, T, m):
     and those that never do have o = clip(0, α_max + G, β_min - G). From here one cycle is the stationary
     one, exactly. A contact that lifts off remembers nothing.
     """
-    largest, alpha_max, beta_min = 0, -1e300, 1e300
+    largest, alpha_max, beta_min, C.may_slide = 0, -1e300, 1e300, 1
     for i in range(m - 1):
         n, v = load_at(L, T[i])
         if load_at(L, 0.5 * (T[i] + T[i + 1]))[0] < 0.0:
@@ -136,6 +137,7 @@ def first_diagram(C, L, T, m):
         if v - n > alpha_max:
             alpha_max, largest = v - n, i
         beta_min = min(beta_min, v + n)
+    C.may_slide = alpha_max > beta_min + RETRACED  # more than by rounding
     if alpha_max >= beta_min:  # gross slip
         return largest, add_piece(C, NONE, ALONG_ALPHA, alpha_max, 0.0)
     n = load_at(L, T[largest])[0]
@@ -315,7 +317,7 @@ def mark_used(C):
         elif C.push[k] != STICK:
             C.any_slip = 1
             if C.piece[k] == NONE:
-                C.gross_slip = 1
+                C.gross_slip = C.may_slide
         i = C.piece[k]
         while i != NONE and C.used[i] == 0:
             C.used[i] = 1

@@ -137,7 +137,7 @@ def ask(
     record["poisson_ratio"], record["friction"] = poisson_ratio, friction
     set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
     record["line"], record["time"], record["plane"], record["growth"] = (
-        0.5 * rtol,
+        0.45 * rtol,
         0.25 * rtol,
         0.1 * rtol,
         0.5 * rtol,

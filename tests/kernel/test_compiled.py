@@ -122,7 +122,10 @@ def test_a_terminal_is_told_of_the_first_compile(tmp_path: Path, environment: di
         process = start(tmp_path, environment, stderr=theirs)
         process.communicate(timeout=120)
         os.write(theirs, b".")
-        heard.append(os.read(ours, 1000).decode())
+        words = b""
+        while not words.endswith(b"."):
+            words += os.read(ours, 1000)
+        heard.append(words.decode())
         os.close(ours)
         os.close(theirs)
     assert heard == ["compiling the solver, once, about 30 s\r\n.", "."]
