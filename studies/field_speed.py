@@ -15,9 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swtstudy.mechanics import solve_points
+from swtstudy.mechanics import solve_points, solver
 from swtstudy.mechanics.body.body import Body, nodes_at
-from swtstudy.mechanics.line import surface_circle
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.points import Points
@@ -192,9 +191,9 @@ def circle(size):
     amplitudes = 0.75 * one, ratio, ratio, 5 / 6 * one
     points = Points("paraboloid", 0.45 * one, FRICTION * one, *amplitudes, phase)
     _, looking = timed(lambda: solve_points(points))
-    safe, surface_circle.SAFE_POISSON_RATIO = surface_circle.SAFE_POISSON_RATIO, 0.5
+    safe, solver.SAFE_POISSON_RATIO = solver.SAFE_POISSON_RATIO, 0.5
     _, alone = timed(lambda: solve_points(points))
-    surface_circle.SAFE_POISSON_RATIO = safe
+    solver.SAFE_POISSON_RATIO = safe
     return [
         "",
         f"s at {len(phase)} phases and ν = 0.45: {1e3 * alone / len(phase):.2f} ms a value on the line, "
