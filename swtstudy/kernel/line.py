@@ -298,7 +298,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
 def bound_of(S, k, side):
     """Bound of interval k on one side."""
     f1, f2, drop = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.drop[k, side]
-    if S.unseen[k]:
+    if S.unseen[k] and (S.crowd == 0.0 or max(f1, f2) > 0.0):  # else this side has been ruled out
         return 1e300
     if S.crowd > 0.0 and S.ends[k, 1] - S.ends[k, 0] > 3.0:
         return max(f1, f2) + 0.125 * drop
