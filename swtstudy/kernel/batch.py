@@ -131,6 +131,7 @@ def solve_batch(*points, **given):
     for _, profiles, which, loads, asks in chunks(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
+        _refuse_overflow(parts[-1]["overflow"].any())
     return np.concatenate(parts).view(np.recarray) if parts else new_records(0, RESULT)
 
 

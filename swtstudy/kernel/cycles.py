@@ -22,11 +22,11 @@ from swtstudy.kernel.contact import MAX_STRETCHES, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field, lifted, sensitivities, swing_weights, value_of
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, refine, sample_cycle
-from swtstudy.kernel.line import CROWD, GROUPS, LONG, cusps, resolve
+from swtstudy.kernel.line import cusps, ends_group, resolve
 from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks, vertex
-from swtstudy.kernel.point import FINEST_GROWTH
-from swtstudy.kernel.profile import coordinate_at, place_of
+from swtstudy.kernel.point import FINEST_GROWTH, tension_share
+from swtstudy.kernel.profile import place_of
 
 #: Powers of the criterion of which the sum is made largest.
 POWERS = np.array([1.0, 2.0, 4.0, 8.0])
@@ -228,8 +228,7 @@ def reach_of(N, Q, top, swing):
 @jit
 def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals):
     """Sample the cycle at place s with so many intervals of each part."""
-    G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
-    sample_cycle(H, C, R, P, K, L, place, G, largest, Q.poisson_ratio, Q.friction)
+    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
     sample_closely(H, C, P, K, L, Q, intervals)
     rank_parts(N, H, L)
 
@@ -280,11 +279,9 @@ def look_at(N, H, W, C, R, P, K, L, Q, at, largest):
 def look_along(N, S, H, W, C, R, P, K, L, Q, largest):
     """Find the best places of a coarse look along the line: ends of pieces, and within what may matter."""
     last = cusps(S, C, P, L, Q, largest) - 1
-    step = max(last // GROUPS, 1) if last > CROWD else 1
     N.ends = -1
     for j in range(last + 1):
-        gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
-        if j % step == 0 or j == last or gap > LONG * largest:
+        if ends_group(S, j, last, largest):
             N.ends += 1
             N.end[N.ends] = S.cusp[j]
     for p in range(POWERS.shape[0]):
@@ -356,19 +353,19 @@ def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
     place = sqrt(abs(square)) if square >= 0.0 else -sqrt(abs(square))
     if P.singular and place >= 0.0:
         place = max(place, sqrt(2.0 * BESIDE) * b)
-    growth, needed = Q.growth, Q.growth
+    asked, needed = Q.growth, Q.growth
     while True:
-        lay_out(R, C, P, L, growth)
+        growth = lay_out(R, C, P, L, asked)
         sample_at(N, H, C, R, P, K, L, Q, place, largest, COARSELY)
         fill(H, W, side, Q)
         find_peaks(H, W, Q, cos(angle), sin(angle))
         swing = W.top[SWING] + W.top[MINUS_SWING]
         value = value_of(Q, lifted(Q, W.top[STRESS], swing, 0.0))
-        if Q.friction > 0.0 and value > 0.0:  # as for s itself: what grew is told to a share of the tension
-            needed = Q.growth * min(min(W.top[STRESS], 0.5 * swing) / (Q.friction * sqrt(C.largest)), 1.0)
-        if R.panels == 0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
+        if value > 0.0:  # as for s itself: what grew is told to a share of the tension
+            needed = Q.growth * min(tension_share(C, Q, min(W.top[STRESS], 0.5 * swing)), 1.0)
+        if growth > asked or R.panels == 0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
             break
-        growth = max(0.5 * needed, FINEST_GROWTH)
+        asked = max(0.5 * needed, FINEST_GROWTH)
     resolve(H, W, C, P, K, L, side, value, angle, Q, value)
     sample_closely(H, C, P, K, L, Q, FINELY)
     rank_parts(N, H, L)

@@ -15,6 +15,7 @@ from swtstudy.kernel.load import (
     TANGENTIAL,
     UNMAPPED,
     bulk_rates,
+    combined,
     distinct,
     load_at,
     rates_at,
@@ -40,15 +41,9 @@ def event_function(L, which, t):
     if which == BULK_RATE:
         return bulk_rates(L, t)
     n, v, dn, dv, ddn, ddv = rates_at(L, t)
-    if which == NORMAL:
-        return dn, ddn
-    if which == TANGENTIAL:
-        return dv, ddv
-    if which == DIFFERENCE:
-        return dv - dn, ddv - ddn
-    if which == SUM:
-        return dv + dn, ddv + ddn
-    return n, dn
+    if which == CONTACT:
+        return n, dn
+    return combined(which, dn, dv), combined(which, ddn, ddv)
 
 
 @jit
@@ -79,16 +74,7 @@ def is_constant(L, which):
     for i in range(L.terms):
         for of in (L.cosine, L.sine):
             n, v = of[0, i], of[1, i]
-            f = (
-                n
-                if which == NORMAL
-                else v
-                if which == TANGENTIAL
-                else v - n
-                if which == DIFFERENCE
-                else v + n
-            )
-            largest = max(largest, abs(f))
+            largest = max(largest, abs(combined(which, n, v)))
             scale = max(scale, abs(n), abs(v))
     return largest <= 1e-14 * scale
 

@@ -33,15 +33,23 @@ GROWTH = np.dtype(
 
 @jit
 def lay_out(R, C, P, L, tolerance):
-    """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front."""
-    R.panels, R.crowded = 0, 0
-    for i in range(C.pieces):
-        if C.used[i]:
-            C.start_s[i] = place_of(P, C.start[i])
-            if C.kind[i] == GROWN:
-                tabulate_growth(R, C, P, L, i, tolerance)
+    """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front.
+
+    Returns the tolerance of the tables, a coarser one where there is no room for theirs.
+    """
+    while True:
+        R.panels, R.crowded = 0, 0
+        for i in range(C.pieces):
+            if C.used[i]:
+                C.start_s[i] = place_of(P, C.start[i])
+                if C.kind[i] == GROWN:
+                    tabulate_growth(R, C, P, L, i, tolerance)
+        if R.crowded == 0 or tolerance >= 1.0:
+            break
+        tolerance *= 4.0
     for k in range(C.stretches):
         tabulate_places(C, P, L, k)
+    return tolerance
 
 
 @jit

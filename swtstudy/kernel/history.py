@@ -14,7 +14,7 @@ from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTEST, STICK, offset
 from swtstudy.kernel.growth import places_at, solved_places
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
-from swtstudy.kernel.profile import force_at
+from swtstudy.kernel.profile import coordinate_at, force_at
 from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
 
 MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
@@ -372,17 +372,18 @@ def split(H, C, R, P, K, L, k, nu, mu):
 
 
 @jit
-def sample_cycle(H, C, R, P, K, L, place, G, largest, nu, mu):
+def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu):
     """All parts of the cycle at x, coarsely; the mirror image of half a cycle is the other half.
 
     Parameters
     ----------
-    place, G
-        √(x² - b²), or -√(b² - x²) under the face, and the coordinate of the spring there.
+    place
+        √(x² - b²), or -√(b² - x²) under the face.
     largest
         Place s of the largest contact.
     """
-    H.instants, H.parts, H.G, H.plane = 0, 0, G, P.plane
+    H.instants, H.parts, H.plane = 0, 0, P.plane
+    H.G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
     H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
     H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
     integrate_pieces(H, C, R, P, K, largest)

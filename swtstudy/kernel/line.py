@@ -35,7 +35,7 @@ from swtstudy.kernel.planes import (
     survey_planes,
     unresolved,
 )
-from swtstudy.kernel.profile import coordinate_at, place_of
+from swtstudy.kernel.profile import place_of
 
 MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
 #: A search ends after so many positions.
@@ -148,17 +148,23 @@ def ask(
 
 
 @jit
+def innermost_front(C, P, largest):
+    """Place s of the slip front nearest to the centre."""
+    innermost = largest
+    for k in range(C.stretches):
+        if C.push[k] != STICK:
+            innermost = min(innermost, max(place_of(P, C.front[k, 1]), 0.0))
+    return innermost
+
+
+@jit
 def cusps(S, C, P, L, Q, largest):
     """Write the sorted ends of the pieces of the line, places s; returns how many."""
     z, b = S.cusp, P.flat_radius
     radius = sqrt(b * b + largest * largest)
     m = 1
     z[0] = INNERMOST * largest
-    innermost = largest
-    for k in range(C.stretches):
-        if C.push[k] != STICK:
-            innermost = min(innermost, max(place_of(P, C.front[k, 1]), 0.0))
-    if P.singular and innermost < NEAR_FACE * b and Q.friction >= TEARING:
+    if P.singular and Q.friction >= TEARING and innermost_front(C, P, largest) < NEAR_FACE * b:
         # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
         L_edge = 4.0
         while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
@@ -272,8 +278,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
     number = min(S.positions, MAX_SEEN - 1)
     S.positions += 1
     S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
-    G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
-    sample_cycle(H, C, R, P, K, L, place, G, largest, Q.poisson_ratio, Q.friction)
+    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
     for side in range(2):
         if side == 1 and L.mirrored:
             S.value[1] = S.value[0]
@@ -415,21 +420,28 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
 
 
 @jit
+def ends_group(S, j, last, largest):
+    """True if cusp j of last + 1 ends a group of pieces: each if there are few, and those of long pieces."""
+    step = max(last // GROUPS, 1) if last > CROWD else 1
+    gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
+    return j % step == 0 or j == last or gap > LONG * largest
+
+
+@jit
 def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
     """Evaluate cusps and make intervals of the pieces between them, and groups if there are many.
 
     Returns the number of intervals.
     """
-    S.crowd, step = 0.0, 1
+    S.crowd = 0.0
     if cusps > CROWD:
         k = 0
         while S.cusp[k] < 0.5 * smallest:
             k += 1
-        S.crowd, step = max(largest - S.cusp[k], 1e-6 * largest), max(cusps // GROUPS, 1)
+        S.crowd = max(largest - S.cusp[k], 1e-6 * largest)
     m, after, plus, minus = 0, -1, 0.0, 0.0
     for j in range(cusps, -1, -1):  # the largest values are near the edges
-        gap = max(S.cusp[min(j + 1, cusps)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
-        if not (j % step == 0 or j == cusps or gap > LONG * largest):
+        if not ends_group(S, j, cusps, largest):
             continue
         evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[j], ASKED, ASKED)
         if after > 0:
@@ -468,12 +480,17 @@ def search_line(S, H, W, C, R, P, K, L, Q):
         gap, limit = S.bound[k] - S.best, S.best * (1.0 + Q.line)
         if gap <= Q.line * S.best or m + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
             break
-        if S.cusps[k, 1] > 0:
-            m = divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
-        else:
-            halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit)
-            m += 1
+        m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
     return max(gap, 0.0)
+
+
+@jit
+def cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
+    """Cut interval k in two, be it a group of pieces or not; returns the number of intervals."""
+    if S.cusps[k, 1] > 0:
+        return divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit)
+    halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit)
+    return m + 1
 
 
 @jit

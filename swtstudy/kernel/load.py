@@ -199,29 +199,27 @@ def bulk_rates(L, t):
 
 
 @jit
+def combined(which, n, v):
+    """One of n, v, α = v - n, β = v + n; of rates likewise."""
+    if which == NORMAL:
+        return n
+    if which == TANGENTIAL:
+        return v
+    return v - n if which == DIFFERENCE else v + n
+
+
+@jit
 def function_at(L, which, t):
     """One of n, v, α, β and its rate."""
     n, v, dn, dv, ddn, ddv = rates_at(L, t)
-    if which == NORMAL:
-        return n, dn
-    if which == TANGENTIAL:
-        return v, dv
-    if which == DIFFERENCE:
-        return v - n, dv - dn
-    return v + n, dv + dn
+    return combined(which, n, v), combined(which, dn, dv)
 
 
 @jit
 def value_at(L, which, t):
     """One of n, v, α, β."""
     n, v = load_at(L, t)
-    if which == NORMAL:
-        return n
-    if which == TANGENTIAL:
-        return v
-    if which == DIFFERENCE:
-        return v - n
-    return v + n
+    return combined(which, n, v)
 
 
 @jit

@@ -1,18 +1,16 @@
 """Loads as records, made in Python from what is prescribed."""
 
 from functools import reduce
-from itertools import combinations
 from math import gcd
 
 import numpy as np
 
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
+from swtstudy.kernel.loops import without_collinear
 
 #: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
 SAMPLES = 32
-#: Rounding of a corner's sine, in the sizes of its products: each has two differences and a product.
-STRAIGHT = 4.0 * float(np.finfo(float).eps)
 
 
 def load_of(
@@ -141,7 +139,7 @@ def _range(load, component):
 def polygon(normal, tangential, bulk=None):
     """Load along a closed polygon through vertices, each of shape (k,)."""
     bulk = np.zeros(len(normal)) if bulk is None else bulk
-    vertices = _without_collinear(np.stack([normal, tangential, bulk], axis=1).astype(float))
+    vertices = without_collinear(np.stack([normal, tangential, bulk], axis=1).astype(float))
     sides = len(vertices)
     if sides >= MAX_VERTICES:
         raise ValueError(f"a loop of {sides} vertices: at most {MAX_VERTICES - 1}")
@@ -158,20 +156,3 @@ def polygon(normal, tangential, bulk=None):
 
 def _ends(values):
     return values.min(), values.max()
-
-
-def _without_collinear(loop):
-    """A closed polygon (k, d) without repeated vertices and those on the straight line between neighbours."""
-    moves = (loop != np.roll(loop, 1, axis=0)).any(axis=1)
-    if not moves.any():
-        return loop[:1]
-    loop = loop[moves]
-    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
-    straight = np.ones(len(loop), dtype=bool)
-    for i, j in combinations(range(loop.shape[1]), 2):
-        products = before[:, i] * after[:, j], before[:, j] * after[:, i]
-        size = np.abs(products[0]) + np.abs(products[1])
-        straight &= np.abs(products[0] - products[1]) <= STRAIGHT * size
-    # A vertex at which the loop turns back stays.
-    straight &= (before * after).sum(axis=1) > 0.0
-    return loop[~straight]

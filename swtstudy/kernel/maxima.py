@@ -19,7 +19,7 @@ from swtstudy.kernel.line import (
     MOST_POSITIONS,
     begin_search,
     bound_of,
-    divide,
+    cut,
     halve,
     position,
 )
@@ -71,11 +71,7 @@ def map_line(S, H, W, C, R, P, K, L, Q, limit):
                 k, most = i, hidden
         if most <= 1.0:
             break
-        if S.cusps[k, 1] > 0:
-            m = divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
-        else:
-            halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit)
-            m += 1
+        m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
     return m
 
 

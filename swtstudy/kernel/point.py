@@ -99,6 +99,12 @@ def is_idle(C, L, P, Q):
 
 
 @jit
+def tension_share(C, Q, tension):
+    """Tension over the largest stress that slip can make, μ times the pressure; 1 without friction."""
+    return tension / (Q.friction * sqrt(C.largest)) if Q.friction > 0.0 else 1.0
+
+
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -116,23 +122,20 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.s, out.s_error = 0.0, 0.0
     if is_idle(C, L, P, Q):
         return
-    growth, gap, share, last = Q.growth, 0.0, 1.0, False
+    growth, gap, share, coarse = Q.growth, 0.0, 1.0, 0.0
     for _ in range(5):
-        lay_out(R, C, P, L, growth)
-        while R.crowded and growth < 1.0:
-            growth *= 4.0
-            lay_out(R, C, P, L, growth)
-            last = True
+        asked, growth = growth, lay_out(R, C, P, L, growth)
+        coarse = growth if growth > asked else 0.0
         gap = search_line(S, H, W, C, R, P, K, L, Q)
-        # Tension over the largest stress that slip can make, μ times the pressure.
-        share = S.tension / (Q.friction * sqrt(C.largest)) if Q.friction > 0.0 else 1.0
+        share = tension_share(C, Q, S.tension)
         needed = Q.growth * min(share, 1.0)
-        if last or R.panels == 0 or S.best <= 0.0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
+        done = needed >= 0.5 * growth or growth <= FINEST_GROWTH
+        if done or coarse > 0.0 or R.panels == 0 or S.best <= 0.0:
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s = S.best
-    rounding = (ROUNDING + (growth if last else 0.0)) / share if S.best > 0.0 else 0.0
+    rounding = (ROUNDING + coarse) / share if S.best > 0.0 else 0.0
     out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
     if S.best > 0.0:
         b = P.flat_radius

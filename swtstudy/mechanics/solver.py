@@ -53,8 +53,6 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         If a load cycle has more pieces than the solver has room for.
     """
     found = solve_batch(**arguments_of(points), rtol=rtol)
-    if found["overflow"].any():
-        raise ArithmeticError("the load cycle has more pieces than the solver has room for")
     s, error, x, angle = (found[name].copy() for name in ("s", "s_error", "critical_x", "critical_angle"))
     regime = found["regime"].astype(np.int8)
     return Solution(s, error, x, angle, regime, _on_circle(points, s, error, x))

@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from swtstudy.kernel.loops import without_collinear
 from swtstudy.mechanics.load.load import FINITE, LARGEST, Load, Loop, checked_mean, checked_name, mean_of
-from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad, without_collinear
+from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad
 from swtstudy.mechanics.load.smooth import SmoothPath, sampled
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.vocabulary.definition import read_numbers

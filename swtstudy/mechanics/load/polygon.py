@@ -6,19 +6,16 @@ leaves a line of the diagram, and every passage is the root of a linear function
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from swtstudy.kernel.loops import without_collinear
 from swtstudy.mechanics.load.load import PERIOD, Load
 from swtstudy.mechanics.numerics.arrays import ROUNDING, align
 from swtstudy.mechanics.numerics.roots import Brackets
 from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
-
-#: Rounding of the corner's sine, in the sizes of its products: each has two differences and a product, 1.5 ε.
-STRAIGHT = 4.0 * float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -223,20 +220,3 @@ def _side_and_share(instant: FloatArray, sides: FloatArray | np.float64) -> tupl
     place = np.where(np.abs(place - vertex) < ROUNDING * sides, vertex, place)
     side = np.clip(np.floor(place), 0.0, sides - 1.0)
     return side.astype(np.int64), place - side
-
-
-def without_collinear(loop: FloatArray) -> FloatArray:
-    """A closed polygon (k, d) without repeated vertices and those on the straight line between neighbours."""
-    moves = (loop != np.roll(loop, 1, axis=0)).any(axis=1)
-    if not moves.any():
-        return loop[:1]
-    loop = loop[moves]
-    before, after = loop - np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0) - loop
-    straight = np.ones(len(loop), dtype=bool)
-    for i, j in itertools.combinations(range(loop.shape[1]), 2):
-        products = before[:, i] * after[:, j], before[:, j] * after[:, i]
-        size = np.abs(products[0]) + np.abs(products[1])
-        straight &= np.abs(products[0] - products[1]) <= STRAIGHT * size
-    # A vertex at which the loop turns back stays.
-    straight &= (before * after).sum(axis=1) > 0.0
-    return loop[~straight]
