@@ -40,6 +40,7 @@ def chunks(
     criterion="swt",
     walker_exponent=None,
     normal_sensitivity=None,
+    pulled=None,
     rtol=1e-4,
 ):
     """Records of n points of one profile family, one kind of load and one criterion, some at a time.
@@ -66,6 +67,9 @@ def chunks(
         swt, fatemi_socie or findley.
     walker_exponent, normal_sensitivity
         Shape (n,); 1/2 and 0 if None.
+    pulled
+        Shape (n,): strain of the body with the bulk stress over the mean of both, which shifts the stick
+        zone; 0 where it is not to be shifted; 1 if None, for bodies of equal moduli.
     rtol
         Relative accuracy asked of s.
 
@@ -82,6 +86,7 @@ def chunks(
     bulk = [zero if each is None else each for each in (bulk_amplitude, bulk_mean, bulk_phase)]
     exponent = zero + 0.5 if walker_exponent is None else walker_exponent
     sensitivity = zero if normal_sensitivity is None else normal_sensitivity
+    strain = zero + 1.0 if pulled is None else pulled
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
         loads, asks = _loads()[: len(rows)], new_records(len(rows), ASK)
@@ -91,7 +96,7 @@ def chunks(
             ratio = Fraction(1 if frequency_ratio is None else frequency_ratio[i])
             own = normal_amplitude[i], tangential_amplitude[i], angle[i], ratio
             loads[j] = load_of(loop, *own, *(each[i] for each in bulk))
-            own = criterion, exponent[i], sensitivity[i]
+            own = criterion, exponent[i], sensitivity[i], strain[i]
             asks[j] = ask(poisson_ratio[i], friction[i], rtol, *own)
             keys.append(tuple((key, float(values[i])) for key, values in (shape or {}).items()))
         largest = dict.fromkeys(keys, 1.0)

@@ -45,6 +45,7 @@ CYCLE = np.dtype(
         ("any_slip", "i8"),
         ("largest", "f8"),  # largest and smallest coordinate of the edge
         ("smallest", "f8"),
+        ("shift", "f8"),  # centre of the stick zone, over how far its coordinate is below the edge's
         ("event", "f8", (MAX_EVENTS,)),
         ("beneath", "i8", (MAX_PIECES,)),
         ("kind", "i8", (MAX_PIECES,)),

@@ -35,6 +35,7 @@ LOAD = np.dtype(
         ("bulk_moves", "i8"),  # 1: B changes
         ("bulk_turns", "i8"),  # 1: so much faster than n and v that its turning points are events
         ("bulk_range", "f8", (2,)),  # smallest and largest B
+        ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v; else 0
         ("normal_range", "f8", (2,)),  # and n
         ("period", "f8"),
         ("rounds", "i8"),  # how often a round of the load runs through the cycle

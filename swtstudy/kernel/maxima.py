@@ -23,6 +23,7 @@ from swtstudy.kernel.line import (
     halve,
     position,
 )
+from swtstudy.kernel.point import shift_of
 from swtstudy.kernel.profile import place_of
 
 #: What may be hidden between two places, over the values there, and above a maximum, over its value.
@@ -149,6 +150,7 @@ def find_maxima(C, R, S, H, W, K, M, P, L, Q, limit):
     if C.overflow or C.no_equilibrium:
         M.overflow = C.overflow
         return
+    C.shift = shift_of(C, L, P, Q)
     lay_out(R, C, P, L, Q.growth)
     m = map_line(S, H, W, C, R, P, K, L, Q, limit)
     for side in range(1 if L.mirrored else 2):
