@@ -13,16 +13,24 @@ import xarray as xr
 from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
+    cycle_at,
     label_time,
+    labelled_time,
+    open_point,
+    periods,
+    read_angles,
+    read_cycle,
     read_finite,
+    read_instants,
     read_places,
     read_scene,
-    read_time,
     turns,
+    turns_of,
 )
+from swtstudy.kernel.field import contact_radii, stress_at
+from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.mechanics.body.body import Body, TimeNodes, closer_nodes, time_nodes
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.punch import COMPONENTS
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.superposition import kernels_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
@@ -81,18 +89,20 @@ def stress_field(
     >>> field.sigma_xx.dims
     ('time', 'x', 'z')
     """
-    scene = read_scene(parameters)
+    points, opened = open_point(parameters)
     places = read_places(x, y, z)
     taken = sorted({"time", "instant"}.intersection(map(str, places[0].dims)))
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
         raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
+    rounds = turns_of(points)
     if time is None:
-        instants, history = _at_own_instants(scene, places)
+        instants, history = _at_own_instants(cycle_at(points, parameters), places)
     else:
-        instants, nodes = read_time(scene, time)
-        body = Body(scene, nodes, _cells(float(places[2].min())))
-        history = body.stress(*(place.values for place in places))
+        given = read_instants(time)
+        instants = labelled_time(points.path is None, given, ("time",) * given.ndim)
+        flat = np.stack([place.values.ravel() for place in places], axis=1)
+        history = stress_at(opened, flat, given.ravel() / rounds)
     over = tuple(dim for dim in instants.dims if dim not in places[0].dims)
     dims = (*over, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places[0].shape, 6)
@@ -100,9 +110,7 @@ def stress_field(
     for i, name in enumerate(COMPONENTS):
         meaning = named(f"stress {name} over E* sqrt(delta0/R), tension positive", rf"\sigma_{{{name}}}")
         variables[f"sigma_{name}"] = dims, stress[..., i], meaning
-    phase = instants.values.reshape(1, -1) / turns(scene)
-    depth = np.maximum(scene.cycle.load.normal(phase), 0.0)
-    radius = np.where(depth > 0.0, scene.coordinate.radius(depth), 0.0).reshape(instants.shape)
+    radius = contact_radii(opened, instants.values.ravel() / rounds).reshape(instants.shape)
     meaning = named("contact radius, in units of a_H = sqrt(R delta0)", "a/a_H")
     variables["contact_radius"] = (instants.dims, radius, meaning)
     return xr.Dataset(variables, {"time": instants, **as_given(places, x, y, z)})
@@ -223,21 +231,22 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     ValueError
         If a distance, an instant or a parameter is not allowed.
     """
-    scene = read_scene(parameters)
+    cycle = read_cycle(parameters)
     if time is None:
-        time = 2.0 * np.pi * turns(scene) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    instants, nodes = read_time(scene, time)
+        time = 2.0 * np.pi * periods(cycle.points) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    instants, turned = read_angles(cycle.points, time)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = scene.cycle.states(nodes.interval[None], nodes.instant[None])
-    edge, front, sign = states.edge, states.front, states.sign
-    at = scene.coordinate.of(radius.values[None])[0]
-    slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
-    state = np.where(at < front[0][:, None], 1, np.where(at < edge[0][:, None], slips, 0)).astype(np.int8)
+    states = cycle.states(turned)
+    # A ring under a flat face is the whole face.
+    place = np.maximum(cycle.place(radius.values), 0.0)
+    slips = np.where(states.push > 0, 2, 3)[:, None]
+    inside, touching = (place < states[name][:, None] for name in ("front_s", "edge_s"))
+    state = np.where(inside, 1, np.where(touching, slips, 0)).astype(np.int8)
     flags = {
         "long_name": "state of the contact",
         "flag_values": np.arange(len(_STATES), dtype=np.int8),
@@ -246,8 +255,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
     }
-    for name, values in (("slip_radius", front), ("contact_radius", edge)):
-        there = np.where(edge > 0.0, scene.coordinate.radius(values), 0.0).reshape(instants.shape)
+    for name, values in (("slip_radius", states.front_s), ("contact_radius", states.edge_s)):
+        there = np.where(states.normal > 0.0, cycle.radius(values), 0.0).reshape(instants.shape)
         meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
         variables[name] = (instants.dims, there, meaning)
     return xr.Dataset(variables, {"time": instants, "r": radius})

@@ -67,9 +67,8 @@ def jit(function, **options):
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _FOLDER
     try:
-        compiled = numba.njit(
-            cache=bool(_FOLDER), error_model="numpy", nogil=True, no_cfunc_wrapper=True, **options
-        )(function)
+        own = {"cache": bool(_FOLDER), "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+        compiled = numba.njit(**own, **options)(function)
     finally:
         numba.config.CACHE_DIR = before
     if not numba.config.DISABLE_JIT:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from swtstudy.kernel.batch import maxima_batch
+from swtstudy.kernel.batch import cycle_batch, maxima_batch
 from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
 from swtstudy.mechanics.control.coordinate import unit_half_load
@@ -19,7 +19,6 @@ from swtstudy.mechanics.counted import FewCycles
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
 from swtstudy.mechanics.solver import arguments_of, scenes
-from swtstudy.mechanics.stress import work
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.vocabulary.quantities import (
     COUNTED,
@@ -34,6 +33,8 @@ from swtstudy.vocabulary.quantities import (
     item_of,
 )
 
+#: Quantities of the cycle, by their names in `swtstudy.kernel.work.OF_CYCLE`.
+OF_CYCLE = ("work", "stick_radius", "contact_radius", "force_ratio")
 #: What each place may be the worst of.
 KINDS = ("volume", "point", "line")
 
@@ -119,11 +120,16 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    of_cycles = asked.names or asked.distances
-    for index, scene in scenes(points) if of_cycles else ():
+    names = [name for name in asked.names if NAMED[name].function in OF_CYCLE]
+    if names:
+        found |= _of_cycles(points, names)
+    for index, scene in scenes(points) if asked.distances or YIELD in asked.names else ():
         some = points.take(index)
-        parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
         own = solution.take(index)
+        parts: dict[str, FloatArray] = {}
+        if YIELD in asked.names:
+            unit = unit_half_load(some.profile, some.shape, len(index))
+            parts |= {YIELD: von_mises.largest_von_mises(scene, unit)}
         if asked.distances:
             parts |= _nonlocal(some, scene, own, asked.distances)
         for column, values in parts.items():
@@ -133,13 +139,15 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     return found
 
 
-def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str, FloatArray]:
+def _of_cycles(points: Points, names: Sequence[str]) -> dict[str, FloatArray]:
+    """Quantities of the cycle by column."""
+    rows = [NAMED[name] for name in names]
+    with_ratio = any(row.function == "force_ratio" for row in rows)
+    made = cycle_batch(with_ratio, **arguments_of(points))
     found: dict[str, FloatArray] = {}
-    for name in names:
-        row = NAMED[name]
-        function = getattr(von_mises if name == YIELD else work, row.function)
-        made = function(scene, unit)
-        found |= zip(row.variables, made if row.has_error else (made,), strict=True)
+    for row in rows:
+        columns = row.function, error_of(row.function)
+        found |= {name: made[key].copy() for name, key in zip(row.variables, columns, strict=False)}
     return found
 
 
