@@ -152,7 +152,7 @@ class LoadCycle:
         cycle, growth, _, history, _, tables = self.memory
         ν, own = float(self.ask.poisson_ratio), self._at(x)
         write_stress(history, cycle, growth, self.profile, tables, states, *own)
-        T = len(states)
+        side, T = own[2], len(states)
         p, within, xx, yy, q, bulk = (
             history[name][:T].copy() for name in ("p", "within", "xx", "yy", "q", "bulk")
         )
