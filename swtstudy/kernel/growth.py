@@ -103,7 +103,8 @@ def places_at(C, P, L, k, t, weight):
         for j in range(intervals + 1):
             edge += weight[j] * C.place[k, j * step, 0]
             front += weight[j] * C.place[k, j * step, 1]
-        return edge, front
+        # Pressure follows the root of the edge's rounding: one that rests has none.
+        return C.place[k, 0, 0] if C.edge[k, 0] == C.edge[k, 1] else edge, front
     return solved_places(C, P, L, k, t)
 
 

@@ -31,7 +31,16 @@ def solve_one(name: str = "paraboloid", **given: object) -> np.void:
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
-@pytest.mark.parametrize(("nu", "mu", "U"), [(0.3, 0.3, 5 / 6), (0.1, 0.8, 0.3), (0.45, 0.5, 0.6)])
+@pytest.mark.parametrize(
+    ("nu", "mu", "U"),
+    [
+        (0.3, 0.3, 5 / 6),
+        (0.1, 0.8, 0.3),
+        (0.45, 0.5, 0.6),
+        # Nearly all of the contact sticks: the tension is next to rounding.
+        (0.11823350538566824, 0.0014235323712547415, 1.740968841677401e-05),
+    ],
+)
 def test_constant_normal_load_is_cattaneo_mindlin(nu: float, mu: float, U: float, rtol: float) -> None:
     theta = np.arcsin(np.sqrt(1.0 - U))
     one = (np.pi / 2 - theta) / 2 + np.sin(2 * theta) / 4
