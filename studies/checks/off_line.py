@@ -29,13 +29,13 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
 
+from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.local_swt import Places
 from swtstudy.mechanics.body.nonlocal_swt import Around, nonlocal_swt
 from swtstudy.mechanics.line.look import Look
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_on_planes
 from swtstudy.mechanics.planes.weights import tangent_basis
