@@ -3,22 +3,46 @@
 from __future__ import annotations
 
 import math
+import warnings
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.planes import all_planes
-from swtstudy.mechanics.planes.all_planes import CriticalPlane, crossland
-from swtstudy.mechanics.planes.criterion import SWT_EXPONENT, FatemiSocie, Findley, Swt
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS
 
-#: What has no plane, and the criteria of shear.
-CROSSLAND = "crossland"
-_OF_SHEAR = {each.name: each for each in (FatemiSocie, Findley)}
-_KNOWN = (*_OF_SHEAR, CROSSLAND)
+FloatArray = NDArray[np.float64]
+
+#: The criteria of shear, and the one that has no plane.
+FATEMI_SOCIE, FINDLEY, CROSSLAND = _KNOWN = "fatemi_socie", "findley", "crossland"
+#: γ of the Smith–Watson–Topper parameter.
+SWT_EXPONENT = 0.5
+#: No plane has a value that is higher than the largest one by more than this, relative.
+TOLERANCE = 1e-5
+#: What rounding may make of a distance, as a share of the size of a path, and of a unit normal's component.
+ROUNDING, SAME = 1e-12, 1e-9
+#: Less than this is nothing: it divides nothing.
+TINY = 1e-300
+#: Steps towards the smallest sphere for each point and each dimension.
+MOST_STEPS = 60
+
+
+class CriticalPlane(NamedTuple):
+    """The critical plane of each history.
+
+    Attributes
+    ----------
+    swt
+        Shape (...): σ_n^max Δε_n/2, in the unit of stress²/modulus; 0 where no plane ever sees tension.
+    normal
+        Shape (..., 3): unit normal, its first non-zero component positive; NaN where swt is 0.
+    """
+
+    swt: FloatArray
+    normal: FloatArray
 
 
 def swt_of_history(
@@ -61,7 +85,7 @@ def swt_of_history(
         report(row.name, literal(walker_exponent), row.allowed)
     report.refuse()
     ν, E, γ = map(plain_number, (poisson_ratio, young_modulus, walker_exponent))
-    return all_planes.swt_of_history(history, ν, E, Swt.of(np.full(1, γ), np.full(1, E)))
+    return _over_all_planes(history, ν, SWT, (1.0 - ν**2) / E, walker_exponent=γ)
 
 
 def criterion_of_history(
@@ -118,8 +142,82 @@ def criterion_of_history(
     if criterion == CROSSLAND:
         value = crossland(history, sensitivity)
         return value, np.full((*value.shape, 3), np.nan)
-    found = all_planes.swt_of_history(history, 0.3, 1.0, _OF_SHEAR[criterion](np.full(1, sensitivity)))
-    return found.swt, found.normal
+    return _over_all_planes(history, 0.3, criterion, 1.0, normal_sensitivity=sensitivity)
+
+
+def _over_all_planes(
+    history: FloatArray, poisson_ratio: float, criterion: str, factor: float, **parameters: float
+) -> CriticalPlane:
+    """Largest value over all planes, times a factor, of histories (…, T, 6)."""
+    # The kernel takes half a second to import, and what validates a study does without it.
+    from swtstudy.kernel.all_planes import planes_of
+    from swtstudy.kernel.line import ask
+
+    batch = history.shape[:-2]
+    # Large powers of a stress leave the range of floats.
+    size = float(np.abs(history).max(initial=0.0)) or 1.0
+    if criterion == FATEMI_SOCIE:
+        parameters["normal_sensitivity"] *= size
+    own = ask(poisson_ratio, 0.0, TOLERANCE, criterion, **parameters)
+    value, normal, unsettled = planes_of(history.reshape(-1, *history.shape[-2:]) / size, own, TOLERANCE)
+    if unsettled:
+        warnings.warn(
+            f"the search over planes ended early at {unsettled} of {len(value)} histories: "
+            "their values may be low",
+            RuntimeWarning,
+            stacklevel=3,
+        )
+    normal[value == 0.0] = np.nan
+    # n and −n are the same plane: show the one whose first component that is not 0 is positive.
+    first = np.argmax(np.abs(normal) > SAME, axis=1)
+    normal = normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
+    value *= factor * size ** (2.0 if criterion == SWT else 1.0)
+    return CriticalPlane(value.reshape(batch), normal.reshape(*batch, 3))
+
+
+def crossland(stress: FloatArray, sensitivity: float) -> FloatArray:
+    """√J2,a + α max σ_H, of histories (…, T, 6), shape (…).
+
+    √J2,a is the radius of the smallest sphere around the deviatoric path, in the norm √(s:s/2).
+    """
+    hydrostatic = stress[..., :3].mean(axis=-1, keepdims=True)
+    path = stress.copy()
+    path[..., :3] = (path[..., :3] - hydrostatic) / np.sqrt(2.0)
+    flat = path.reshape(-1, *path.shape[-2:])
+    radius = np.array([smallest_sphere(points)[1] for points in flat]).reshape(stress.shape[:-2])
+    return np.maximum(radius + sensitivity * hydrostatic[..., 0].max(axis=-1), 0.0)
+
+
+def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:
+    """Centre and radius of the smallest sphere around points, (k, d).
+
+    The centre walks towards the points on the sphere, which shrinks until another point is on it, or until it
+    is between them (Fischer, Gärtner and Kutz 2003).
+    """
+    centre = points[0].copy()
+    on = [int(((points - centre) ** 2).sum(axis=1).argmax())]
+    size = max(float(np.ptp(points, axis=0).max()), TINY)
+    for _ in range(MOST_STEPS * (points.shape[1] + len(points))):
+        base, others = points[on[0]], points[on[1:]] - points[on[0]]
+        share = np.linalg.lstsq(others.T, centre - base, rcond=None)[0]
+        way = base + share @ others - centre
+        if np.linalg.norm(way) <= ROUNDING * size:
+            shares = np.append(1.0 - share.sum(), share)
+            if shares.min() >= -ROUNDING:
+                break
+            on.pop(int(shares.argmin()))
+            continue
+        short = ((points - centre) ** 2).sum(axis=1) - ((base - centre) ** 2).sum()
+        nears = 2.0 * (base - points) @ way
+        nears[on] = 0.0
+        reaches = nears > ROUNDING * size**2
+        stop = np.full(len(points), np.inf)
+        stop[reaches] = np.maximum(-short[reaches], 0.0) / nears[reaches]
+        first = int(stop.argmin())
+        centre = centre + min(stop[first], 1.0) * way
+        if stop[first] < 1.0:
+            on.append(first)
+    return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
 
 
 def _checked(stress: ArrayLike, poisson_ratio: float, young_modulus: float) -> tuple[FloatArray, Report]:

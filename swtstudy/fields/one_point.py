@@ -11,6 +11,7 @@ from fractions import Fraction
 import numpy as np
 import xarray as xr
 
+from swtstudy.kernel.field import Opened, open_cycle
 from swtstudy.mechanics.body.body import TimeNodes, nodes_at
 from swtstudy.mechanics.contact.cycle import out_of_equilibrium
 from swtstudy.mechanics.control.diagram import MappedLoad
@@ -19,6 +20,7 @@ from swtstudy.mechanics.load.load import Loop
 from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
@@ -68,17 +70,32 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 
 
 def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
-    """The stationary load cycle of one point; see `read_point`.
+    """The stationary load cycle of one point, for what is on the surface line; see `read_point`.
 
     Raises
     ------
     StudyError
-        A ValueError, if there is no equilibrium: then there is no cycle.
+        A ValueError with every mistake in the parameters, or if there is no equilibrium.
     """
     cycle = LoadCycle.of(read_point(parameters))
     if not cycle.equilibrium:
         raise StudyError([_no_equilibrium(cycle.points, parameters)])
     return cycle
+
+
+def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
+    """A batch of one point, see `read_point`, and its load cycle in the kernel.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters, or if there is no equilibrium.
+    """
+    points = read_point(parameters)
+    opened = open_cycle(**arguments_of(points))
+    if opened is None:
+        raise StudyError([_no_equilibrium(points, parameters)])
+    return points, opened
 
 
 def read_scene(parameters: Mapping[str, object]) -> Scene:
@@ -210,9 +227,19 @@ def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
     time, nodes
         These, and the same instants of the cycle in the order of time.
     """
-    array = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
+    array = read_instants(time)
     nodes = nodes_at(scene, np.mod(array.ravel() / turns(scene), 2.0 * np.pi))
     return label_time(scene, array, ("time",) * array.ndim), nodes
+
+
+def read_instants(time: object) -> FloatArray:
+    """ω1 t in rad, a number or a one-dimensional sequence."""
+    return read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
+
+
+def turns_of(points: Points) -> int:
+    """As `turns`, of a batch of one point."""
+    return 1 if points.path is not None else int(points.q[0])
 
 
 def turns(scene: Scene) -> int:
@@ -223,7 +250,12 @@ def turns(scene: Scene) -> int:
 
 def label_time(scene: Scene, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
     """Instants ω1 t, or angles of a loop's period, as a labelled array."""
-    words, symbol = ("omega1 t", r"\omega_1 t") if _harmonic(scene) else ("angle of the period", r"\varphi")
+    return labelled_time(_harmonic(scene) is not None, time, dims)
+
+
+def labelled_time(harmonic: bool, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+    """Instants as a labelled array: ω1 t of harmonic loads, else angles of the period of a loop."""
+    words, symbol = ("omega1 t", r"\omega_1 t") if harmonic else ("angle of the period", r"\varphi")
     attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
     return xr.DataArray(time, dims=dims, attrs=attributes)
 
@@ -233,24 +265,3 @@ def _harmonic(scene: Scene) -> BimodalLoad | None:
     load = scene.cycle.load
     given = load.given if isinstance(load, MappedLoad) else load
     return given if isinstance(given, BimodalLoad) else None
-
-
-def periods(points: Points) -> int:
-    """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
-    return 1 if points.path is not None else int(points.q[0])
-
-
-def label_angles(points: Points, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
-    words, symbol = (
-        ("omega1 t", r"\omega_1 t") if points.path is None else ("angle of the period", r"\varphi")
-    )
-    attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
-    return xr.DataArray(time, dims=dims, attrs=attributes)
-
-
-def read_angles(points: Points, time: object) -> tuple[xr.DataArray, FloatArray]:
-    """Instants ω1 t in rad, or angles of a loop's period, labelled, and as angles of the common period."""
-    array = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
-    turned = np.mod(array.ravel() / periods(points), 2.0 * np.pi)
-    return label_angles(points, array, ("time",) * array.ndim), turned

@@ -13,19 +13,22 @@ import xarray as xr
 from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
+    cycle_at,
     label_time,
-    periods,
-    read_angles,
+    labelled_time,
+    open_point,
     read_cycle,
     read_finite,
+    read_instants,
     read_places,
     read_scene,
-    read_time,
     turns,
+    turns_of,
 )
+from swtstudy.kernel.field import contact_radii, stress_at
+from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.mechanics.body.body import Body, TimeNodes, closer_nodes, time_nodes
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.punch import COMPONENTS
 from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.mechanics.stress.superposition import kernels_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
@@ -84,18 +87,20 @@ def stress_field(
     >>> field.sigma_xx.dims
     ('time', 'x', 'z')
     """
-    scene = read_scene(parameters)
+    points, opened = open_point(parameters)
     places = read_places(x, y, z)
     taken = sorted({"time", "instant"}.intersection(map(str, places[0].dims)))
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
         raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
+    rounds = turns_of(points)
     if time is None:
-        instants, history = _at_own_instants(scene, places)
+        instants, history = _at_own_instants(cycle_at(points, parameters), places)
     else:
-        instants, nodes = read_time(scene, time)
-        body = Body(scene, nodes, _cells(float(places[2].min())))
-        history = body.stress(*(place.values for place in places))
+        given = read_instants(time)
+        instants = labelled_time(points.path is None, given, ("time",) * given.ndim)
+        flat = np.stack([place.values.ravel() for place in places], axis=1)
+        history = stress_at(opened, flat, given.ravel() / rounds)
     over = tuple(dim for dim in instants.dims if dim not in places[0].dims)
     dims = (*over, *places[0].dims)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places[0].shape, 6)
@@ -103,9 +108,7 @@ def stress_field(
     for i, name in enumerate(COMPONENTS):
         meaning = named(f"stress {name} over E* sqrt(delta0/R), tension positive", rf"\sigma_{{{name}}}")
         variables[f"sigma_{name}"] = dims, stress[..., i], meaning
-    phase = instants.values.reshape(1, -1) / turns(scene)
-    depth = np.maximum(scene.cycle.load.normal(phase), 0.0)
-    radius = np.where(depth > 0.0, scene.coordinate.radius(depth), 0.0).reshape(instants.shape)
+    radius = contact_radii(opened, instants.values.ravel() / rounds).reshape(instants.shape)
     meaning = named("contact radius, in units of a_H = sqrt(R delta0)", "a/a_H")
     variables["contact_radius"] = (instants.dims, radius, meaning)
     return xr.Dataset(variables, {"time": instants, **as_given(places, x, y, z)})
@@ -227,16 +230,18 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         If a distance, an instant or a parameter is not allowed.
     """
     cycle = read_cycle(parameters)
+    rounds = turns_of(cycle.points)
     if time is None:
-        time = 2.0 * np.pi * periods(cycle.points) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    instants, turned = read_angles(cycle.points, time)
+        time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    given = read_instants(time)
+    instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = cycle.states(turned)
+    states = cycle.states(given.ravel() / rounds)
     # A ring under a flat face is the whole face.
     place = np.maximum(cycle.place(radius.values), 0.0)
     slips = np.where(states.push > 0, 2, 3)[:, None]

@@ -67,7 +67,8 @@ def jit(function, **options):
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _FOLDER
     try:
-        return numba.njit(cache=bool(_FOLDER), error_model="numpy", nogil=True, **options)(function)
+        own = {"cache": bool(_FOLDER), "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+        return numba.njit(**own, **options)(function)
     finally:
         numba.config.CACHE_DIR = before
 

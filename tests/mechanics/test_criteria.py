@@ -16,12 +16,13 @@ from solved import Points, Solution, solve_points
 import swtstudy
 from swtstudy.archive.parts import _LAYOUT
 from swtstudy.cli import main
+from swtstudy.fields.history import smallest_sphere
 from swtstudy.fields.one_point import read_scene
 from swtstudy.figures.draw import draw
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.planes.all_planes import smallest_sphere, swt_of_history
+from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.planes.criterion import CRITERIA, FatemiSocie, Findley
 from swtstudy.mechanics.planes.swing import SHEAR_STRESS
 from swtstudy.mechanics.planes.weights import symmetric_tensor

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, TINY, hemisphere
+from swtstudy.mechanics.numerics.arrays import ROUNDING, SAME, hemisphere
 from swtstudy.mechanics.numerics.roots import MOST_STEPS
 from swtstudy.mechanics.planes.ascent import climb, swap_instants
 from swtstudy.mechanics.planes.criterion import SWT, Criterion
@@ -195,48 +195,3 @@ def _beside() -> IndexArray:
     """The planes beside each of the coarse ones, shape (LOOK_PLANES, BESIDE)."""
     normals = hemisphere(LOOK_PLANES)
     return np.argsort(-np.abs(normals @ normals.T), axis=1)[:, 1 : 1 + BESIDE]
-
-
-def crossland(stress: FloatArray, sensitivity: float) -> FloatArray:
-    """√J2,a + α max σ_H, of histories (…, T, 6), shape (…).
-
-    √J2,a is the radius of the smallest sphere around the deviatoric path, in the norm √(s:s/2).
-    """
-    hydrostatic = stress[..., :3].mean(axis=-1, keepdims=True)
-    path = stress.copy()
-    path[..., :3] = (path[..., :3] - hydrostatic) / np.sqrt(2.0)
-    flat = path.reshape(-1, *path.shape[-2:])
-    radius = np.array([smallest_sphere(points)[1] for points in flat]).reshape(stress.shape[:-2])
-    return np.maximum(radius + sensitivity * hydrostatic[..., 0].max(axis=-1), 0.0)
-
-
-def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:
-    """Centre and radius of the smallest sphere around points, (k, d).
-
-    The centre walks towards the points on the sphere, which shrinks until another point is on it, or until it
-    is between them (Fischer, Gärtner and Kutz 2003).
-    """
-    centre = points[0].copy()
-    on = [int(((points - centre) ** 2).sum(axis=1).argmax())]
-    size = max(float(np.ptp(points, axis=0).max()), TINY)
-    for _ in range(MOST_STEPS * (points.shape[1] + len(points))):
-        base, others = points[on[0]], points[on[1:]] - points[on[0]]
-        share = np.linalg.lstsq(others.T, centre - base, rcond=None)[0]
-        way = base + share @ others - centre
-        if np.linalg.norm(way) <= ROUNDING * size:
-            shares = np.append(1.0 - share.sum(), share)
-            if shares.min() >= -ROUNDING:
-                break
-            on.pop(int(shares.argmin()))
-            continue
-        short = ((points - centre) ** 2).sum(axis=1) - ((base - centre) ** 2).sum()
-        nears = 2.0 * (base - points) @ way
-        nears[on] = 0.0
-        reaches = nears > ROUNDING * size**2
-        stop = np.full(len(points), np.inf)
-        stop[reaches] = np.maximum(-short[reaches], 0.0) / nears[reaches]
-        first = int(stop.argmin())
-        centre = centre + min(stop[first], 1.0) * way
-        if stop[first] < 1.0:
-            on.append(first)
-    return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
