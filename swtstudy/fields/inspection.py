@@ -19,7 +19,7 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import label_angles, periods, read_cycle
+from swtstudy.fields.one_point import labelled_time, read_cycle, turns_of
 from swtstudy.fields.stress import slip_map
 from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.planes.criterion import criterion_of
@@ -88,7 +88,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     x, double_angle = _shown(solved, values, double_angles, radius)
     instant = instants_of(cycle, x)
     states = cycle.states(instant)
-    time = periods(cycle.points) * instant
+    time = turns_of(cycle.points) * instant
     course = course_of_load(cycle, states) | _stress_cycle(cycle, states, x, double_angle)
     marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in course.items()})
     some = states[marked]
@@ -207,7 +207,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     cycle = read_cycle(parameters)
     instant = instants_of(cycle)
     states = cycle.states(instant)
-    time = label_angles(cycle.points, periods(cycle.points) * instant, ("time",))
+    time = labelled_time(cycle.points.path is None, turns_of(cycle.points) * instant, ("time",))
     course = course_of_load(cycle, states)
     curves = {name: part[1] for name, part in course.items()}
     marked, reasons = marked_instants(time.values / time.values[-1], curves)

@@ -69,6 +69,20 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     )
 
 
+def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
+    """The stationary load cycle of one point, for what is on the surface line; see `read_point`.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters, or if there is no equilibrium.
+    """
+    cycle = LoadCycle.of(read_point(parameters))
+    if not cycle.equilibrium:
+        raise StudyError([_no_equilibrium(cycle.points, parameters)])
+    return cycle
+
+
 def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
     """A batch of one point, see `read_point`, and its load cycle in the kernel.
 
@@ -82,20 +96,6 @@ def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
     if opened is None:
         raise StudyError([_no_equilibrium(points, parameters)])
     return points, opened
-
-
-def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
-    """The stationary load cycle of one point; see `read_point`.
-
-    Raises
-    ------
-    StudyError
-        A ValueError, if there is no equilibrium: then there is no cycle.
-    """
-    cycle = LoadCycle.of(read_point(parameters))
-    if not cycle.equilibrium:
-        raise StudyError([_no_equilibrium(cycle.points, parameters)])
-    return cycle
 
 
 def read_scene(parameters: Mapping[str, object]) -> Scene:
@@ -265,24 +265,3 @@ def _harmonic(scene: Scene) -> BimodalLoad | None:
     load = scene.cycle.load
     given = load.given if isinstance(load, MappedLoad) else load
     return given if isinstance(given, BimodalLoad) else None
-
-
-def periods(points: Points) -> int:
-    """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
-    return 1 if points.path is not None else int(points.q[0])
-
-
-def label_angles(points: Points, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
-    words, symbol = (
-        ("omega1 t", r"\omega_1 t") if points.path is None else ("angle of the period", r"\varphi")
-    )
-    attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
-    return xr.DataArray(time, dims=dims, attrs=attributes)
-
-
-def read_angles(points: Points, time: object) -> tuple[xr.DataArray, FloatArray]:
-    """Instants ω1 t in rad, or angles of a loop's period, labelled, and as angles of the common period."""
-    array = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
-    turned = np.mod(array.ravel() / periods(points), 2.0 * np.pi)
-    return label_angles(points, array, ("time",) * array.ndim), turned

@@ -17,8 +17,6 @@ from swtstudy.fields.one_point import (
     label_time,
     labelled_time,
     open_point,
-    periods,
-    read_angles,
     read_cycle,
     read_finite,
     read_instants,
@@ -232,16 +230,18 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         If a distance, an instant or a parameter is not allowed.
     """
     cycle = read_cycle(parameters)
+    rounds = turns_of(cycle.points)
     if time is None:
-        time = 2.0 * np.pi * periods(cycle.points) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    instants, turned = read_angles(cycle.points, time)
+        time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    given = read_instants(time)
+    instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = cycle.states(turned)
+    states = cycle.states(given.ravel() / rounds)
     # A ring under a flat face is the whole face.
     place = np.maximum(cycle.place(radius.values), 0.0)
     slips = np.where(states.push > 0, 2, 3)[:, None]

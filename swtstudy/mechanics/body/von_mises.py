@@ -45,8 +45,7 @@ def von_mises(stress: FloatArray) -> FloatArray:
 def largest_von_mises(scene: Scene, unit: FloatArray) -> FloatArray:
     """The largest von Mises stress over cycle and body in E* √(δ0/R), to about 1 %, shape (n,).
 
-    inf at the edge of a truncated paraboloid's face, at which the pressure is infinite. Parameters as of
-    `swtstudy.mechanics.stress.work.dissipated_work`.
+    inf at the edge of a truncated paraboloid's face, at which the pressure is infinite.
     """
     return np.array([_of_one(scene.take(np.array([k]))) for k in range(len(scene))])
 
