@@ -63,11 +63,7 @@ PLACE = np.dtype(
         ("last", "i8", (MAX_PIECES + 1,)),
         ("total", "f8", (MAX_PIECES + 1, FUNCTIONS)),  # of all cells
         ("at_axis", "f8", (FUNCTIONS,)),  # of the closed forms
-        (
-            "up_to_start",
-            "f8",
-            (MAX_PIECES, FUNCTIONS),
-        ),  # ∫ (do/dG - own slope) up to a piece's start
+        ("up_to_start", "f8", (MAX_PIECES, FUNCTIONS)),  # ∫ (do/dG - own slope) up to a piece's start
         ("normal", "f8", (FUNCTIONS,)),  # of the springs at an instant
         ("drag", "f8", (FUNCTIONS,)),
         ("work", "f8", (2, FUNCTIONS)),

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from swtstudy.kernel.batch import maxima_batch
+from swtstudy.kernel.field import largest_radius, open_cycle
 from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
 from swtstudy.mechanics.control.coordinate import unit_half_load
@@ -45,7 +46,7 @@ CANDIDATE_TOLERANCE = 1e-4
 SAME_MAXIMUM = 0.01
 
 
-def worst_means(points: Points, scene: Scene, solution: Solution, distance: FloatArray) -> NonlocalSwt:
+def worst_means(points: Points, solution: Solution, distance: FloatArray) -> NonlocalSwt:
     """The largest values over critical distances among those about the critical points and other maxima.
 
     Each kind, distance and direction has its own place. Another local maximum of swt along the line is tried
@@ -54,27 +55,27 @@ def worst_means(points: Points, scene: Scene, solution: Solution, distance: Floa
 
     Parameters
     ----------
-    points, scene, solution
-        n points, their scene and their solution.
+    points, solution
+        n points and their solution.
     distance
         As of `nonlocal_swt`.
     """
     position = solution.critical_x
-    found = nonlocal_swt(scene, position, solution.critical_angle, distance)
+    found = nonlocal_swt(points, position, solution.critical_angle, distance)
     rows = np.flatnonzero(np.isfinite(position))
     if not rows.size:
         return found
     limits = np.maximum(_least(found)[rows], 0.0), solution.s[rows]
     others = maxima_batch(*limits, **arguments_of(points.take(rows)), rtol=CANDIDATE_TOLERANCE)
-    near = SAME_MAXIMUM * scene.largest_radius
     for row, maxima in zip(rows, others, strict=True):
-        tried = [float(position[row])]
+        one, tried = points.take(np.array([row])), [float(position[row])]
+        near = SAME_MAXIMUM * largest_radius(open_cycle(**arguments_of(one)))
         for x, double_angle, swt in zip(*maxima, strict=True):
-            if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near[row]:
+            if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near:
                 continue
             tried.append(float(x))
             degrees = np.degrees(0.5 * double_angle)
-            own = nonlocal_swt(scene.take(np.array([row])), np.array([x]), np.array([degrees]), distance)
+            own = nonlocal_swt(one, np.array([x]), np.array([degrees]), distance)
             found = _larger(found, int(row), own)
     return found
 
@@ -119,15 +120,13 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    of_cycles = asked.names or asked.distances
-    for index, scene in scenes(points) if of_cycles else ():
+    for index, scene in scenes(points) if asked.names else ():
         some = points.take(index)
         parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
-        own = solution.take(index)
-        if asked.distances:
-            parts |= _nonlocal(some, scene, own, asked.distances)
         for column, values in parts.items():
             found[column][index] = values
+    if asked.distances:
+        found |= _nonlocal(points, solution, asked.distances)
     if asked.counts:
         found |= _counted(points, solution)
     return found
@@ -143,10 +142,8 @@ def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str
     return found
 
 
-def _nonlocal(
-    points: Points, scene: Scene, solution: Solution, distances: Sequence[float]
-) -> dict[str, FloatArray]:
-    made = worst_means(points, scene, solution, np.array(distances))
+def _nonlocal(points: Points, solution: Solution, distances: Sequence[float]) -> dict[str, FloatArray]:
+    made = worst_means(points, solution, np.array(distances))
     # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:
