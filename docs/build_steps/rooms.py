@@ -73,7 +73,7 @@ MECHANICS = House(
     ("points", "numerics"),
     (
         *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("margins", "solver", "counted", "quantities", "__init__"),
+        *("solver", "margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from histories import history_at
+from histories import stress_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.stress.history import stresses
 
 
 def plane_loop_s(point: Points, x: float, step: float) -> float:
     """Largest swt over planes every ``step`` degrees, at a given position."""
     nu = point.poisson_ratio.item()
-    history = history_at(point, np.array([abs(x)]))
-    parts = stresses(history, point.poisson_ratio, point.friction, np.sign(x))
-    xx, yy, zz, xz = (part[0, 0] for part in parts)
+    xx, yy, zz, xz = stress_at(point, x)
     zero = np.zeros_like(xx)
     stress = np.moveaxis(np.array([[xx, zero, xz], [zero, yy, zero], [xz, zero, zz]]), 2, 0)
     trace = np.trace(stress, axis1=1, axis2=2)

@@ -25,7 +25,7 @@ KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
 KINDS |= {"nonlocal": "means", "local_swt": "means", "half_sphere": "means", "quick_planes": "means"}
-KINDS |= {"histories": "means", ".work": "work"}
+KINDS |= {"histories": "means"}
 KINDS |= {"paraboloid": "edge", ".punch": "body", ".strip": "body", ".superposition": "body"}
 KINDS |= {".contact_states": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
 #: Numbers that mean something rather than tune something.
@@ -39,7 +39,6 @@ OTHERS = {
     "paraboloid.APPROACH_COUNT": ("5",),
     "growth.NODES_PER_OSCILLATION": ("v / 2",),
     "look.REACH": ("0.125",),
-    "positions.INNERMOST": ("10 * v",),
     "roots.LAST_STEP": ("100 * v",),
     "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
     "rounds.CORNER_CHANGE_SHARE": ("0.03",),

@@ -21,7 +21,6 @@ from brute_shear import INSTANTS, PLANES, STEPS, brute
 from scenes import random_plane_points, random_points
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.stress.scene import scene_of
 
 #: Profiles of revolution, and plane ones.
 PROFILES = ("paraboloid", "rounded_punch", "wavy_paraboloid", "power_law"), ("cylinder", "rounded_flat")
@@ -53,7 +52,7 @@ def shortfalls(profile: str, criterion: str, count: int, seed: int) -> Iterator[
     batch = drawn(profile, criterion, count, seed)
     found = solve_points(batch, 1e-4)
     for k in np.flatnonzero(found.s > 0.0):
-        own = scene_of(batch.take(np.array([k])))
+        own = batch.take(np.array([k]))
         value, _ = brute(own, criterion, float(batch.normal_sensitivity[k]))
         yield 1.0 - found.s[k] / value, found.s_error[k] / value
 

@@ -32,8 +32,7 @@ from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import check_shape
 from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.points import Solution
-from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.audit.point import dense_look
+from swtstudy.paper.audit.dense import dense_maximum
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
@@ -44,7 +43,7 @@ Dense = Array
 RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")]
 #: Ranges of the shapes of plane profiles.
 PLANE = {"rounded_flat": {"flat_half_width": (0.05, 2.0)}, "power_law_cylinder": {"exponent": (1.2, 6.0)}}
-#: The dense look: steps of each piece, but fewer where the cycle has more than so many intervals, and planes.
+#: The dense look: steps of each piece, but fewer where the loop has more than so many vertices, and planes.
 STEPS, INTERVALS, PLANES = 64, 32, 32
 #: Points that are drawn together, and chunks that are solved so.
 CHUNK, TOGETHER = 50, 20
@@ -220,11 +219,9 @@ def _compared(name: str, points: Points, solved: list[Solution], look: Dense) ->
 def _dense(points: Points, some: NDArray[np.bool_]) -> Dense:
     """What the dense look finds at some of the points, and where; NaN at the others."""
     found = np.full((2, some.size), np.nan)
-    with np.errstate(all="ignore"):
-        for k in np.flatnonzero(some):
-            scene = scene_of(points.take(np.array([k])))
-            longer = max(scene.cycle.begin.shape[1] // INTERVALS, 1)
-            found[:, k] = dense_look(scene, STEPS // longer, PLANES)
+    longer = 1 if points.path is None else max(len(points.path.vertices) // INTERVALS, 1)
+    for k in np.flatnonzero(some):
+        found[:, k] = dense_maximum(points.take(np.array([k])), STEPS // longer, PLANES)
     return found
 
 
@@ -255,7 +252,7 @@ def lines(found: dict[str, Array]) -> Iterator[str]:
     yield ""
     yield (
         f"s of random points against a dense look at the line: {STEPS} cosine-spaced steps of each piece "
-        f"between two cusps (fewer where the cycle has more than {INTERVALS} intervals), {PLANES} planes, "
+        f"between two cusps (fewer where the loop has more than {INTERVALS} vertices), {PLANES} planes, "
         "four times the instants, then the highest places on closer grids. Lowest are those whose s_error is "
         f"below {ROUNDING:.0%}: elsewhere tension is rounding. `studies/checks/overlooked.py`"
     )

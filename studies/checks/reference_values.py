@@ -1,7 +1,7 @@
 """Values of s that the tests hold s and s_error against, at random points of the box and of the ranges' ends.
 
 ``python studies/checks/reference_values.py``, from the project's folder, writes results/reference_values.csv:
-s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.point`) finds, if that is more. Both
+s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.dense`) finds, if that is more. Both
 share the stress history, but neither the choice of instants, positions and planes nor how one is improved.
 """
 
@@ -20,8 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.stress.scene import scene_of
-from swtstudy.paper.audit.point import dense_look
+from swtstudy.paper.audit.dense import dense_maximum
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")
@@ -35,7 +34,7 @@ def rows(profile: str, points: Points) -> Iterator[list[str]]:
     tight = solve_points(points, REFERENCE_RTOL)
     for k in np.flatnonzero(tight.s > 0.0):
         one = points.take(np.array([k]))
-        dense, _ = dense_look(scene_of(one), STEPS, PLANES)
+        dense, _ = dense_maximum(one, STEPS, PLANES)
         more = dense > tight.s[k] + 2.0 * tight.s_error[k]
         if more or dense < tight.s[k] * (1.0 - 1e-4):
             print(f"{profile} {k}: {tight.s[k]:.10g} at the tightest, {dense / tight.s[k] - 1.0:+.1e}")

@@ -11,73 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.body.body import TimeNodes, nodes_at, time_nodes, together
-from swtstudy.mechanics.contact.memory import held_offset
-from swtstudy.mechanics.control.coordinate import ForceCoordinate
+from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.numerics.arrays import ROUNDING
 from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray, IndexArray
-from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.mechanics.stress.work import LARGEST_SIZE, Conjugate
 
-#: Gauss nodes for each growth of the memory: 1e-6 of the amplitude and better.
-NODES = 64
-
-
-def of_instants(whole: Conjugate, interval: IndexArray) -> Conjugate:
-    """That of one cycle at T instants, as T cycles of one interval each."""
-    return whole.take_intervals(np.zeros(len(interval), dtype=np.intp), interval)
-
-
-def spring_forces(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compression and tangential force of the springs at some radii.
-
-    Parameters
-    ----------
-    scene
-        A batch of one point.
-    nodes
-        T instants of its cycle.
-    radius
-        Shape (X,), ξ in a_H.
-
-    Returns
-    -------
-    compression, force
-        Shape (T, X): w in δ0, and τ = G* u_MDR/(μ E* δ0), |τ| ≤ w. In the plane, where strips have no
-        springs, what the diagram has in their place: N − N(ξ) over P_0, and the tangential force over μP_0.
-    """
-    if isinstance(scene.coordinate, ForceCoordinate) and not scene.profile.plane:
-        whole = Conjugate.whole(scene, scene.coordinate.unit, NODES)
-        return _of_conjugate(of_instants(whole, nodes.interval), nodes.instant, radius)
-    cycle = scene.cycle
-    states = cycle.states(nodes.interval[None], nodes.instant[None])
-    edge, tangential, front, sign = (
-        values[0][:, None] for values in (states.edge, states.tangential, states.front, states.sign)
-    )
-    at = scene.coordinate.of(radius[None])[0]
-    piece = np.maximum((cycle.memory.start[0, nodes.interval, None] <= at[:, None]).sum(axis=-1) - 1, 0)
-    pieces = cycle.memory.take((np.zeros_like(piece)[None], nodes.interval[:, None], piece))
-    stuck = tangential - held_offset(cycle.load, pieces, np.broadcast_to(at, (1, *piece.shape)))[0]
-    compression = np.maximum(edge - at, 0.0)
-    force = np.where(at < front, stuck, sign * compression)
-    return compression, np.where(compression > 0.0, force, 0.0)
-
-
-def _of_conjugate(
-    conjugate: Conjugate, instant: FloatArray, radius: FloatArray
-) -> tuple[FloatArray, FloatArray]:
-    """The same where the normal force is the diagram's coordinate: offsets are integrals over it."""
-    states = conjugate.cycle.states(np.zeros((1, 1), dtype=np.intp), instant[:, None])
-    edge, front = (conjugate.other.of(conjugate.coordinate.radius(v)) for v in (states.edge, states.front))
-    radii = np.broadcast_to(radius, (len(instant), radius.size))
-    depth = conjugate.other.of(radii)
-    compression = np.maximum(edge - depth, 0.0)
-    at = np.minimum(conjugate.coordinate.of(radii), states.front)
-    stuck = conjugate.at(instant[:, None, None])[:, 0] - conjugate.offset(at[:, None])[:, 0]
-    force = np.where(depth < front, stuck, states.sign * compression)
-    return compression, np.where(compression > 0.0, force, 0.0)
-
+#: States of the contact at its instants, `swtstudy.kernel.course.STATE`.
+States = Any
 
 Variables = dict[str, tuple[Any, Any, dict[str, str]]]
 
@@ -93,39 +33,29 @@ def named(meaning: str, symbol: str) -> dict[str, str]:
     return {"long_name": meaning, "units": "1", "symbol": symbol}
 
 
-def instants_of(scene: Scene, special: list[float]) -> TimeNodes:
-    """Instants of the cycle for smooth curves, with events; also those at some distances from the axis."""
-    oscillations = max(scene.cycle.load.oscillations)
-    count = max(_UNIFORM * min(oscillations, _FEW), _SPARSE * oscillations)
-    uniform = nodes_at(scene, 2.0 * np.pi * np.arange(count + 1) / count)
-    return together(scene, time_nodes(scene, _STEPS, special), uniform)
+def instants_of(cycle: LoadCycle, x: float | None = None) -> FloatArray:
+    """Instants of the cycle for smooth curves, as angles of its period: with events, also those at x/a_H."""
+    count = max(_UNIFORM * min(cycle.oscillations, _FEW), _SPARSE * cycle.oscillations)
+    return np.union1d(cycle.instants(_STEPS, x), 2.0 * np.pi * np.arange(count + 1) / count)
 
 
-def course_of_load(scene: Scene, unit: FloatArray, nodes: TimeNodes) -> Variables:
+def course_of_load(cycle: LoadCycle, states: States) -> Variables:
     """The prescribed loads and the responses over time; in the plane forces alone.
 
     Parameters
     ----------
-    scene
-        A batch of one point.
-    unit
-        Shape (1,), see `swtstudy.mechanics.control.coordinate.unit_half_load`.
-    nodes
-        T instants of its cycle.
+    cycle
+        Of one point.
+    states
+        T states of its contact.
     """
-    load = scene.cycle.load
-    normal, tangential = (f(nodes.instant[None])[0] for f in (load.normal, load.tangential))
-    if scene.profile.plane:  # of displacements only changes at constant load are known
+    normal, tangential, other, answer = (
+        states[name].copy() for name in ("normal", "tangential", "other_normal", "answer")
+    )
+    if cycle.profile.plane:  # of displacements only changes at constant load are known
         return _over_time(normal_force=normal, tangential_force=tangential)
-    whole = Conjugate.whole(scene, unit, NODES)
-    other_normal = whole.other.of(scene.coordinate.radius(np.maximum(normal, 0.0)[None]))[0]
-    size = max(1, LARGEST_SIZE // (scene.cycle.memory.start.shape[2] * NODES))
-    answer = np.empty_like(tangential)
-    for first in range(0, answer.size, size):
-        part = slice(first, first + size)
-        answer[part] = of_instants(whole, nodes.interval[part]).at(nodes.instant[part, None, None])[:, 0, 0]
-    given, answers = (normal, tangential), (other_normal, answer)
-    forces, motion = (given, answers) if whole.by_force else (answers, given)
+    given, answers = (normal, tangential), (other, answer)
+    forces, motion = (given, answers) if cycle.profile.in_force else (answers, given)
     return _over_time(
         depth=motion[0], displacement=motion[1], normal_force=forces[0], tangential_force=forces[1]
     )
@@ -143,14 +73,13 @@ def _over_time(**curves: FloatArray) -> Variables:
     return {name: ("time", values, _MEANINGS[name]) for name, values in curves.items()}
 
 
-def edge_states(scene: Scene, nodes: TimeNodes) -> NDArray[np.int8]:
+def edge_states(cycle: LoadCycle, instant: FloatArray) -> NDArray[np.int8]:
     """State of the outermost springs between each instant and the next, numbered as in `slip_map`."""
-    ends = np.append(nodes.instant[1:], nodes.instant[-1])
-    middle = nodes_at(scene, 0.5 * (nodes.instant + ends))
-    states = scene.cycle.states(middle.interval[None], middle.instant[None])
-    slips = np.where(states.sign > 0.0, 2, 3)
-    state = np.where(states.front >= (1.0 - ROUNDING) * states.edge, 1, slips)
-    return np.where(states.edge > 0.0, state, 0)[0].astype(np.int8)
+    ends = np.append(instant[1:], instant[-1])
+    middle = cycle.states(0.5 * (instant + ends))
+    slips = np.where(middle.push > 0, 2, 3)
+    state = np.where(middle.front >= (1.0 - ROUNDING) * middle.normal, 1, slips)
+    return np.where(middle.normal > 0.0, state, 0).astype(np.int8)
 
 
 def of_states(flags: Mapping[str, Any]) -> dict[str, Any]:
@@ -208,11 +137,11 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
     return np.array(order), [marked[index] for index in order]
 
 
-def springs_of(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
-    """The memory diagram over r at some instants; see `spring_forces`."""
-    compression, force = spring_forces(scene, some, radius)
+def springs_of(cycle: LoadCycle, states: States, radius: FloatArray) -> Variables:
+    """The memory diagram over r at some instants; see `LoadCycle.springs`."""
+    compression, force = cycle.springs(radius, states)
     dims = ("instant", "r")
-    if scene.profile.plane:
+    if cycle.profile.plane:
         return {
             "compression": (dims, compression, named("normal force beyond that of the strip", "w/F_0")),
             "force": (dims, force, named("tangential force in the diagram", r"\tau/(\mu F_0)")),

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.fields.cycle_curves import (
+    States,
     Variables,
     course_of_load,
     edge_states,
@@ -18,26 +19,17 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import cycle_at, label_time, read_point, turns
+from swtstudy.fields.one_point import labelled_time, read_cycle, turns_of
 from swtstudy.fields.stress import slip_map
-from swtstudy.mechanics.body.body import TimeNodes
-from swtstudy.mechanics.contact.slip_front import stick_coordinate
-from swtstudy.mechanics.control.coordinate import unit_half_load
-from swtstudy.mechanics.events.stretches import Nodes
-from swtstudy.mechanics.line.first_look import Seen, first_look
-from swtstudy.mechanics.line.look import Resolution
+from swtstudy.mechanics.load_cycle import LoadCycle
+from swtstudy.mechanics.planes.criterion import criterion_of
 from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.history import History, stresses
-from swtstudy.mechanics.stress.line import SurfaceLine
-from swtstudy.mechanics.stress.scene import Scene
 from swtstudy.solving import solve
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
 #: The same for stick and slip, whose map has a cell for each.
 _SLIP_RADII, _SLIP_REACH = 601, 1.15
-#: How finely swt along the line is sampled: enough for a drawing.
-_RESOLUTION, _PLANES = Resolution(nodes=8, zooms=0, digits=8.0), 72
 
 
 def inspect_point(**parameters: object) -> xr.Dataset:
@@ -86,26 +78,28 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     >>> round(float(point.normal_stress.max() * amplitude / point.s), 3)
     1.0
     """
-    points = read_point(parameters)
-    scene = cycle_at(points, parameters)
+    cycle = read_cycle(parameters)
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
-    extent = _extent(scene)
-    radius = _radii(scene, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
-    line = first_look(scene, radius[None], _RESOLUTION, _PLANES)
-    x, double_angle = _shown(solved, line, radius)
-    nodes = instants_of(scene, [abs(x)])
-    time = turns(scene) * nodes.instant
-    unit = unit_half_load(points.profile, points.shape, 1)
-    cycle = course_of_load(scene, unit, nodes) | _stress_cycle(scene, nodes, x, double_angle)
-    marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in cycle.items()})
-    some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
+    extent = _extent(cycle)
+    radius = _radii(cycle, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
+    values, double_angles = cycle.along(radius)
+    if float(solved.s) == 0.0:  # what is there is rounding
+        values = np.zeros_like(values)
+    x, double_angle = _shown(solved, values, double_angles, radius)
+    instant = instants_of(cycle, x)
+    states = cycle.states(instant)
+    time = turns_of(cycle.points) * instant
+    course = course_of_load(cycle, states) | _stress_cycle(cycle, states, x, double_angle)
+    marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in course.items()})
+    some = states[marked]
+    criterion = criterion_of(cycle.points)
     shown: Variables = {
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
         "s_local": (
             "x",
-            _both_sides(line.swt[0, :, 0], line.swt[0, :, -1]),
-            named(scene.criterion.words.replace("–", "-"), scene.criterion.symbol),
+            _both_sides(values[:, 0], values[:, 1]),
+            named(criterion.words.replace("–", "-"), criterion.symbol),
         ),
     }
     largest = float(extent["largest_radius"][1])
@@ -117,19 +111,21 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "reason": ("instant", reasons),
     }
     variables = (
-        cycle | extent | shown | _tractions(scene, some, radius) | springs_of(scene, some, slip.r.values)
+        course | extent | shown | _tractions(cycle, some, radius) | springs_of(cycle, some, slip.r.values)
     )
-    variables["edge_state"] = "time", edge_states(scene, nodes), of_states(slip.state.attrs)
+    variables["edge_state"] = "time", edge_states(cycle, instant), of_states(slip.state.attrs)
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
 
 
-def _shown(solved: xr.Dataset, line: Seen, radius: FloatArray) -> tuple[float, float]:
+def _shown(
+    solved: xr.Dataset, values: FloatArray, double_angles: FloatArray, radius: FloatArray
+) -> tuple[float, float]:
     """Position and 2θ of the stress cycle shown: the critical ones, or those of the largest sample."""
     x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
     if np.isfinite(x):
         return x, double_angle
-    column, side = np.unravel_index(line.swt[0].argmax(), line.swt[0].shape)
-    double_angle = float(line.double_angle[0, column, side])
+    column, side = np.unravel_index(values.argmax(), values.shape)
+    double_angle = float(double_angles[column, side])
     return float((radius, -radius)[side][column]), (double_angle + np.pi) % (2.0 * np.pi) - np.pi
 
 
@@ -138,14 +134,9 @@ def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
     return np.concatenate([left[..., ::-1], right], axis=-1)
 
 
-def _extent(scene: Scene) -> Variables:
+def _extent(cycle: LoadCycle) -> Variables:
     """Least and largest contact radius, and the radius of permanent stick."""
-    load, coordinate = scene.cycle.load, scene.coordinate
-    least, largest = coordinate.radius(np.stack([load.least_normal, load.largest_normal], axis=1))[0]
-    stick = stick_coordinate(load)
-    if load.least_normal[0] <= 0.0:
-        least = 0.0
-    permanent = coordinate.radius(stick[:, None])[0, 0] if stick[0] >= 0.0 else np.nan
+    permanent, least, largest = cycle.radii
     return {
         "permanent_stick_radius": ((), permanent, named("radius that always sticks", "c/a_H")),
         "least_radius": ((), least, named("least contact radius", "a/a_H")),
@@ -153,43 +144,35 @@ def _extent(scene: Scene) -> Variables:
     }
 
 
-def _radii(scene: Scene, special: list[float]) -> FloatArray:
+def _radii(cycle: LoadCycle, special: list[float]) -> FloatArray:
     """Distances from the axis: evenly spaced, at special places, and none where the pressure is infinite."""
-    largest = float(scene.largest_radius[0])
-    b = float(scene.profile.flat_radius[0])
+    b = float(cycle.profile.flat_radius)
     places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
-    radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), places)
+    radius = np.union1d(np.linspace(0.0, _REACH * cycle.radii[2], _RADII + 1), places)
     return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
 
 
-def _history(scene: Scene, nodes: TimeNodes, radius: FloatArray) -> History:
-    index = np.broadcast_to(np.arange(nodes.instant.size), (1, radius.size, nodes.instant.size))
-    surface = SurfaceLine(scene.cycle, scene.coordinate, radius[None], _RESOLUTION.digits, scene.bulk)
-    return surface.history(Nodes(nodes.interval[None], nodes.instant[None], index))
-
-
-def _stress_cycle(scene: Scene, nodes: TimeNodes, x: float, double_angle: float) -> Variables:
+def _stress_cycle(cycle: LoadCycle, states: States, x: float, double_angle: float) -> Variables:
     """Stress and strain over the cycle at one point, on one plane."""
-    history, side = _history(scene, nodes, np.array([abs(x)])), float(np.sign(x))
-    sigma_xx, _, _, sigma_xz = stresses(history, scene.poisson_ratio, scene.friction, side)
+    normal, moved = cycle.on_plane(x, double_angle, states)
+    stress = cycle.stress(x, states)
     bulk: Variables = {}
-    if history.bulk is not None:
-        bulk["bulk_stress"] = "time", history.bulk[0, 0], named("bulk stress", r"\sigma_B")
-    swing = scene.criterion.swing
-    on_plane = scene.planes(history, side).on_plane(np.array([[double_angle]]))
+    if cycle.load.bulk_range.any():
+        bulk["bulk_stress"] = "time", stress["bulk"], named("bulk stress", r"\sigma_B")
+    swing = criterion_of(cycle.points).swing
     return {
-        "normal_stress": ("time", on_plane[0][0, 0], named("stress normal to the plane", r"\sigma_n")),
-        swing.name: ("time", on_plane[1][0, 0], named(swing.words, swing.symbol)),
-        "sigma_xx": ("time", sigma_xx[0, 0], named("stress xx", r"\sigma_{xx}")),
-        "sigma_xz": ("time", sigma_xz[0, 0], named("stress xz", r"\sigma_{xz}")),
+        "normal_stress": ("time", normal, named("stress normal to the plane", r"\sigma_n")),
+        swing.name: ("time", moved, named(swing.words, swing.symbol)),
+        "sigma_xx": ("time", stress["xx"], named("stress xx", r"\sigma_{xx}")),
+        "sigma_xz": ("time", stress["xz"], named("stress xz", r"\sigma_{xz}")),
         **bulk,
     }
 
 
-def _tractions(scene: Scene, some: TimeNodes, radius: FloatArray) -> Variables:
+def _tractions(cycle: LoadCycle, some: States, radius: FloatArray) -> Variables:
     """Pressure and traction on the half-space; both are even in x."""
-    history = _history(scene, some, radius)
-    p, q = history.pressure[0].T, -scene.friction * history.traction[0].T
+    stress = [cycle.stress(float(r), some) for r in radius]
+    p, q = (-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz"))
     dims = ("instant", "x")
     return {
         "pressure": (dims, _both_sides(p, p), named("pressure", "p")),
@@ -221,22 +204,20 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     StudyError
         As `swtstudy.inspect_point`.
     """
-    points = read_point(parameters)
-    scene = cycle_at(points, parameters)
-    nodes = instants_of(scene, [])
-    time = label_time(scene, turns(scene) * nodes.instant, ("time",))
-    unit = unit_half_load(points.profile, points.shape, 1)
-    cycle = course_of_load(scene, unit, nodes)
-    curves = {name: part[1] for name, part in cycle.items()}
+    cycle = read_cycle(parameters)
+    instant = instants_of(cycle)
+    states = cycle.states(instant)
+    time = labelled_time(cycle.points.path is None, turns_of(cycle.points) * instant, ("time",))
+    course = course_of_load(cycle, states)
+    curves = {name: part[1] for name, part in course.items()}
     marked, reasons = marked_instants(time.values / time.values[-1], curves)
-    some = TimeNodes(nodes.interval[marked], nodes.instant[marked])
-    largest = float(scene.largest_radius[0])
+    largest = cycle.radii[2]
     radius = np.linspace(0.0, largest, _RADII_OF_SPRINGS)
     return xr.Dataset(
         {
-            **cycle,
-            **springs_of(scene, some, radius),
-            "edge_state": ("time", edge_states(scene, nodes)),
+            **course,
+            **springs_of(cycle, states[marked], radius),
+            "edge_state": ("time", edge_states(cycle, instant)),
             "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
         },
         {
@@ -245,6 +226,6 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
             "instant": np.arange(1, len(marked) + 1),
             "instant_time": ("instant", time.values[marked]),
             "reason": ("instant", reasons),
-            "control": points.control.name,
+            "control": cycle.points.control.name,
         },
     )

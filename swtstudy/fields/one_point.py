@@ -17,6 +17,7 @@ from swtstudy.mechanics.contact.cycle import out_of_equilibrium
 from swtstudy.mechanics.control.diagram import MappedLoad
 from swtstudy.mechanics.load.bimodal import BimodalLoad
 from swtstudy.mechanics.load.load import Loop
+from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.solver import arguments_of
@@ -66,6 +67,20 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         criterion=str(grid.fixed["criterion"]),
         **{name: number(name) for name in NUMBERS},
     )
+
+
+def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
+    """The stationary load cycle of one point, for what is on the surface line; see `read_point`.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters, or if there is no equilibrium.
+    """
+    cycle = LoadCycle.of(read_point(parameters))
+    if not cycle.equilibrium:
+        raise StudyError([_no_equilibrium(cycle.points, parameters)])
+    return cycle
 
 
 def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:

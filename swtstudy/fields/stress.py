@@ -15,12 +15,10 @@ from swtstudy.fields.one_point import (
     as_given,
     labelled_time,
     open_point,
+    read_cycle,
     read_finite,
     read_instants,
     read_places,
-    read_scene,
-    read_time,
-    turns,
     turns_of,
 )
 from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_at, stress_at
@@ -188,21 +186,24 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     ValueError
         If a distance, an instant or a parameter is not allowed.
     """
-    scene = read_scene(parameters)
+    cycle = read_cycle(parameters)
+    rounds = turns_of(cycle.points)
     if time is None:
-        time = 2.0 * np.pi * turns(scene) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    instants, nodes = read_time(scene, time)
+        time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    given = read_instants(time)
+    instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = scene.cycle.states(nodes.interval[None], nodes.instant[None])
-    edge, front, sign = states.edge, states.front, states.sign
-    at = scene.coordinate.of(radius.values[None])[0]
-    slips = np.where(sign[0] > 0.0, 2, 3)[:, None]
-    state = np.where(at < front[0][:, None], 1, np.where(at < edge[0][:, None], slips, 0)).astype(np.int8)
+    states = cycle.states(given.ravel() / rounds)
+    # A ring under a flat face is the whole face.
+    place = np.maximum(cycle.place(radius.values), 0.0)
+    slips = np.where(states.push > 0, 2, 3)[:, None]
+    inside, touching = (place < states[name][:, None] for name in ("front_s", "edge_s"))
+    state = np.where(inside, 1, np.where(touching, slips, 0)).astype(np.int8)
     flags = {
         "long_name": "state of the contact",
         "flag_values": np.arange(len(_STATES), dtype=np.int8),
@@ -211,8 +212,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
     }
-    for name, values in (("slip_radius", front), ("contact_radius", edge)):
-        there = np.where(edge > 0.0, scene.coordinate.radius(values), 0.0).reshape(instants.shape)
+    for name, values in (("slip_radius", states.front_s), ("contact_radius", states.edge_s)):
+        there = np.where(states.normal > 0.0, cycle.radius(values), 0.0).reshape(instants.shape)
         meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
         variables[name] = (instants.dims, there, meaning)
     return xr.Dataset(variables, {"time": instants, "r": radius})

@@ -5,3 +5,6 @@
 position of the surface line, `planes` the critical plane there, `line` the largest value along the line.
 `point` puts the steps together.
 """
+
+#: No position of the line is nearer to the centre, or to the edge of a face, as a share of the contact.
+INNERMOST = 1e-5

@@ -7,7 +7,7 @@ from threading import local
 
 import numpy as np
 
-from swtstudy.kernel.compiled import new_records, once
+from swtstudy.kernel.compiled import new_record, new_records, once
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
@@ -17,9 +17,12 @@ from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
+from swtstudy.kernel.work import CONJUGATE, MARGIN, OF_CYCLE, cycles_of, margins_of
 
 #: Points of one compiled call: their loads and profiles take some 10 MB.
 CHUNK = 64
+#: Accuracy of profiles of which radii and forces are asked, as of s: they are a hundred times more accurate.
+OF_PROFILE = 1e-8
 _of_thread = local()
 
 
@@ -41,6 +44,7 @@ def chunks(
     walker_exponent=None,
     normal_sensitivity=None,
     rtol=1e-4,
+    reach=0.0,
 ):
     """Records of n points of one profile family, one kind of load and one criterion, some at a time.
 
@@ -68,6 +72,8 @@ def chunks(
         Shape (n,); 1/2 and 0 if None.
     rtol
         Relative accuracy asked of s.
+    reach
+        Depth or force up to which the profiles are known at least.
 
     Yields
     ------
@@ -103,7 +109,7 @@ def chunks(
             }
         for j, key in enumerate(keys):
             prescribe(loads[j], control, given[key])
-        largest = dict.fromkeys(keys, 0.0)
+        largest = dict.fromkeys(keys, reach)
         _raise_to(largest, keys, loads)
         profiles = new_records(len(largest), PROFILE)
         for k, key in enumerate(largest):
@@ -132,7 +138,7 @@ def solve_batch(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
-    return np.concatenate(parts).view(np.recarray) if parts else new_records(0, RESULT)
+    return _joined(parts, RESULT)
 
 
 @once
@@ -198,6 +204,56 @@ def maxima_batch(least, s, *points, **given):
             order = np.argsort(-M["value"][: M["maxima"]], kind="stable")
             found.append(tuple(M[name][order] for name in ("x", "angle", "value")))
     return found
+
+
+def cycle_batch(with_ratio, *points, **given):
+    """Work, radii and, where asked, the largest force ratio of the cycles of points.
+
+    Parameters
+    ----------
+    with_ratio
+        Whether the force ratio is asked.
+    points, given
+        As of `chunks`.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (n,) of `swtstudy.kernel.work.OF_CYCLE`.
+    """
+    U = _of_this_thread("conjugate", partial(new_record, CONJUGATE))
+    cycle, growth = _workspace()[:2]
+    parts = []
+    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
+        parts.append(new_records(len(which), OF_CYCLE))
+        cycles_of(cycle, growth, U, profiles, which, loads, np.bool_(with_ratio), parts[-1])
+        _refuse_overflow(parts[-1]["overflow"].any())
+    return _joined(parts, OF_CYCLE)
+
+
+def margins_batch(*points, **given):
+    """How far points are from where the model ends, as far as the load alone gives it.
+
+    Parameters
+    ----------
+    points, given
+        As of `chunks`.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (n,) of `swtstudy.kernel.work.MARGIN`.
+    """
+    parts = []
+    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE):
+        parts.append(new_records(len(which), MARGIN))
+        margins_of(_workspace()[0], profiles, which, loads, parts[-1])
+    return _joined(parts, MARGIN)
+
+
+def _joined(parts, kind):
+    """The records of all chunks."""
+    return np.concatenate(parts).view(np.recarray) if parts else new_records(0, kind)
 
 
 def _refuse_overflow(overflow):

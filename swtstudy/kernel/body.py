@@ -45,6 +45,10 @@ COARSEST = np.int64(4)
 #: Where the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25
+#: What a part is sampled for, and rows of a history that are room; no literals, for which Numba would compile
+#: anew.
+FOR_BOTH, FOR_ONE = np.array([True, False])
+ALONG, ACROSS = np.array([7, 8])
 #: Most rounds in which parts of a cycle are doubled.
 ROUNDS = 8
 #: Cosine of the angle between planes that are one, and most planes that may follow one another as the best.
@@ -86,8 +90,11 @@ def sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m, mirrored, nu, m
 
 
 @jit
-def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, first_time):
-    """Sample part z at the Lobatto points of so many intervals; instants that it had before are copied."""
+def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, both):
+    """Sample part z at the Lobatto points of so many intervals; instants that it had before are copied.
+
+    For both halves of a mirrored cycle, or for the one that the part is in.
+    """
     k, cusps = H.stretch[z], H.cusps[z]
     begin, end = H.time[z, 0], H.time[z, 1]
     whole = cusps == 0 and begin == C.time[k, 0] and end == C.time[k, 1] and intervals <= C.intervals[k]
@@ -105,7 +112,7 @@ def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, first_time):
             edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
         else:
             edge, front = places_at(C, P, L, k, t, H.weight)
-        sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m + j, first_time and L.mirrored, nu, mu)
+        sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
     H.first[z], H.intervals[z] = m, intervals
     H.instants = m + intervals + 1
 
@@ -154,7 +161,7 @@ def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
         before = H.parts
         split(H, C, R, P, K, L, k, nu, mu)
         for part in range(before, H.parts):
-            sample_part(S, B, H, part, coarsest, C, P, L, nu, mu, True)
+            sample_part(S, B, H, part, coarsest, C, P, L, nu, mu, FOR_BOTH)
     if L.mirrored:
         parts, instants = H.parts, H.instants
         if 2 * parts >= MAX_PARTS or 2 * instants >= MAX_INSTANTS:
@@ -183,7 +190,7 @@ def add_mirror_image(H, y, instants):
 def refine_part(S, B, H, z, C, P, L, nu, mu):
     """Double the intervals of part z, or give it some if only its ends are known; cut the finest in two."""
     if H.intervals[z] < FINEST:
-        sample_part(S, B, H, z, max(2 * H.intervals[z], COARSEST), C, P, L, nu, mu, False)
+        sample_part(S, B, H, z, max(2 * H.intervals[z], COARSEST), C, P, L, nu, mu, FOR_ONE)
         return
     k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
     t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
@@ -192,8 +199,8 @@ def refine_part(S, B, H, z, C, P, L, nu, mu):
     H.mirror[y] = H.mirror[z]
     H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
     H.places[z, 1, 0], H.places[z, 1, 1] = edge, front
-    sample_part(S, B, H, z, FINEST // 2, C, P, L, nu, mu, False)
-    sample_part(S, B, H, y, FINEST // 2, C, P, L, nu, mu, False)
+    sample_part(S, B, H, z, FINEST // 2, C, P, L, nu, mu, FOR_ONE)
+    sample_part(S, B, H, y, FINEST // 2, C, P, L, nu, mu, FOR_ONE)
 
 
 @jit
@@ -201,12 +208,11 @@ def follow_plane(S, H, W, G, Q):
     """Write σ_n and the swing on the best plane where the parts' maxima are looked for."""
     m, x, y, z = H.instants, G.normal[0], G.normal[1], G.normal[2]
     if Q.criterion == SWT:
-        project(S.stress, m, x, y, z, 7, x, y, z)
+        project(S.stress, m, x, y, z, ACROSS, x, y, z)
         for i in range(m):
-            W.a[i], W.b[i], W.c[i] = S.stress[7, i], 0.0, 0.0
-            W.d[i] = (1.0 + Q.poisson_ratio) * S.stress[7, i] - Q.poisson_ratio * (
-                S.stress[0, i] + S.stress[1, i] + S.stress[2, i]
-            )
+            across = S.stress[ACROSS, i]
+            W.a[i], W.b[i], W.c[i] = across, 0.0, 0.0
+            W.d[i] = (1.0 + Q.poisson_ratio) * across - S.stress[6, i]
         return
     G.trial[0], G.trial[1], G.trial[2] = x, y, z
     activate(G, S.stress, m, Q)
@@ -215,10 +221,10 @@ def follow_plane(S, H, W, G, Q):
     along = p * x + q * y + r * z
     p, q, r = p - along * x, q - along * y, r - along * z
     size = max(sqrt(p * p + q * q + r * r), 1e-300)
-    project(S.stress, m, x, y, z, 7, p / size, q / size, r / size)
-    project(S.stress, m, x, y, z, 8, x, y, z)
+    project(S.stress, m, x, y, z, ALONG, p / size, q / size, r / size)
+    project(S.stress, m, x, y, z, ACROSS, x, y, z)
     for i in range(m):
-        W.a[i], W.b[i], W.c[i], W.d[i] = S.stress[8, i], 0.0, 0.0, S.stress[7, i]
+        W.a[i], W.b[i], W.c[i], W.d[i] = S.stress[ACROSS, i], 0.0, 0.0, S.stress[ALONG, i]
 
 
 @jit
@@ -306,20 +312,43 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
 
 @jit
 def largest_at_places(
-    S, B, H, W, G, C, R, P, K, L, Q, places, largest, floor, tolerance, coarsest, values, missing, normals
+    S,
+    B,
+    H,
+    W,
+    G,
+    C,
+    R,
+    P,
+    K,
+    L,
+    Q,
+    places,
+    largest,
+    floor,
+    tolerance,
+    coarsest,
+    alone,
+    values,
+    missing,
+    normals,
 ):
     """Write the criterion, what it may miss and the normal of its plane at places, (n, 3).
 
-    Each place takes the plane of the one before as a guess.
+    Each place takes the plane of the one before as a guess, unless it is alone.
     """
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     for i in range(places.shape[0]):
+        if alone:
+            G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
         values[i], missing[i] = largest_at(
             S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, coarsest
         )
         for c in range(3):
             normals[i, c] = G.normal[c]
+        if values[i] == 0.0:  # all planes are alike
+            normals[i, 0], normals[i, 1], normals[i, 2] = 1.0, 0.0, 0.0
 
 
 @jit

@@ -106,14 +106,14 @@ def _depths(P, places, depth):
     """Write G at places of a profile in the force: ∫ dG/ds ds by Gauss's rule on each panel."""
     before = np.zeros(P.panels + 1)
     for p in range(P.panels):
-        before[p + 1] = before[p] + _rise(P, P.begin[p], P.end[p])
+        before[p + 1] = before[p] + rise(P, P.begin[p], P.end[p])
     for i in range(places.shape[0]):
         p = panel_of(P.begin, 0, P.panels, places[i])
-        depth[i] = before[p] + _rise(P, P.begin[p], places[i])
+        depth[i] = before[p] + rise(P, P.begin[p], places[i])
 
 
 @jit
-def _rise(P, a, b):
+def rise(P, a, b):
     """∫ dG/ds ds from a to b within a panel."""
     total = 0.0
     for i in range(NODE.shape[0]):

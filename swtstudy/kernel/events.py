@@ -31,8 +31,9 @@ SAME_INSTANT = 1e-10
 ROUNDING = 1e-12
 #: Cells next to an instant at which contact is made or lost, each a tenth of the one before.
 GRADES = 8
-#: Instants between two events at which the ratio of the forces is looked at.
-STEPS = 32
+#: Steps between two events at which the ratio of the forces is looked at, and how often, each time about the
+#: highest one: in the end 1e-5 of the time between them, in which a maximum changes by its square.
+STEPS, LOOKS = 32, 5
 
 
 @jit
@@ -228,22 +229,28 @@ def ratio_at(L, t):
 
 
 @jit
+def highest_ratio(L, a, b):
+    """Largest |v|/n between two instants at which the load turns."""
+    best = max(ratio_at(L, a), ratio_at(L, b))
+    if L.sides > 0:  # monotone on a straight side
+        return best
+    for _ in range(LOOKS):
+        step, top, at = (b - a) / STEPS, 0.0, a
+        for j in range(STEPS + 1):
+            ratio = ratio_at(L, a + step * j)
+            if ratio > top:
+                top, at = ratio, a + step * j
+        best = max(best, top)
+        a, b = max(at - step, a), min(at + step, b)
+    return best
+
+
+@jit
 def force_ratio(L, T, m):
     """Largest |F_x|/(μ F_N) between m events; NaN where the tangential force is not prescribed."""
     if L.tangential_force == 0:
         return nan
     best = 0.0
     for i in range(m - 1):
-        a, b = T[i], T[i + 1]
-        if L.sides > 0:  # monotone on a straight side
-            best = max(best, ratio_at(L, a), ratio_at(L, b))
-            continue
-        low = middle = ratio_at(L, a)
-        best = max(best, low)
-        for j in range(1, STEPS + 1):
-            high = ratio_at(L, a + (b - a) * j / STEPS)
-            best = max(best, high)
-            if j > 1 and low < middle > high:
-                best = max(best, middle - 0.125 * (high - low) ** 2 / (low - 2.0 * middle + high))
-            low, middle = middle, high
+        best = max(best, highest_ratio(L, T[i], T[i + 1]))
     return best

@@ -13,8 +13,9 @@ from swtstudy.kernel.body import (
     von_mises_at_places,
     write_instants,
 )
+from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.contact import solve_cycle
-from swtstudy.kernel.criterion import SWT
+from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS
 from swtstudy.kernel.profile import place_of, radius_of
@@ -23,6 +24,8 @@ from swtstudy.kernel.profile import place_of, radius_of
 GROWTH = 1e-7
 #: Intervals of the smooth parts of the cycle at first, where many values are averaged and for single ones.
 MANY, SINGLE = COARSEST, 2 * COARSEST
+#: Whether a place takes the plane of the one before as a guess: its value depends on the others then.
+AVERAGED, ALONE = np.arange(2)
 #: The gaps beside the extremes of a history are divided so finely, so often.
 CLOSER, LOOKS = 6, 3
 
@@ -91,6 +94,23 @@ def largest_radius(opened):
     return float(radius_of(opened.profile, opened.largest))
 
 
+def passed_radii(opened, most):
+    """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
+    C, _, P, _, _, _ = opened
+    pieces, stretches = int(C["pieces"]), int(C["stretches"])
+    starts = C["start_s"][:pieces][C["used"][:pieces] == 1]
+    every = np.unique(np.concatenate([starts, C["place"][:stretches, :: FINEST // 4].ravel()]))
+    if len(every) > most:
+        every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
+    return np.sqrt(every * every + float(P["flat_radius"]) ** 2)
+
+
+def far_field_of(opened):
+    """The criterion far from the contact, where there is the bulk stress alone."""
+    low, high = map(float, opened.load["bulk_range"])
+    return float(far_field(opened.ask, high, low, opened.profile["plane"])[0])
+
+
 def stress_at(opened, places, angle):
     """Stress at places (n, 3) in a_H and angles of the common period (m,), shape (n, m, 6)."""
     C, R, P, L, Q, largest = opened
@@ -129,7 +149,7 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
     H, W, K = _workspace()[3:]
     B, S, G = _of_this_thread("body", body_workspace)
     values, missing, normals = np.empty(len(places)), np.empty(len(places)), np.empty((len(places), 3))
-    own = places, largest, floor, tolerance, coarsest
+    own = places, largest, floor, tolerance, coarsest, AVERAGED if coarsest == MANY else ALONE
     largest_at_places(S, B, H, W, G, C, R, P, K, L, Q, *own, values, missing, normals)
     _refuse_overflow(np.isnan(values).any())
     return values, missing, normals

@@ -112,18 +112,23 @@ def places_at(C, P, L, k, t, weight):
 
 
 @jit
-def solved_places(C, P, L, k, t):
-    """Places s of the edge and of the front at an instant of stretch k, from the load and the diagram."""
+def coordinates_at(C, L, k, t):
+    """Coordinates of the edge and of the front at an instant of stretch k, from the load and the diagram."""
     push, i = C.push[k], C.piece[k]
     if push == OPEN:
         return 0.0, 0.0
     n, v = load_at(L, t)
-    edge = place_of(P, n)
     if push == STICK:
-        return edge, edge
-    if i == NONE:
-        return edge, 0.0
-    return edge, place_of(P, front_on(C, L, i, push, v - push * n, n))
+        return n, n
+    return n, 0.0 if i == NONE else front_on(C, L, i, push, v - push * n, n)
+
+
+@jit
+def solved_places(C, P, L, k, t):
+    """Places s of the edge and of the front at an instant of stretch k."""
+    n, front = coordinates_at(C, L, k, t)
+    edge = place_of(P, n)
+    return edge, edge if front == n else place_of(P, front)
 
 
 @jit

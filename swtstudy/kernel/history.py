@@ -372,6 +372,16 @@ def split(H, C, R, P, K, L, k, nu, mu):
 
 
 @jit
+def begin_history(H, C, R, P, K, place, largest):
+    """Prepare a history at place s of the line, still without an instant; parameters as of `sample_cycle`."""
+    H.instants, H.parts, H.plane = 0, 0, P.plane
+    H.G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
+    H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
+    H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
+    integrate_pieces(H, C, R, P, K, largest)
+
+
+@jit
 def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu):
     """All parts of the cycle at x, coarsely; the mirror image of half a cycle is the other half.
 
@@ -382,11 +392,7 @@ def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu):
     largest
         Place s of the largest contact.
     """
-    H.instants, H.parts, H.plane = 0, 0, P.plane
-    H.G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
-    H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
-    H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
-    integrate_pieces(H, C, R, P, K, largest)
+    begin_history(H, C, R, P, K, place, largest)
     for k in range(C.stretches):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             C.overflow = 1

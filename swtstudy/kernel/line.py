@@ -16,6 +16,7 @@ from math import cos, exp, pi, sin, sqrt
 
 import numpy as np
 
+from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, STICK
@@ -107,8 +108,6 @@ CLOSE = 1e-3
 ROUGH = 0.9
 
 
-#: No position is nearer to the centre, or to the edge of a face, as a share of the contact.
-INNERMOST = 1e-5
 #: Ends of pieces outside of the contact, in its radii: without and with a stress that reaches far.
 BEYOND, FAR_BEYOND = np.array([1.3, 4.0]), np.array([1.3, 4.0, 12.0, 40.0])
 #: Pieces next to a singular edge are spaced in ln s where their ends differ by more than this factor.

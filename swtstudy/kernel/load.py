@@ -25,7 +25,7 @@ UNMAPPED, BY_POWER, BY_SERIES = np.arange(3)
 #: Smaller normal loads are mapped in proportion: a power law has derivatives without bounds at 0.
 LEAST = 1e-12
 
-MAX_HARMONICS, MAX_VERTICES, MAX_MAP, MAP_ORDER = 64, 2001, 509, 18
+MAX_HARMONICS, MAX_VERTICES, MAX_MAP, MAP_ORDER = 64, 2001, 1021, 18
 LOAD = np.dtype(
     [
         ("sides", "i8"),  # of a polygon; 0 for harmonics

@@ -11,18 +11,13 @@ that carries the bulk stress over the mean strain of both, under equal tractions
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.contact.slip_front import stick_coordinate
-from swtstudy.mechanics.control.diagram import diagram, largest_depth
-from swtstudy.mechanics.indenter import roughness
-from swtstudy.mechanics.load.bimodal import alike, load_of
-from swtstudy.mechanics.load.load import Load
-from swtstudy.mechanics.numerics.roots import parabola
+from swtstudy.kernel.batch import margins_batch
 from swtstudy.mechanics.points import FloatArray, Points, Rows
-from swtstudy.mechanics.stress.work import SAMPLES
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP
 
 
@@ -34,8 +29,8 @@ class Margins(Rows):
     ----------
     largest_radius
         Largest contact radius of the cycle in a_H, half the width in plane contacts.
-    slip_width
-        Its distance from the permanent stick zone in a_H; NaN where there is none.
+    stick_radius
+        Radius of the permanent stick zone in a_H; NaN where there is none.
     bulk_shift
         By how much the bulk strain would move the stick zone, in a_H, see `bulk_shift`; however large it is.
     force_ratio
@@ -48,7 +43,7 @@ class Margins(Rows):
     """
 
     largest_radius: FloatArray
-    slip_width: FloatArray
+    stick_radius: FloatArray
     bulk_shift: FloatArray
     force_ratio: FloatArray
     slide: FloatArray
@@ -56,52 +51,11 @@ class Margins(Rows):
     @classmethod
     def of(cls, points: Points) -> Margins:
         """Margins of points of one profile family and control."""
-        found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
-        for index in alike(points):
-            load = load_of(points.take(index))
-            some = points.take(index)
-            deepest = largest_depth(some.control, some.profile, some.shape, load.largest_normal)
-            level = roughness(some.profile, some.shape, deepest)
-            for each in np.unique(level):
-                rows = np.flatnonzero(level == each)
-                found.write(index[rows], _of_alike(points.take(index[rows]), load.take(rows)))
-        return found
-
-
-def _of_alike(points: Points, prescribed: Load) -> Margins:
-    """Margins of points whose loads are alike, of profiles of one roughness."""
-    load, coordinate = diagram(points.control, points.profile, points.shape, prescribed)
-    stick = stick_coordinate(load)
-    ends = np.maximum(np.stack([stick, load.largest_normal], axis=1), 0.0)
-    stick_radius, largest = coordinate.radius(ends).T
-    width = np.where(stick >= 0.0, largest - stick_radius, np.nan)
-    unknown = np.full(len(points), np.nan)
-    if points.control.tangential_force:
-        return Margins(largest, width, bulk_shift(points), _force_ratio(load), unknown)
-    touches = load.normal(load.turning_instants()).min(axis=1) > 0.0
-    slide = np.where(touches, np.maximum(-stick, 0.0), np.nan)
-    return Margins(largest, width, bulk_shift(points), unknown, slide)
-
-
-def _force_ratio(load: Load) -> FloatArray:
-    """Largest |T|/N over the cycle, inf where T is not 0 without N, shape (n,)."""
-    turns = load.turning_instants()
-    ends = np.concatenate([turns[:, -1:] - 2.0 * np.pi, turns], axis=1)
-    steps = 1 if load.grows_in_lines else SAMPLES
-    share = np.arange(steps) / steps
-    instants = (ends[:, :-1, None] + np.diff(ends, axis=1)[:, :, None] * share).reshape(len(load), -1)
-    instants = np.mod(instants, 2.0 * np.pi)
-    normal, tangential = np.maximum(load.normal(instants), 0.0), np.abs(load.tangential(instants))
-    with np.errstate(divide="ignore"):
-        ratio = np.divide(tangential, normal, out=np.zeros_like(normal), where=tangential > 0.0)
-    best = ratio.argmax(axis=1)
-    rows = np.arange(len(load))
-    around = [ratio[rows, (best + step) % ratio.shape[1]] for step in (-1, 0, 1)]
-    top = ratio[rows, best]
-    # Even steps lie between turning instants; at one the load turns, and is known.
-    smooth = (best % steps > 0) & np.isfinite(around).all(axis=0)
-    rise = parabola(*(np.where(smooth, each, 0.0) for each in around))[1]
-    return np.asarray(top + np.where(smooth, rise, 0.0))
+        found = margins_batch(**arguments_of(points))
+        radius, stick, ratio, slide = (
+            found[name].copy() for name in ("contact_radius", "stick_radius", "force_ratio", "slide")
+        )
+        return cls(radius, stick, bulk_shift(points), ratio, slide)
 
 
 def bulk_shift(points: Points) -> FloatArray:

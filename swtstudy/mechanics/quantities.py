@@ -11,17 +11,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from swtstudy.kernel.batch import maxima_batch
+from swtstudy.kernel.batch import cycle_batch, maxima_batch
 from swtstudy.kernel.field import largest_radius, open_cycle
-from swtstudy.mechanics.body import von_mises
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
-from swtstudy.mechanics.control.coordinate import unit_half_load
+from swtstudy.mechanics.body.von_mises import largest_von_mises
 from swtstudy.mechanics.counted import FewCycles
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import arguments_of, scenes
-from swtstudy.mechanics.stress import work
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.vocabulary.quantities import (
     COUNTED,
     COUNTS,
@@ -35,6 +32,8 @@ from swtstudy.vocabulary.quantities import (
     item_of,
 )
 
+#: Quantities of the cycle, by their names in `swtstudy.kernel.work.OF_CYCLE`.
+OF_CYCLE = ("work", "stick_radius", "contact_radius", "force_ratio")
 #: What each place may be the worst of.
 KINDS = ("volume", "point", "line")
 
@@ -120,11 +119,11 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     """
     asked = Request.of(items)
     found = {column: np.full(len(points), np.nan) for column in columns_of(items)}
-    for index, scene in scenes(points) if asked.names else ():
-        some = points.take(index)
-        parts = _of_cycles(scene, unit_half_load(some.profile, some.shape, len(index)), asked.names)
-        for column, values in parts.items():
-            found[column][index] = values
+    names = [name for name in asked.names if NAMED[name].function in OF_CYCLE]
+    if names:
+        found |= _of_cycles(points, names)
+    if YIELD in asked.names:
+        found[YIELD] = largest_von_mises(points)
     if asked.distances:
         found |= _nonlocal(points, solution, asked.distances)
     if asked.counts:
@@ -132,13 +131,15 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     return found
 
 
-def _of_cycles(scene: Scene, unit: FloatArray, names: Sequence[str]) -> dict[str, FloatArray]:
+def _of_cycles(points: Points, names: Sequence[str]) -> dict[str, FloatArray]:
+    """Quantities of the cycle by column."""
+    rows = [NAMED[name] for name in names]
+    with_ratio = any(row.function == "force_ratio" for row in rows)
+    made = cycle_batch(with_ratio, **arguments_of(points))
     found: dict[str, FloatArray] = {}
-    for name in names:
-        row = NAMED[name]
-        function = getattr(von_mises if name == YIELD else work, row.function)
-        made = function(scene, unit)
-        found |= zip(row.variables, made if row.has_error else (made,), strict=True)
+    for row in rows:
+        columns = row.function, error_of(row.function)
+        found |= {name: made[key].copy() for name, key in zip(row.variables, columns, strict=False)}
     return found
 
 

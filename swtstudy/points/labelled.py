@@ -251,7 +251,8 @@ def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
     if not names:
         return {}
     every = Margins.joined([Margins.of(batch) for batch in points.batches])
-    radius, width, shift, ratio, slide = vars(every.take(points.index)).values()
+    radius, stick, shift, ratio, slide = vars(every.take(points.index)).values()
+    width = radius - stick  # of the slip zone
     if "bulk_shift" in names:
         shift = shift * grid.strain_shares
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.line.positions import INNERMOST
+from swtstudy.kernel import INNERMOST
 from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray
 from swtstudy.points.requested import has_units, require
 from swtstudy.points.values import index_at

@@ -38,9 +38,10 @@ class Quantity:
     comment
         What it is exactly, in one line.
     function
-        Name of the function in `swtstudy.mechanics.stress.work` or `swtstudy.mechanics.body.von_mises`, or of
-        the attribute of `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or
-        `swtstudy.mechanics.counted.FewCycles`, that has it.
+        Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
+        `swtstudy.mechanics.body.von_mises`, or of the attribute of
+        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or `swtstudy.mechanics.counted.FewCycles`, that
+        has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims
@@ -78,7 +79,7 @@ QUANTITIES: dict[str, Quantity] = {
             "dissipated work",
             "work by friction in a load cycle, the common period 2 pi q/omega1, over mu F0 mu E* delta0 / "
             "G*, F0 the normal force at depth delta0; of plane contacts per length, over mu P0 mu delta0",
-            "dissipated_work",
+            "work",
             has_error=True,
             per_cycle=True,
         ),
@@ -88,21 +89,21 @@ QUANTITIES: dict[str, Quantity] = {
             "radius that always sticks",
             "radius of the permanent stick zone in units of a_H, half its width in plane contacts; "
             "NaN if the whole contact slides or is lost",
-            "permanent_stick_radius",
+            "stick_radius",
         ),
         Quantity(
             "contact_radius",
             r"a_\mathrm{max}/a_H",
             "largest contact radius",
             "largest contact radius over the cycle, in units of a_H; half the width in plane contacts",
-            "largest_contact_radius",
+            "contact_radius",
         ),
         Quantity(
             "force_ratio",
             r"\max |F_x|/(\mu F_N)",
             "largest force ratio",
             "largest |F_x| over mu F_N while there is contact; 1 if the whole contact slides",
-            "largest_force_ratio",
+            "force_ratio",
         ),
         Quantity(
             "von_mises",

@@ -10,11 +10,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.contact.slip_front import stick_coordinate
-from swtstudy.mechanics.control.coordinate import DepthCoordinate
-from swtstudy.mechanics.indenter import make_profile
-from swtstudy.mechanics.load.bimodal import load_of
-from swtstudy.mechanics.points import REGIMES, FloatArray, Points
+from swtstudy.mechanics.margins import Margins
+from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.paper.statements.statement import Finding, Statement
@@ -35,16 +32,8 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     _, group = group_rows(rows[[*SHARED_COLUMNS]])
     for family in range(int(group.max()) + 1):
         members = np.flatnonzero(group == family)
-        radius[members] = _radius(points_from(rows[members], {}))
+        radius[members] = np.nan_to_num(Margins.of(points_from(rows[members], {})).stick_radius)
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
-
-
-def _radius(points: Points) -> FloatArray:
-    """Radii of points of one profile family and frequency ratio, shape (n,)."""
-    load = load_of(points)
-    at = stick_coordinate(load)
-    coordinate = DepthCoordinate(make_profile(points.profile, points.shape, load.largest_normal))
-    return np.where(at >= 0, coordinate.radius(np.maximum(at, 0.0)[:, None])[:, 0], 0.0)
 
 
 #: What "for basically all simulations" is taken to mean.

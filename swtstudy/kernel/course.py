@@ -1,0 +1,134 @@
+"""The cycle of one point at instants that are given: contact, springs, stress and criterion, as is drawn."""
+
+import numpy as np
+
+from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.contact import OPEN, offset, piece_at
+from swtstudy.kernel.events import SAME_INSTANT
+from swtstudy.kernel.growth import coordinates_at
+from swtstudy.kernel.history import begin_history, split, stress
+from swtstudy.kernel.line import ASKED, evaluate
+from swtstudy.kernel.load import bulk_at, load_at
+from swtstudy.kernel.profile import coordinate_at, place_of
+from swtstudy.kernel.work import answer_at, other_at, over_piece
+
+STATE = np.dtype(
+    [
+        ("stretch", "i8"),
+        ("sign", "f8"),  # of all that is tangential: -1 in the mirrored half of a cycle
+        ("push", "i8"),  # what pushes the springs
+        ("normal", "f8"),  # n, v and B
+        ("tangential", "f8"),
+        ("bulk", "f8"),
+        ("front", "f8"),  # coordinate of the slip front: of the edge in stick
+        ("edge_s", "f8"),  # places of edge and front
+        ("front_s", "f8"),
+        ("other_normal", "f8"),  # what is not prescribed: the normal load, and the tangential one
+        ("answer", "f8"),
+    ]
+)
+
+
+@jit
+def find_stretch(C, L, t):
+    """The stretch of an instant in [0, period], the instant within it, and the sign of the tangential load.
+
+    Where two stretches meet it is the earlier one.
+    """
+    last, sign = C.stretches - 1, 1.0
+    if t < C.time[0, 0]:
+        t += L.period
+    if t > C.time[last, 1] and L.mirrored:
+        t -= 0.5 * L.period
+        sign = -1.0
+    low, high = 0, last
+    while low < high:
+        middle = (low + high) // 2
+        if C.time[middle, 1] >= t - SAME_INSTANT * L.period:
+            high = middle
+        else:
+            low = middle + 1
+    return low, min(max(t, C.time[low, 0]), C.time[low, 1]), sign
+
+
+@jit
+def write_states(C, R, P, L, U, instants, out):
+    """Write the states of the contact at instants in [0, period]."""
+    for i in range(instants.shape[0]):
+        k, t, sign = find_stretch(C, L, instants[i])
+        state = out[i]
+        n, v = load_at(L, t)
+        edge, front = coordinates_at(C, L, k, t)
+        state.stretch, state.sign, state.push = k, sign, C.push[k]
+        if sign < 0.0 and C.push[k] != OPEN:
+            state.push = -C.push[k]
+        state.normal, state.tangential, state.bulk = n, sign * v, bulk_at(L, instants[i])
+        state.front, state.edge_s, state.front_s = front, place_of(P, edge), place_of(P, front)
+        state.other_normal = other_at(P, U, state.edge_s)
+        state.answer = sign * answer_at(C, R, P, U, k, state.edge_s, state.front_s)
+
+
+@jit
+def write_springs(C, R, P, L, U, states, places, largest, compression, force):
+    """Write compression and tangential force of springs at places s, by state and spring.
+
+    Under prescribed forces, too, they are those of springs; in the plane, where strips have no springs, what
+    the diagram has in their place.
+    """
+    for j in range(places.shape[0]):
+        s = places[j]
+        at = coordinate_at(P, s) if s <= largest else np.inf
+        for i in range(states.shape[0]):
+            state = states[i]
+            k = state.stretch
+            compression[i, j], force[i, j] = 0.0, 0.0
+            if state.push == OPEN or at >= state.normal:
+                continue
+            of_springs = P.in_force and P.plane == 0
+            w = state.normal - at
+            if of_springs:
+                w = other_at(P, U, state.edge_s) - other_at(P, U, s)
+            compression[i, j], force[i, j] = w, state.push * w
+            if at < state.front:
+                piece = piece_at(C, C.piece[k], at)
+                if of_springs:
+                    held = U.inside[piece] + over_piece(C, R, P, U, piece, s)
+                    force[i, j] = state.answer - state.sign * held
+                else:
+                    force[i, j] = state.tangential - state.sign * offset(C, L, piece, at)
+
+
+@jit
+def write_stress(H, C, R, P, K, states, place, largest, nu, mu):
+    """Write the stress at place s, as a history of the instants of the states."""
+    begin_history(H, C, R, P, K, place, largest)
+    for i in range(states.shape[0]):
+        state = states[i]
+        stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, nu, mu)
+        H.xx[i], H.yy[i], H.q[i] = state.sign * H.xx[i], state.sign * H.yy[i], state.sign * H.q[i]
+        H.bulk[i] = state.bulk
+    H.instants = states.shape[0]
+
+
+@jit
+def write_parts(H, C, R, P, K, L, place, largest, nu, mu):
+    """Cut the cycle where the stress at place s has cusps in time: the times of the parts are in the history.
+
+    Of a mirrored cycle those of half of it.
+    """
+    begin_history(H, C, R, P, K, place, largest)
+    for k in range(C.stretches):
+        if H.parts + 7 >= H.first.shape[0]:
+            C.overflow = 1
+            return
+        split(H, C, R, P, K, L, k, nu, mu)
+
+
+@jit
+def write_values(S, H, W, C, R, P, K, L, Q, largest, places, values, angles):
+    """Write the criterion and 2θ of the critical plane at places s, at x > 0 and at x < 0."""
+    for i in range(places.shape[0]):
+        S.best, S.positions = 0.0, 0
+        evaluate(S, H, W, C, R, P, K, L, Q, largest, places[i], ASKED, ASKED)
+        for side in range(2):
+            values[i, side], angles[i, side] = S.value[side], S.seen_angle[0, side]
