@@ -61,6 +61,7 @@ PLANES = np.dtype(
         ("bend", "f8", (3,)),  # h² times the second derivatives 11, 22, 12 of ln h
         ("corner", "f8", (MAX_TRIANGLES, 3, 6)),  # normal, h, T, A at the corners of triangles
         ("line", "f8"),  # angle of the longest chord in the last plane
+        ("chord", "f8", (2,)),  # direction of that of a climb
         ("waiting", "f8", (64, 4)),  # intervals of lines: angle, width of the path, step, width at its end
     ]
 )
@@ -315,6 +316,7 @@ def activate(G, S, m, Q):
                 break
             A, i1, i2 = length, j1, j2
             C, D = p / length, q / length
+        G.chord[0], G.chord[1] = C, D
     a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
     top, high, low = -1e300, -1e300, 1e300
     for i in range(m):
