@@ -1,4 +1,4 @@
-"""s of recorded points (`tests/data/truth`), a stratified sample, through `solve` and `run`.
+"""Recorded values (`tests/data/truth`), a stratified sample, through `solve`, `run` and their sisters.
 
 ``python studies/checks/truth.py`` compares all of them.
 """
@@ -62,3 +62,45 @@ def test_a_value_is_compared_both_ways() -> None:
     point = truth.points()["displacements"][0]
     found = [truth.verdict(point, share * point.s, 1e-5 * point.s) for share in (0.999, 1.0, 1.001)]
     assert found == ["low", "right", "high"]
+
+
+CIRCLES, BODIES, MEANS = (truth.points(name) for name in ("circle", "body", "mean"))
+
+
+def some_of(records: dict[str, tuple[truth.Point, ...]], each: int) -> list[object]:
+    """Records of each scene, as many of each."""
+    return [
+        pytest.param(point, id=point.name)
+        for several in records.values()
+        for point in several[:: -(-len(several) // each)]
+    ]
+
+
+@pytest.mark.parametrize("point", some_of(CIRCLES, 2))
+def test_the_largest_value_on_the_circle(point: truth.Point) -> None:
+    found = swtstudy.solve(**point.arguments, rtol=RTOL)
+    # The bound of s_surface is that of s.
+    assert float(found.s_surface) == pytest.approx(point.s, rel=2.0 * RTOL)
+    assert abs(float(found.critical_x)) == pytest.approx(abs(point.critical_x), abs=1e-3)
+
+
+@pytest.mark.parametrize("point", some_of(BODIES, 2))
+def test_the_field_has_the_largest_value_of_the_body(point: truth.Point) -> None:
+    if "x" not in point.values:
+        pytest.skip("the bulk stress alone, far from the contact")
+    place = point.values["x"], point.values["y"], point.values["z"]
+    assert truth.swt_at(point, place) == pytest.approx(point.s, rel=1e-4, abs=point.error)
+    field = swtstudy.swt_field(*place, **point.arguments)
+    # Its instants are few.
+    assert float(field.s_local) == pytest.approx(point.s, rel=5e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("point", some_of(BODIES, 1)[::3])
+def test_an_audit_finds_the_largest_value_of_the_body(point: truth.Point) -> None:
+    assert truth.largest_in_body(point) == pytest.approx(point.s, rel=1e-4, abs=point.error)
+
+
+@pytest.mark.parametrize("point", some_of(MEANS, 1))
+def test_means_over_a_critical_distance(point: truth.Point) -> None:
+    assert truth.off_means(point) == {}

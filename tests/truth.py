@@ -1,8 +1,9 @@
 """Recorded values of s that any solver has to reproduce (`tests/data/truth`), as arguments of `solve`.
 
-Each row of ``line_*.csv.gz`` holds all parameters of a point under their public names, the value, its own
-error and how it was obtained. ``loads.json`` and ``profiles.json`` hold the loops and tables that the columns
-``load`` and ``profile`` name. A column is empty where a point does not use the parameter.
+Each row of a table holds all parameters of a point under their public names, the value, its own error and
+how it was obtained. ``loads*.json`` and ``profiles*.json`` hold the loops and tables that the columns
+``load`` and ``profile`` name. A column is empty where a point does not use the parameter. ``cycles.json``
+holds contacts with units, and their counted strain cycles.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import csv
 import gzip
 import json
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,8 +26,20 @@ import swtstudy
 FOLDER = Path(__file__).parent / "data" / "truth"
 #: Columns that describe a point and are no parameters of `solve`.
 ABOUT = ("draw", "scene", "control", "kind", "s", "error", "critical_x", "critical_angle", "source")
+#: Columns with more values of a point, or their places.
+VALUES = (
+    *("x", "y", "z", "s_volume", "s_volume_error", "volume_x"),
+    *(
+        name
+        for of in ("point", "line")
+        for way in ("depth", "critical_plane")
+        for name in (f"s_{of}_{way}", f"s_{of}_{way}_error", f"{of}_x_{way}")
+    ),
+)
 #: Parameters that are text; all others are numbers.
 TEXT = ("profile", "frequency_ratio", "load", "criterion")
+#: Parameters that are one in a study of `solved`.
+FIXED = ("profile", "criterion")
 
 
 @dataclass(frozen=True)
@@ -49,6 +62,8 @@ class Point:
         Position in a_H, and angle of the plane's normal to x in degrees; NaN if unknown.
     source
         How the value was obtained.
+    values
+        Other values of the point by their column.
     """
 
     name: str
@@ -60,6 +75,7 @@ class Point:
     critical_x: float
     critical_angle: float
     source: str
+    values: dict[str, float] = field(default_factory=dict)
 
 
 @cache
@@ -83,14 +99,15 @@ def _point(row: dict[str, str], name: str) -> Point:
     arguments: dict[str, Any] = {
         key: value if key in TEXT else float(value)
         for key, value in row.items()
-        if value and key not in ABOUT
+        if value and key not in ABOUT and key not in VALUES
     }
     if "load" in arguments:
         arguments["load"] = load(arguments["load"])
     arguments["profile"] = profile(arguments["profile"])
     s, x, angle = (float(row[key] or "nan") for key in ("s", "critical_x", "critical_angle"))
     error = float(row["error"] or 0.0)
-    return Point(name, row["scene"], arguments, row["kind"], s, error, x, angle, row["source"])
+    values = {key: float(row[key]) for key in VALUES if row.get(key)}
+    return Point(name, row["scene"], arguments, row["kind"], s, error, x, angle, row["source"], values)
 
 
 @cache
@@ -108,7 +125,7 @@ def load(name: str) -> object:
 @cache
 def profile(name: str) -> object:
     """The table of a name, or the name itself if the profile is built in."""
-    tables = _defined("profiles.json")
+    tables = _defined("profiles*.json")
     return swtstudy.TabulatedProfile(name, **tables[name]) if name in tables else name
 
 
@@ -135,13 +152,15 @@ def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str,
 def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
     """The text of a study whose sample is the points; JSON's numbers, texts and lists are those of TOML."""
     columns = {name: [arguments[name] for arguments in several] for name in several[0]}
-    fixed = {name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns}
+    fixed: dict[str, Any] = {
+        name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns
+    }
     lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
     for path in dict.fromkeys(columns.get("load", [])):
         lines += [f"[loads.{json.dumps(path.name)}]", *_keys({"vertices": path.vertices.tolist()})]
     if not isinstance(fixed["profile"], str):
         name = fixed["profile"].name
-        lines += [f"[profiles.{json.dumps(name)}]", *_keys(_defined("profiles.json")[name])]
+        lines += [f"[profiles.{json.dumps(name)}]", *_keys(_defined("profiles*.json")[name])]
     lines += ["[fixed]", *_keys(fixed), "[sample.points]", *_keys(columns)]
     return "\n".join(lines)
 
@@ -154,20 +173,53 @@ def _name(of: Any) -> str:
     return str(getattr(of, "name", of))
 
 
-def excess(point: Point, s: float, s_error: float) -> tuple[float, float]:
-    """By how much a solver's s exceeds a point's, relative; and the same beyond both errors, 0 within them.
+def swt_at(point: Point, place: tuple[float, float, float]) -> float:
+    """swt at a place over all planes, of its history of stress at the instants that matter there."""
+    given = {name: value for name, value in point.arguments.items() if name != "critical_distance"}
+    field = swtstudy.stress_field(*place, **given)
+    history = np.stack([field[f"sigma_{name}"].values for name in COMPONENTS], axis=-1)
+    ν, exponent = given["poisson_ratio"], given.get("walker_exponent", 0.5)
+    return float(swtstudy.swt_of_history(history, ν, 1.0 - ν * ν, exponent).swt)
 
-    Where there is no equilibrium, any s is infinitely high, and no s at other points infinitely low.
-    """
-    if point.kind == "no_equilibrium":
-        return (np.inf, np.inf) if np.isfinite(s) else (0.0, 0.0)
-    if not np.isfinite(s):
-        return -np.inf, -np.inf
-    off, allowed = s - point.s, s_error + point.error
-    scale = max(point.s, s, point.error)
-    if point.kind == "at_least":
-        off = min(off, 0.0)
-    return off / scale, np.sign(off) * max(abs(off) - allowed, 0.0) / scale
+
+#: Of stress, in the order of `swtstudy.swt_of_history`.
+COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+
+
+def largest_in_body(point: Point) -> float:
+    """The largest swt of the body, as an audit finds it."""
+    study = swtstudy.Study.from_text(_study([point.arguments], 1e-4))
+    with TemporaryDirectory() as folder:
+        audit = swtstudy.audit_study(study, Path(folder) / "audit.nc", points=1, workers=1)
+    return float(audit.s_body.values[0])
+
+
+def means(point: Point, rtol: float = 1e-4) -> dict[str, float]:
+    """Means at a critical distance, as records have them."""
+    found = swtstudy.solve(**point.arguments, rtol=rtol)
+    values = {name: float(found[name]) for name in ("s_volume", "s_volume_error", "volume_x")}
+    for of in ("point", "line"):
+        for way in found.direction.values:
+            one = found.sel(direction=way)
+            values |= {f"s_{of}_{way}": float(one[f"s_{of}"]), f"{of}_x_{way}": float(one[f"{of}_x"])}
+            values[f"s_{of}_{way}_error"] = float(one[f"s_{of}_error"])
+    return values
+
+
+#: Relative share of a mean that counts as equal beside the errors: 3 of 944 were off by 1e-2.
+OF_MEANS = 1e-2
+
+
+def off_means(point: Point, rtol: float = 1e-4) -> dict[str, tuple[float, float]]:
+    """The means that differ from the record by more than all errors: found and recorded."""
+    found, recorded = means(point, rtol), point.values
+    return {
+        name: (value, recorded[name])
+        for name, value in found.items()
+        if f"{name}_error" in recorded
+        and abs(value - recorded[name])
+        > found[f"{name}_error"] + recorded[f"{name}_error"] + OF_MEANS * recorded[name]
+    }
 
 
 #: Relative share of s that counts as equal: records have 11 digits.

@@ -146,10 +146,10 @@ def found_of(
     values = {name: np.full(len(points), np.nan) for name in COLUMNS}
     is_known = np.zeros(len(points), dtype=bool)
     if part and part.exists():
-        kept = np.load(part)
-        is_known[: len(kept["is_known"])] = kept["is_known"]
+        before = np.load(part)
+        is_known[: len(before["is_known"])] = before["is_known"]
         for name in COLUMNS:
-            values[name][: len(kept[name])] = kept[name]
+            values[name][: len(before[name])] = before[name]
     missing = index[~is_known[index]]
     for some in np.array_split(missing, -(-len(missing) // TOGETHER)) if len(missing) else ():
         new = records.solved([points[k] for k in some], rtol, given.workers)
@@ -157,7 +157,8 @@ def found_of(
         for name in COLUMNS:
             values[name][some] = new[name]
         if part:
-            np.savez(part, is_known=is_known, **values)
+            kept: Any = {"is_known": is_known, **values}
+            np.savez(part, **kept)
     return {name: of[index] for name, of in values.items()}
 
 
@@ -201,7 +202,7 @@ def main() -> int:
         scenes, given.every, given.workers = dict([*scenes.items()][:1]), [1000, 1000], 1
     if given.parts:
         given.parts.mkdir(parents=True, exist_ok=True)
-    found = []
+    found: list[dict[str, tuple[Sequence[Any], dict[str, Array]]]] = []
     for rtol, every in zip(RTOLS, given.every, strict=True):
         found.append({})
         for name, points in scenes.items():
