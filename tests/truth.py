@@ -129,12 +129,16 @@ def profile(name: str) -> object:
     return swtstudy.TabulatedProfile(name, **tables[name]) if name in tables else name
 
 
+#: What `solved` tells of each point.
+FOUND = ("s", "s_error", "critical_x", "s_surface")
+
+
 def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str, NDArray[np.float64]]:
-    """What the solver finds at points, in their order: s, s_error and critical_x of each; NaN without an s.
+    """What the solver finds at points, in their order: the values `FOUND` of each; NaN without an s.
 
     Points with the same parameters are run as the sample of one study, at a tenth of the cost of `solve`.
     """
-    found = {name: np.full(len(several), np.nan) for name in ("s", "s_error", "critical_x")}
+    found = {name: np.full(len(several), np.nan) for name in FOUND}
     groups: dict[tuple[str, ...], list[int]] = {}
     for k, point in enumerate(several):
         of = point.arguments
@@ -204,6 +208,55 @@ def means(point: Point, rtol: float = 1e-4) -> dict[str, float]:
             values |= {f"s_{of}_{way}": float(one[f"s_{of}"]), f"{of}_x_{way}": float(one[f"{of}_x"])}
             values[f"s_{of}_{way}_error"] = float(one[f"s_{of}_error"])
     return values
+
+
+@dataclass(frozen=True)
+class Counted:
+    """A contact with units (N, mm), and its strain cycles.
+
+    Attributes
+    ----------
+    arguments
+        Those of `swtstudy.physical`.
+    s, cycles
+        s, and the rounds of the load by `ALUMINIUM`.
+    shares
+        SWT of the strain cycles at the critical place over the largest SWT, descending.
+    """
+
+    arguments: dict[str, Any]
+    s: float
+    cycles: float
+    shares: NDArray[np.float64]
+
+    def found(self) -> Counted:
+        """The same by the package, without the smallest cycles."""
+        result = swtstudy.physical(**self.arguments).solve(rtol=1e-4, constants=ALUMINIUM)
+        result = result.isel(body=0) if "body" in result.dims else result
+        shares = result.counted.values.reshape(-1, result.sizes["counted_cycle"])[0]
+        return Counted(self.arguments, float(result.s), float(result.cycles), _large(shares))
+
+
+#: Constants of an alloy, MPa.
+ALUMINIUM = swtstudy.FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+#: Smaller shares make next to no damage.
+SMALL = 0.05
+
+
+def _large(shares: NDArray[np.float64]) -> NDArray[np.float64]:
+    return shares[shares > SMALL]
+
+
+def contacts() -> list[Counted]:
+    """The contacts of ``cycles.json``."""
+    found = []
+    for each in json.loads((FOLDER / "cycles.json").read_text(encoding="utf-8")):
+        given = each["contact"]
+        if "load" in given:
+            given["load"] = swtstudy.LoadPath("counted", given["load"])
+        shares = np.array(each["counted"][0], dtype=float)
+        found.append(Counted(given, each["s"], each["cycles"], _large(shares)))
+    return found
 
 
 #: Relative share of a mean that counts as equal beside the errors: 3 of 944 were off by 1e-2.
