@@ -55,7 +55,8 @@ class Point:
     arguments
         The arguments of `swtstudy.solve`, without those that have no meaning for the point.
     kind
-        "value", "at_least" if the recorded value is a lower bound, or "no_equilibrium" without one.
+        "value", "at_least" if the recorded value is a lower bound, "no_equilibrium" or "not_finite" without
+        one.
     s, error
         The value and its absolute error, –; NaN without a value, error 0 if it is unknown.
     critical_x, critical_angle
@@ -281,7 +282,7 @@ ROUNDING = 1e-7
 
 def verdict(point: Point, s: float, s_error: float) -> str:
     """Compare a solver's s with the record: "right", "low" or "high" beyond both errors."""
-    if point.kind == "no_equilibrium":
+    if point.kind in ("no_equilibrium", "not_finite"):
         return "right" if s != s else "high"
     allowed = s_error + point.error + ROUNDING * point.s
     if not s >= point.s - allowed:
