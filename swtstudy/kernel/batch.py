@@ -155,11 +155,9 @@ def warm_up():
 @once
 def warm_up_circles():
     """The same for the circles, which many points do without."""
-    point = [0.3], [0.5], [0.0], [0.0]
-    for _, *records in chunks("paraboloid", *point, bulk_mean=[0.1], rtol=1e-2):
-        found = new_records(1, RESULT)
-        found["circle"] = 1
-        search_circles(*_circles(), *_workspace(), *records, found)
+    records = (new_records(0, kind) for kind in (PROFILE, LOAD, ASK, RESULT))
+    profiles, loads, asks, found = records
+    search_circles(*_circles(), *_workspace(), profiles, np.zeros(0, np.int64), loads, asks, found)
 
 
 def count_batch(x, double_angle, *points, **given):

@@ -352,3 +352,13 @@ def test_where_it_presses_tension_within_rounding_is_claimed() -> None:
     pressed = with_bulk(points(**load, poisson_ratio=0.0622, friction=0.0752), 0.0567, -0.3527, 1.7071)
     found = solve_points(pressed, 1e-6)
     assert found.s[0] == 0.0 < found.s_error[0] < 1e-9
+
+
+def test_without_tension_the_error_does_not_depend_on_the_point_before() -> None:
+    load = {"normal_amplitude": [0.5, 0.0239], "tangential_amplitude": 0.3104, "phase": 5.497, "q": 2}
+    both = points(**load, poisson_ratio=[0.3, 0.0622], friction=[0.5, 0.0752])
+    pressed = with_bulk(both, 0.0567, [0.0, -0.3527], 1.7071)
+    alone = solve_points(take(pressed, 1), 1e-6)
+    after = solve_points(pressed, 1e-6)
+    assert after.s[0] > 0.0
+    assert (after.s[1], after.s_error[1]) == (alone.s[0], alone.s_error[0])
