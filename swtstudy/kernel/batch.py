@@ -7,6 +7,7 @@ from threading import local
 
 import numpy as np
 
+from swtstudy.kernel.circle import circles, search_circles
 from swtstudy.kernel.compiled import new_record, new_records, once
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
@@ -138,6 +139,10 @@ def solve_batch(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
+        if parts[-1]["circle"].any():
+            warm_up_circles()
+            search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
+            _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, RESULT)
 
 
@@ -145,6 +150,16 @@ def solve_batch(*points, **given):
 def warm_up():
     """Compile what the points need, or load it: once in a process, in one process at a time."""
     solve_batch("rounded_punch", [0.3], [0.5], [0.25], [0.25], shape={"flat_radius": [0.5]}, rtol=1e-2)
+
+
+@once
+def warm_up_circles():
+    """The same for the circles, which many points do without."""
+    point = [0.3], [0.5], [0.0], [0.0]
+    for _, *records in chunks("paraboloid", *point, bulk_mean=[0.1], rtol=1e-2):
+        found = new_records(1, RESULT)
+        found["circle"] = 1
+        search_circles(*_circles(), *_workspace(), *records, found)
 
 
 def count_batch(x, double_angle, *points, **given):
@@ -276,6 +291,11 @@ def _loads():
 def _workspace():
     """The memory of this thread."""
     return _of_this_thread("workspace", workspace)
+
+
+def _circles():
+    """The same for the circles."""
+    return _of_this_thread("circles", circles)
 
 
 def _of_this_thread(name, make):

@@ -4,6 +4,7 @@ from math import nan, sqrt
 
 import numpy as np
 
+from swtstudy.kernel.circle import at_singular_edge, needs_circle
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
@@ -39,6 +40,10 @@ RESULT = np.dtype(
         ("positions", "i8"),
         ("instants", "i8"),
         ("overflow", "i8"),
+        ("s_surface", "f8"),  # s; NaN at the singular edge of a face; what the circle has where it is higher
+        ("circle", "i8"),  # 1: the circle may be higher
+        ("place", "f8"),  # s of critical_x on the profile
+        ("growth", "f8"),  # tolerance of the tables of what grew
     ]
 )
 
@@ -121,19 +126,20 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
+    out.s_surface, out.circle, out.place, out.growth = nan, 0, 0.0, Q.growth
     solve_cycle(C, L)
     if C.no_equilibrium:
         return
     out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
     if out.regime == NOT_FINITE or C.overflow:
         return
-    out.s, out.s_error = 0.0, 0.0
+    out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(L, P, Q)
     if is_idle(C, L, P, Q):
         return
     growth, gap, share, coarse = Q.growth, 0.0, 1.0, 0.0
     for _ in range(5):
-        asked, growth = growth, lay_out(R, C, P, L, growth)
-        coarse = growth if growth > asked else 0.0
+        out.growth, growth = growth, lay_out(R, C, P, L, growth)
+        coarse = growth if growth > out.growth else 0.0
         gap = search_line(S, H, W, C, R, P, K, L, Q)
         share = tension_share(C, Q, S.tension)
         needed = Q.growth * min(share, 1.0)
@@ -142,7 +148,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
-    out.s = S.best
+    out.s, out.place = S.best, S.place
     rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
     out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
     if S.best > 0.0:
@@ -153,6 +159,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
+    out.s_surface = nan if at_singular_edge(P, out.critical_x) else out.s
 
 
 @jit

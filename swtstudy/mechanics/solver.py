@@ -12,14 +12,12 @@ from swtstudy.kernel.batch import solve_batch
 from swtstudy.mechanics.contact.cycle import Cycle, out_of_equilibrium, solve_cycle
 from swtstudy.mechanics.control.diagram import diagram, largest_depth
 from swtstudy.mechanics.indenter import roughness
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO, surface_maximum
 from swtstudy.mechanics.load.bimodal import alike, largest_turn_count, shared_load
 from swtstudy.mechanics.load.load import Load
 from swtstudy.mechanics.planes.criterion import SWT_EXPONENT
-from swtstudy.mechanics.points import FloatArray, IndexArray, IntArray, Points, Solution
+from swtstudy.mechanics.points import IndexArray, IntArray, Points, Solution
 from swtstudy.mechanics.stress.bulk import bulk_kind
 from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.vocabulary.choices import SWT, is_plane
 
 #: Points times turning instants of one batch, and with their square, which are instants and positions: enough
 #: to hide the interpreter. Half of both: 13 % slower at long cycles; twice: no faster.
@@ -53,9 +51,9 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         If a load cycle has more pieces than the solver has room for.
     """
     found = solve_batch(**arguments_of(points), rtol=rtol)
-    s, error, x, angle = (found[name].copy() for name in ("s", "s_error", "critical_x", "critical_angle"))
-    regime = found["regime"].astype(np.int8)
-    return Solution(s, error, x, angle, regime, _on_circle(points, s, error, x))
+    names = "s", "s_error", "critical_x", "critical_angle", "s_surface"
+    s, error, x, angle, surface = (found[name].copy() for name in names)
+    return Solution(s, error, x, angle, found["regime"].astype(np.int8), surface)
 
 
 def arguments_of(points: Points) -> dict[str, Any]:
@@ -78,22 +76,6 @@ def arguments_of(points: Points) -> dict[str, Any]:
         "walker_exponent": points.walker_exponent,
         "normal_sensitivity": points.normal_sensitivity,
     }
-
-
-def _on_circle(points: Points, s: FloatArray, error: FloatArray, x: FloatArray) -> FloatArray:
-    """`Solution.s_surface`: s itself where the surface line is enough."""
-    surface = s.copy()
-    if is_plane(points.profile):
-        return surface
-    if points.profile == SINGULAR:
-        surface[np.abs(x) == points.shape["flat_radius"]] = np.nan
-    everywhere = (points.criterion != SWT) | (points.bulk_stress_mean != 0.0)
-    everywhere |= points.bulk_stress_amplitude != 0.0
-    rows = np.flatnonzero(np.isfinite(surface) & ((points.poisson_ratio > SAFE_POISSON_RATIO) | everywhere))
-    for index, scene in scenes(points.take(rows)):
-        own = rows[index]
-        surface[own] = surface_maximum(scene, s[own], error[own], x[own])
-    return surface
 
 
 def scenes(points: Points) -> Iterator[tuple[IndexArray, Scene]]:
