@@ -72,7 +72,7 @@ MECHANICS = House(
     "swtstudy.mechanics",
     ("points", "numerics"),
     (
-        *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
+        *("load", "indenter", "control", "contact", "planes", "events", "stress", "body"),
         *("solver", "margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )

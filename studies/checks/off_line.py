@@ -30,16 +30,16 @@ from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
 
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
-from swtstudy.mechanics import solve_points
+from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.local_swt import Places
 from swtstudy.mechanics.body.nonlocal_swt import Around, nonlocal_swt
-from swtstudy.mechanics.line.look import Look
+from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_on_planes
+from swtstudy.mechanics.planes.criterion import criterion_of
 from swtstudy.mechanics.planes.weights import tangent_basis
-from swtstudy.mechanics.stress.history import circle_stress
 from swtstudy.mechanics.stress.scene import Scene, scene_of
 
 Array = NDArray[np.float64]
@@ -76,11 +76,11 @@ STEPS = 0.03, 0.2, 0.004
 CELLS = 48
 
 
-def dense_circle(scene: Scene, r: float) -> float:
+def dense_circle(points: Points, r: float) -> float:
     """Largest swt on the circle of a radius, on all planes, of a batch of one point."""
-    scene = scene.split_at_breakpoints()
+    cycle = LoadCycle.of(points)
     planes = hemisphere(PLANES)
-    values = _on_circle(scene, r, ANGLES, planes, INSTANTS)
+    values = _on_circle(cycle, r, ANGLES, planes, INSTANTS)
     tops = np.pad(values.max(axis=1), 1, constant_values=-1.0)
     highest = float(tops.max())
     is_peak = (tops[1:-1] >= tops[:-2]) & (tops[1:-1] >= tops[2:]) & (tops[1:-1] > 0.9 * highest)
@@ -89,7 +89,7 @@ def dense_circle(scene: Scene, r: float) -> float:
         step, turn, count = ANGLES[2], REACH, INSTANTS
         for _ in range(ROUNDS):
             angles, normals = angle + step * np.linspace(-1.0, 1.0, 9), _around(normal, turn)
-            closer = _on_circle(scene, r, angles, normals, count)
+            closer = _on_circle(cycle, r, angles, normals, count)
             best = np.unravel_index(closer.argmax(), closer.shape)
             highest = max(highest, float(closer[best]))
             angle, normal = angles[best[0]], normals[best[1]]
@@ -97,13 +97,39 @@ def dense_circle(scene: Scene, r: float) -> float:
     return highest
 
 
-def _on_circle(scene: Scene, r: float, angles: Array, normals: Array, count: int) -> Array:
+def _on_circle(cycle: LoadCycle, r: float, angles: Array, normals: Array, count: int) -> Array:
     """The parameter swt at angles on planes, shape (angles, planes)."""
-    look = Look.at(scene, np.array([[r]]), count, 9.0)
-    history = look.history.take((np.arange(1), 0))
-    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angles[None])[0]
-    ν = float(scene.poisson_ratio[0])
-    return swt_on_planes(stress, normals, ν, 1.0 - ν**2, scene.criterion)
+    ν = float(cycle.points.poisson_ratio[0])
+    stress = _circle_stress(cycle, r, angles, count)
+    return swt_on_planes(stress, normals, ν, 1.0 - ν**2, criterion_of(cycle.points))
+
+
+def _circle_stress(cycle: LoadCycle, r: float, angles: Array, count: int) -> Array:
+    """Stress at angles of a circle, shape (angles, instants, 6), components xx, yy, zz, yz, xz, xy.
+
+    Pressure is axisymmetric. With c = cos θ, s = sin θ and the integrals T1 and T3 of the tangential springs
+    shear makes
+
+        σ_xx = (1 + ν) T1 c + σ,   σ_yy = −σ,   σ_xy = T1 s/2 + ν s (2 c² k − j),   σ = ν c (2 c² k − 3 j),
+
+    j = T1 − T3 and k = (3/2) T1 − 2 T3, which follow from both ends of the line.
+    """
+    ν = float(cycle.points.poisson_ratio[0])
+    states = cycle.states(cycle.instants(count, r))
+    right, left = cycle.stress(r, states), cycle.stress(-r, states)
+    radial, hoop = (0.5 * (right[name] + left[name]) for name in ("xx", "yy"))
+    pull, third = (0.5 * (right[name] - left[name]) for name in ("xx", "yy"))  # the latter is ν T3
+    radial = radial - right["bulk"]
+    first = (pull + third) / (1.0 + ν)
+    j, k = ν * first - third, 1.5 * ν * first - 2.0 * third
+    c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]
+    across = c * (2.0 * c * c * k - 3.0 * j)
+    stress = np.zeros((len(angles), len(states), 6))
+    stress[..., 0] = radial * c * c + hoop * s * s + (1.0 + ν) * first * c + across + right["bulk"]
+    stress[..., 1] = radial * s * s + hoop * c * c - across
+    stress[..., 2], stress[..., 4] = right["zz"], right["xz"]
+    stress[..., 5] = (radial - hoop) * c * s + 0.5 * first * s + s * (2.0 * c * c * k - j)
+    return stress
 
 
 def _around(normal: Array, turn: float) -> Array:
@@ -114,7 +140,7 @@ def _around(normal: Array, turn: float) -> Array:
     return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))
 
 
-def dense_body(scene: Scene, x: float) -> float:
+def dense_body(points: Points, scene: Scene, x: float) -> float:
     """Largest swt on a lattice of the body and on closer ones, of one point; x is on one circle."""
     largest = float(scene.largest_radius[0])
     start = scene.cycle.memory.start
@@ -143,7 +169,7 @@ def dense_body(scene: Scene, x: float) -> float:
                 top, r, angle, depth = found
             steps = 0.4 * steps
         # Beside a cusp of the surface the field of cells is up to 2e-3 off.
-        highest = max(highest, dense_circle(scene, r) if depth == 0.0 else top)
+        highest = max(highest, dense_circle(points, r) if depth == 0.0 else top)
     return highest
 
 
@@ -206,9 +232,12 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
                         # Where the mean is a thousandth of swt, few of the even places show any.
                         dense = plain if spread < allowed * plain else dense
                 elif kind == "body":
-                    found, dense = body_maximum(scene, float(x[0]))[0].swt, dense_body(scene, float(x[0]))
+                    found, dense = (
+                        body_maximum(scene, float(x[0]))[0].swt,
+                        dense_body(points.take(one), scene, float(x[0])),
+                    )
                 else:
-                    found, dense = float(surface), dense_circle(scene, abs(float(x[0])))
+                    found, dense = float(surface), dense_circle(points.take(one), abs(float(x[0])))
             low.append(1.0 - found / dense)
     return name, kind, np.array(low)
 

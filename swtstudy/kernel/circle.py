@@ -16,6 +16,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 
+from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.all_planes import PLANES, ROWS, activate, climb_from, highest_plane, measure
 from swtstudy.kernel.chebyshev import FINEST, barycentric
 from swtstudy.kernel.compiled import jit, jit_reordered, new_record
@@ -368,6 +369,8 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
         top = search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, top)
     if has_bulk(L) and not P.singular:
         place = place_of(P, max(C.smallest, 0.0))
+        if b > 0.0:  # at the very edge of a face tables of the radius have no scale
+            place = max(place, INNERMOST * largest)
         if b * b + place * abs(place) > 0.0:
             top = search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, top)
     return top if top > known else s

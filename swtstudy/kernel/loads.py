@@ -43,7 +43,8 @@ def load_of(
     if hasattr(loop, "vertices"):
         columns = [size * column for size, column in zip(amplitudes, loop.vertices.T, strict=False)]
         bulk = bulk_mean + columns[2] if len(columns) == 3 else np.full(len(columns[0]), bulk_mean)
-        return polygon(1.0 + columns[0], columns[1], bulk)
+        # Instants are those of all vertices, of whatever size the bulk stress is that turns at some of them.
+        return polygon(1.0 + columns[0], columns[1], bulk, every=len(columns) == 3)
     rows = [
         [(order, size * amplitude, phase) for order, amplitude, phase in loop.harmonics.get(key, ())]
         for size, key in zip(amplitudes, ("normal", "tangential", "bulk"), strict=True)
@@ -136,10 +137,15 @@ def _range(load, component):
     return ends
 
 
-def polygon(normal, tangential, bulk=None):
-    """Load along a closed polygon through vertices, each of shape (k,)."""
+def polygon(normal, tangential, bulk=None, every=False):
+    """Load along a closed polygon through vertices, each of shape (k,).
+
+    Those on the straight line between their neighbours are left out, unless ``every`` one counts.
+    """
     bulk = np.zeros(len(normal)) if bulk is None else bulk
-    vertices = without_collinear(np.stack([normal, tangential, bulk], axis=1).astype(float))
+    vertices = np.stack([normal, tangential, bulk], axis=1).astype(float)
+    if not every:
+        vertices = without_collinear(vertices)
     sides = len(vertices)
     if sides >= MAX_VERTICES:
         raise ValueError(f"a loop of {sides} vertices: at most {MAX_VERTICES - 1}")

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
@@ -90,7 +91,8 @@ def _motion(points: Points) -> tuple[FloatArray, FloatArray, bool]:
 
     The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
     """
-    path, p, q = points.path, int(points.p[0]), int(points.q[0])
+    path: Any = points.path
+    p, q = int(points.p[0]), int(points.q[0])
     if path is None:
         rows = [(q, 1.0, points.phase[:, None])], [(p, 1.0, np.zeros((1, 1)))]
     elif hasattr(path, "vertices"):

@@ -9,13 +9,8 @@ import pytest
 from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
 from folders import ROOT, TESTS
 
-#: What may not be imported, although it is above: the planes know no contact, the contact knows no
-#: indenter, and the search over the body is a check of the line's.
-APART = {
-    "planes": {"load", "indenter", "control", "contact"},
-    "contact": {"indenter", "control"},
-    "body": {"line"},
-}
+#: What may not be imported, although it is above: the planes know no contact, and the contact no indenter.
+APART = {"planes": {"load", "indenter", "control", "contact"}, "contact": {"indenter", "control"}}
 ORACLE, STATEMENTS = "swtstudy.paper.reference", "swtstudy.paper.statements"
 
 

@@ -11,10 +11,8 @@ from swtstudy.mechanics.events.stretches import split_at, split_at_breakpoints
 from swtstudy.mechanics.indenter.base import Profile
 from swtstudy.mechanics.load.bimodal import load_of
 from swtstudy.mechanics.planes.criterion import SWT, Criterion, criterion_of
-from swtstudy.mechanics.planes.through_y import PlaneHistory
-from swtstudy.mechanics.points import FloatArray, Floats, Points, Rows
+from swtstudy.mechanics.points import FloatArray, Points, Rows
 from swtstudy.mechanics.stress.bulk import BulkStress, bulk_of
-from swtstudy.mechanics.stress.history import History, stresses
 
 
 @dataclass(frozen=True)
@@ -74,34 +72,14 @@ class Scene(Rows):
         return replace(self, cycle=split_at_breakpoints(self.cycle))
 
     @property
-    def critical_everywhere(self) -> bool:
-        """True if places in mere pressure may be critical, or those outside of the contact."""
-        return self.bulk is not None or not self.criterion.needs_tension
-
-    @property
     def largest_radius(self) -> FloatArray:
         """Largest contact radius of each point in a_H, shape (n,)."""
         return self.coordinate.radius(self.cycle.load.largest_normal[:, None])[:, 0]
 
     @property
-    def smallest_radius(self) -> FloatArray:
-        """Smallest contact radius of each point in a_H, shape (n,); of the face where contact is lost."""
-        return self.coordinate.radius(self.cycle.load.least_normal.clip(0.0)[:, None])[:, 0]
-
-    @property
     def mirrored_half(self) -> bool:
         """True if half a period later the stress is the same at −x."""
         return self.cycle.load.mirrored_half and (self.bulk is None or not bool(self.bulk.moves.any()))
-
-    def planes(self, history: History, side: Floats) -> PlaneHistory:
-        """σ_n and the swing of the criterion on the planes through y, on the given side of the contact."""
-        sigma = stresses(history, self.poisson_ratio, self.friction, side)
-        return PlaneHistory.from_stresses(sigma, self.poisson_ratio, self.criterion)
-
-    @property
-    def criterion_along(self) -> Criterion:
-        """The criterion at positions of shape (n, X)."""
-        return self.criterion.reshape(-1, 1)
 
 
 def scene_of(points: Points) -> Scene:
