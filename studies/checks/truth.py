@@ -173,9 +173,9 @@ def other_lines(records: Any, step: int) -> Iterator[str]:
     """The table of other values, and those that are wrong."""
     yield from ("", "## Other values", "")
     yield (
-        f"{'All' if step == 1 else f'One in {step}'}. Low or high are means and damage that differ by more than "
-        "all errors and 1 %, s_surface by 2e-4, and stress fields whose swt differs by more than 1e-4 and the "
-        "record's error."
+        f"{'All' if step == 1 else f'One in {step}'}. Low or high are means and damage that differ by more "
+        "than all errors and 1 %, s_surface by 2e-4, and stress fields whose swt differs by more than 1e-4 "
+        "and the record's error."
     )
     yield ""
     yield from ("| value | records | low | lowest | high | highest |", "|" + "---|" * 6)
