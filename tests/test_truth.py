@@ -12,7 +12,7 @@ import truth
 import swtstudy
 
 #: Points of the sample: as many of each scene, all of it where it has fewer.
-SAMPLE = 400
+SAMPLE = 300
 RTOL = 1e-4
 #: Points that the present solver misses beyond s_error. A test fails as soon as one of them is right.
 MISSED: tuple[str, ...] = (

@@ -83,7 +83,7 @@ def test_processes_and_threads_compile_once(tmp_path: Path, environment: dict[st
     assert {signatures for _, signatures, _ in found} == {1}
 
 
-@pytest.mark.parametrize("home", ["home", "none"])
+@pytest.mark.parametrize("home", ["home", pytest.param("none", marks=pytest.mark.slow)])
 def test_compiled_code_is_kept_where_one_can_write(
     tmp_path: Path, environment: dict[str, str], home: str
 ) -> None:
@@ -105,6 +105,7 @@ def test_compiled_code_is_kept_where_one_can_write(
         written.chmod(0o755)
 
 
+@pytest.mark.slow
 def test_without_any_place_it_compiles_each_time(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "none").touch()
     environment |= {"HOME": str(tmp_path / "none"), "NUMBA_CACHE_DIR": str(tmp_path / "none" / "cache")}

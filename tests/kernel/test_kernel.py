@@ -94,34 +94,6 @@ def test_recorded_values(given: dict[str, object], s: float, rtol: float) -> Non
     assert abs(found["s"] - s) <= found["s_error"] + digits + 3e-5 * s
 
 
-@pytest.mark.parametrize(
-    ("name", "shape"),
-    [
-        ("rounded_punch", {"flat_radius": 0.5}),
-        ("truncated_paraboloid", {"flat_radius": 0.5}),
-        ("wavy_paraboloid", {"waviness_amplitude": 0.05, "wavelength": 5.0}),
-    ],
-)
-@pytest.mark.parametrize("forces", [False, True])
-def test_profiles_are_those_of_the_package(name: str, shape: dict[str, float], forces: bool) -> None:
-    amplitudes = {"normal": 0.5, "tangential": 0.3}
-    kind = "_force_amplitude" if forces else "_amplitude"
-    given = {key + kind: value for key, value in amplitudes.items()}
-    known = swtstudy.solve(profile=name, phase=2.0, friction=0.5, **given, **shape, rtol=1e-6)
-    found = solve_one(
-        name,
-        friction=[0.5],
-        phase=[2.0],
-        normal_amplitude=[0.5],
-        tangential_amplitude=[0.3],
-        shape={key: [value] for key, value in shape.items()},
-        control=(forces, forces),
-        rtol=1e-6,
-    )
-    assert found["s"] == pytest.approx(float(known.s), rel=3e-6)
-    assert found["critical_x"] == pytest.approx(float(known.critical_x), abs=1e-3)
-
-
 @pytest.mark.parametrize("phase", [0.0, 1.0, np.pi])
 @pytest.mark.parametrize("ratio", [1, 2])
 def test_a_polygon_on_the_cycle_is_nearly_the_cycle(phase: float, ratio: int) -> None:
