@@ -10,7 +10,7 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import SEARCH, search_line
+from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
 from swtstudy.kernel.planes import WORK
 from swtstudy.kernel.profile import place_of
@@ -118,6 +118,15 @@ def rounding_share(C, Q, tension):
 
 
 @jit
+def towards_centre(C, P, place):
+    """Share by which a value may still rise from next to the centre: as the pressure of ξⁿ, like x^(n-1)."""
+    innermost = INNERMOST * place_of(P, C.largest)
+    if P.exponent == 0.0 or P.exponent >= 2.0 or abs(place) > 2.0 * innermost:
+        return 0.0
+    return innermost ** (P.exponent - 1.0)
+
+
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -150,7 +159,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s, out.place = S.best, S.place
     rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
-    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
+    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
     if S.best > 0.0:
         b = P.flat_radius
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
