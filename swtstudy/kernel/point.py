@@ -12,7 +12,7 @@ from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
-from swtstudy.kernel.planes import WORK
+from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.surface import TABLE
 
@@ -160,7 +160,9 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.s, out.place = S.best, S.place
     rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
     out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
-    if S.best > 0.0:
+    if S.best == 0.0:  # tension within rounding is taken for none
+        out.s_error += NOISE * C.largest
+    else:
         b = P.flat_radius
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
         out.critical_angle = degrees(S.angle)
