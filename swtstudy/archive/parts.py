@@ -125,12 +125,14 @@ def clear_unfinished(folder: Path) -> None:
 
 
 def _next_number(folder: Path) -> int:
-    return 1 + max((int(path.stem) for path in _paths(folder)), default=0)
+    # Whatever is there under such a name: it is not replaced.
+    return 1 + max((int(path.stem) for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)), default=0)
 
 
 def _paths(folder: Path) -> list[Path]:
     refuse_link(folder)
-    return sorted(path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
+    named = (path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
+    return sorted(path for path in named if path.is_file() and not path.is_symlink())
 
 
 def _remove(paths: Iterable[Path]) -> None:
@@ -139,6 +141,7 @@ def _remove(paths: Iterable[Path]) -> None:
 
 
 def _write(folder: Path, number: int, records: Records) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)  # without locks another run may have removed it
     path = folder / f"{number:06d}.npz"
     meta = {
         "layout": _LAYOUT,

@@ -455,7 +455,14 @@ def test_bad_spacings_are_named(axis, key, allowed):
 def test_a_study_shows_what_it_is(small):
     assert repr(small) == "<Study 'A small study': 18 points = 2 normal_amplitude × 9 phase, rtol 0.001>"
     html = small._repr_html_()
-    for words in ("A small study", "18 points", "0.25, 0.888889", "(9 values)", "figure: hue", "swtstudy plan"):
+    for words in (
+        "A small study",
+        "18 points",
+        "0.25, 0.888889",
+        "(9 values)",
+        "figure: hue",
+        "swtstudy plan",
+    ):
         assert words in html
 
 
