@@ -18,7 +18,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Points
+    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -59,7 +59,7 @@ RATIO_COLUMNS = ("p", "q")
 COST = "load_cost"
 LOAD_COLUMNS = ("control", COST, "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
+SHARED_COLUMNS = ("profile", "control", "load", "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Those of bodies and criterion; friction is before the Poisson ratio, which the tractions do not depend on.
@@ -200,6 +200,13 @@ def group_rows(table: Table) -> tuple[IntArray, IntArray]:
         # Column by column on integers: sorting whole rows takes ten times as long.
         _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)
     return first, group
+
+
+def alike(table: Table, *more: str) -> list[IndexArray]:
+    """Indices of the rows that share `SHARED_COLUMNS`, and more columns, one array for each kind."""
+    _, group = group_rows(table[[*SHARED_COLUMNS, *more]])
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.cumsum(np.bincount(group))[:-1]) if len(table) else []
 
 
 def points_from(table: Table, definitions: Definitions) -> Points:

@@ -1,25 +1,27 @@
-"""Chunks of work: what a worker receives and returns; missing points are cut into them by whole blocks."""
+"""Chunks of points: what a worker receives and returns, and how points are cut into them."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from swtstudy.mechanics.points import REGIMES, WITHOUT_S, BoolArray, IntArray, Points, Solution
-from swtstudy.points.canonical import Definitions, Table, points_from
+from swtstudy.points.canonical import COST, Definitions, Table, alike, points_from
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
-from swtstudy.points.unique import UniquePoints, block_ends, weights
+from swtstudy.points.unique import UniquePoints
 from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
-#: Solves a batch of points to a relative accuracy.
+#: Solves points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
 
-
-#: Points with values of the body in a block: about a second of work.
-_FEW = 8
+#: Points of a chunk whose cycles are short, as one compiled call takes them, and where means over the body
+#: are asked: some 0.1 s of work, short enough to lose.
+MOST, MOST_OF_BODY = 64, 8
+#: Pieces of the load cycles of a chunk, all together: fewer points of longer cycles.
+PIECES = 128
 
 
 @dataclass(frozen=True)
@@ -38,10 +40,10 @@ class Asked:
     known: Solution | None = None
 
     @property
-    def block(self) -> int | None:
-        """Most points of a block; None for as many as share work: what is of the body shares none."""
+    def most(self) -> int:
+        """Most points of a chunk."""
         of_body = (item == YIELD or distance_of(item) is not None for item in self.quantities)
-        return _FEW if any(of_body) else None
+        return MOST_OF_BODY if any(of_body) else MOST
 
     def at(self, rows: IntArray | slice) -> Asked:
         """Return the values asked of the points at the given rows."""
@@ -54,7 +56,7 @@ ONLY_S = Asked()
 
 @dataclass(frozen=True)
 class Chunk:
-    """Blocks of points; each block is solved in one call.
+    """Points that are solved in one call: of one profile family, criterion, control and loop.
 
     Attributes
     ----------
@@ -62,8 +64,6 @@ class Chunk:
         Shape (n,): indices of the points in the table of the run.
     table
         Their canonical rows, shape (n,).
-    lengths
-        Number of points in each block, adding up to n.
     definitions
         What the user has defined, by its code.
     asked
@@ -72,34 +72,25 @@ class Chunk:
 
     rows: IntArray
     table: Table
-    lengths: tuple[int, ...]
     definitions: Definitions
     asked: Asked = ONLY_S
 
     @classmethod
-    def of(cls, points: UniquePoints, blocks: list[IntArray], asked: Asked = ONLY_S) -> Chunk:
-        """The chunk that consists of the given blocks of rows; ``asked`` of all points."""
-        rows = np.concatenate(blocks)
-        lengths = tuple(map(len, blocks))
-        return cls(rows, points.table[rows], lengths, points.definitions, asked.at(rows))
+    def of(cls, points: UniquePoints, rows: IntArray, asked: Asked = ONLY_S) -> Chunk:
+        """The chunk of some rows of a table; ``asked`` of all points of it."""
+        return cls(rows, points.table[rows], points.definitions, asked.at(rows))
 
     def __len__(self) -> int:
         return len(self.rows)
 
-    @property
-    def name(self) -> str:
-        """Name of the task: no two chunks of a run have a row in common."""
-        return f"points-{self.rows[0]}-{len(self)}"
+    def at(self, part: slice) -> Chunk:
+        """The chunk of some of its points."""
+        return Chunk(self.rows[part], self.table[part], self.definitions, self.asked.at(part))
 
-    def split(self) -> Iterator[Chunk]:
-        """Its blocks, or the halves of its only block, as separate chunks."""
-        lengths = self.lengths if len(self.lengths) > 1 else (len(self) // 2, -(-len(self) // 2))
-        start = 0
-        for length in lengths:
-            part = slice(start, start + length)
-            own = self.rows[part], self.table[part], (length,)
-            yield Chunk(*own, self.definitions, self.asked.at(part))
-            start += length
+    def halves(self) -> tuple[Chunk, Chunk]:
+        """Its two halves."""
+        half = len(self) // 2
+        return self.at(slice(half)), self.at(slice(half, None))
 
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Records:
@@ -132,13 +123,12 @@ def _of_run(chunk: Chunk, records: Records, rtol: float, seconds: float) -> Reco
 
 def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[Records]:
     """Records of the points, in order; a point that fails is isolated, with its message."""
-    if len(chunk.lengths) == 1:
-        try:
-            return [_checked(chunk, rtol, solver)]
-        except Exception as error:
-            if len(chunk) == 1:
-                return [_failed(chunk, f"{type(error).__name__}: {error}")]
-    return [found for part in chunk.split() for found in _isolated(part, rtol, solver)]
+    try:
+        return [_checked(chunk, rtol, solver)]
+    except Exception as error:
+        if len(chunk) == 1:
+            return [_failed(chunk, f"{type(error).__name__}: {error}")]
+    return [found for half in chunk.halves() for found in _isolated(half, rtol, solver)]
 
 
 def _failed(chunk: Chunk, message: str) -> Records:
@@ -150,23 +140,31 @@ def _failed(chunk: Chunk, message: str) -> Records:
 
 
 def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
-    points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
-    solution = solver(points, rtol) if asked.known is None else asked.known
-    lost = np.isnan(solution.s) & ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
+    """Return records of points that all have a value."""
+    found = values_of(chunk, rtol, solver)
+    lost = np.isnan(found.solution.s)
+    lost &= ~np.isin(found.solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
     if lost.any():
         raise ArithmeticError("the solver found no value")
-    found = Records.of(chunk.table, solution, COMPUTED)
-    if not asked.quantities:
-        return found
-    from swtstudy.mechanics.quantities import quantities_of
-
-    return replace(found, quantities=quantities_of(points, asked.quantities, solution))
+    return found
 
 
-def chunks(
-    points: UniquePoints, wanted: BoolArray, size: Callable[[], float], asked: Asked = ONLY_S
-) -> Iterator[Chunk]:
-    """Chunks of the wanted points of a table: whole blocks, with a weight of about `size()`.
+def values_of(chunk: Chunk, rtol: float, solver: Solver) -> Records:
+    """Solve the points of a chunk, and find what else is asked of them."""
+    points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
+    # The caller's np.seterr is not meant for the solver, in which NaN and inf are values.
+    with np.errstate(all="ignore"):
+        solution = solver(points, rtol) if asked.known is None else asked.known
+        found = Records.of(chunk.table, solution, COMPUTED)
+        if not asked.quantities:
+            return found
+        from swtstudy.mechanics.quantities import quantities_of
+
+        return replace(found, quantities=quantities_of(points, asked.quantities, solution))
+
+
+def chunks(points: UniquePoints, wanted: BoolArray, asked: Asked = ONLY_S) -> list[Chunk]:
+    """Chunks of the wanted points of a table, those of long cycles first: no worker waits for another's.
 
     Parameters
     ----------
@@ -174,35 +172,19 @@ def chunks(
         The points of the study.
     wanted
         Shape (len(points.table),): the points to be solved.
-    size
-        Called for every chunk, so that later chunks follow the timing of earlier ones.
     asked
         What is asked of the points.
     """
-    weight = weights(points.table)
-    blocks: list[IntArray] = []
-    heaviness = 0
-    for rows in _long_cycles_first(points.table, wanted, weight):
-        for block in np.array_split(rows, -(-len(rows) // (asked.block or len(rows)))):
-            block_weight = int(weight[block].sum())
-            if blocks and heaviness + block_weight > size():
-                yield Chunk.of(points, blocks, asked)
-                blocks, heaviness = [], 0
-            blocks.append(block)
-            heaviness += block_weight
-    if blocks:
-        yield Chunk.of(points, blocks, asked)
-
-
-def _long_cycles_first(table: Table, wanted: BoolArray, weight: IntArray) -> list[IntArray]:
-    """The wanted rows of each block that has some, long cycles first, and of these the largest blocks.
-
-    So the last blocks let no worker wait, nor do the first ones, which are solved beside one another.
-    """
-    begin, found = 0, []
-    for end in block_ends(table).tolist():
-        rows = begin + np.flatnonzero(wanted[begin:end])
-        begin = end
-        if len(rows):
-            found.append(rows)
-    return sorted(found, key=lambda rows: (-int(weight[rows].max()), -len(rows)))
+    rows = np.flatnonzero(wanted)
+    pieces = points.table["p"] + points.table["q"] + points.table[COST]
+    found = []
+    for group in alike(points.table[rows]):
+        own = rows[group]
+        own = own[np.argsort(-pieces[own], kind="stable")]
+        begin = 0
+        while begin < len(own):
+            end = begin + min(asked.most, max(PIECES // int(pieces[own[begin]]), 1))
+            found.append(own[begin:end])
+            begin = end
+    found.sort(key=lambda each: -int(pieces[each[0]]))
+    return [Chunk.of(points, each, asked) for each in found]
