@@ -53,6 +53,8 @@ ALONG, ACROSS = np.array([7, 8])
 ROUNDS = 8
 #: Cosine of the angle between planes that are one, and most planes that may follow one another as the best.
 SAME_PLANE, RIVALS = 0.9998, 4
+#: Share of the tolerance to which no plane is higher, where values are averaged.
+PROOF = 5.0
 #: Values lower than a floor by more than this share are left as the first instants give them.
 CLOSE = 0.2
 HERE = np.dtype(
@@ -264,7 +266,7 @@ def settle_place(S, B, H, W, G, C, P, L, Q, tolerance):
 
 
 @jit
-def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, coarsest):
+def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest):
     """The criterion at (x, y, z) over all planes, with its plane's normal in G, and what it may miss.
 
     The normal in G before is a guess, or 0. Parts are doubled on its plane, before all planes are searched.
@@ -274,7 +276,9 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
     floor
         Values below it may be low.
     tolerance
-        Relative, of the value.
+        Relative, of the value on its plane.
+    proof
+        No plane is higher by more, relative, at the instants that there are.
     coarsest
         Intervals of a part at first.
     """
@@ -290,13 +294,13 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
     if n[0] != 0.0 or n[1] != 0.0 or n[2] != 0.0:
         climb_from(G, S.stress, H.instants, Q, n[0], n[1], n[2])
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
-        highest_plane(G, S.stress, H.instants, Q, least, allowed)
+        highest_plane(G, S.stress, H.instants, Q, least, proof)
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
         return value_of(Q, G.best), 0.0
     h = settle_place(S, B, H, W, G, C, P, L, Q, allowed)
     for _ in range(RIVALS):
         missing, first[0], first[1], first[2] = S.missing, n[0], n[1], n[2]
-        best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), allowed)
+        best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), proof)
         if (
             best <= (1.0 - allowed) * h
             or abs(first[0] * n[0] + first[1] * n[1] + first[2] * n[2]) > SAME_PLANE
@@ -338,12 +342,13 @@ def largest_at_places(
     Each place takes the plane of the one before as a guess, unless it is alone.
     """
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
+    proof = 0.5 * tolerance if alone else PROOF * tolerance
     for i in range(places.shape[0]):
         if alone:
             G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
         values[i], missing[i] = largest_at(
-            S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, coarsest
+            S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest
         )
         for c in range(3):
             normals[i, c] = G.normal[c]

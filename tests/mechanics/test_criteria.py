@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from body import history_at, swt_at
 from click.testing import CliRunner
 from numpy.typing import NDArray
 from scenes import plane_points, points, random_points, take
@@ -17,9 +18,8 @@ import swtstudy
 from swtstudy.archive.parts import _LAYOUT
 from swtstudy.cli import main
 from swtstudy.fields.history import smallest_sphere
-from swtstudy.fields.one_point import read_scene
+from swtstudy.fields.one_point import read_point
 from swtstudy.figures.draw import draw
-from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.numerics.arrays import hemisphere
 from swtstudy.mechanics.planes.all_planes import swt_of_history
@@ -206,7 +206,7 @@ def test_the_body_says_the_same_as_the_line_where_friction_rules() -> None:
     for name in SHEAR:
         own = of_criterion(batch, name, 0.3)
         line = solve_points(own, 1e-5)
-        body, at_line = body_maximum(scene_of(own), float(line.critical_x[0]))
+        body, at_line = body_maximum(own, float(line.critical_x[0]))
         assert at_line.swt == pytest.approx(line.s[0], rel=2e-5)
         assert body.swt == pytest.approx(line.s[0], rel=1e-4)
 
@@ -314,14 +314,13 @@ def test_the_circle_knows_planes_that_do_not_hold_the_y_axis() -> None:
     """At ν = 0 a sphere shears more beside the line, between x and y, than on it."""
     own = points(poisson_ratio=0.02, friction=0.2, normal_amplitude=0.0, tangential_amplitude=0.5)
     own = of_criterion(own, "fatemi_socie", 1.5)
-    line, scene = solve_points(own, 1e-4), scene_of(own)
+    line = solve_points(own, 1e-4)
     angle = np.linspace(0.0, 0.5 * np.pi, 65)
-    nodes = time_nodes(scene, 12, [1.0])
     x = line.critical_x[0]
-    found = Body(scene, nodes, 60).swt(x * np.cos(angle), np.sin(angle), 0.0)
-    assert found.swt.max() > 1.02 * line.s[0]
-    assert np.abs(found.normal[found.swt.argmax(), 1]) > 0.5
-    assert line.s_surface[0] == pytest.approx(found.swt.max(), rel=1e-3)
+    values, normals = swt_at(own, x * np.cos(angle), np.sin(angle), 0.0)
+    assert values.max() > 1.02 * line.s[0]
+    assert np.abs(normals[values.argmax(), 1]) > 0.5
+    assert line.s_surface[0] == pytest.approx(values.max(), rel=1e-3)
 
 
 STEEL = {"young_modulus": 210e3, "poisson_ratio": 0.3, "radius": 50.0, "normal_force": 200.0, "friction": 0.5}
@@ -400,11 +399,10 @@ def test_means_of_criteria_of_shear(name: str) -> None:
     """Values at the places of a Gauss rule, each the highest of random planes, averaged."""
     k, size = 0.5, 0.1
     found = swtstudy.solve(**STRIP, criterion=name, normal_sensitivity=k, critical_distance=size)
-    scene = read_scene({**STRIP, "criterion": name, "normal_sensitivity": k})
+    own = read_point({**STRIP, "criterion": name, "normal_sensitivity": k})
 
     def at(x: float, z: float) -> float:
-        body = Body(scene, time_nodes(scene, 16, [abs(x)]), 60)
-        return highest_of_all_planes(name, k, body.stress(x, 0.0, z))
+        return highest_of_all_planes(name, k, history_at(own, x, 0.0, z))
 
     down = {"direction": found.direction.values[0]}
     point = at(float(found.point_x.sel(down)), 0.5 * size)
@@ -585,7 +583,7 @@ def test_on_the_line_a_plane_that_does_not_hold_the_y_axis_may_be_higher() -> No
     own = replace(take(own, 1), **{name: np.full(1, value) for name, value in one.items()})
     own = of_criterion(own, "fatemi_socie", 0.74)
     line = solve_points(own, 1e-4)
-    _, at_line = body_maximum(scene_of(own), float(line.critical_x[0]))
+    _, at_line = body_maximum(own, float(line.critical_x[0]))
     assert at_line.swt > 1.005 * line.s[0]
     assert line.s_surface[0] >= at_line.swt * (1.0 - 3e-3)
 
@@ -598,7 +596,6 @@ def test_planes_off_the_line_have_instants_of_their_own() -> None:
     line = solve_points(own, 1e-4)
     radius = abs(float(line.critical_x[0]))
     angle = np.linspace(0.0, np.pi, 97)
-    body = Body(scene_of(own), time_nodes(scene_of(own), 16, [radius]), 60)
-    found = body.swt(radius * np.cos(angle), radius * np.sin(angle), 0.0)
-    assert found.swt.max() > 1.005 * line.s[0]
-    assert line.s_surface[0] == pytest.approx(found.swt.max(), rel=1e-3)
+    values, _ = swt_at(own, radius * np.cos(angle), radius * np.sin(angle), 0.0)
+    assert values.max() > 1.005 * line.s[0]
+    assert line.s_surface[0] == pytest.approx(values.max(), rel=1e-3)
