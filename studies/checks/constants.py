@@ -21,7 +21,7 @@ from altered import ROOT, assigned, in_a_process
 MECHANICS = ROOT / "swtstudy" / "mechanics"
 RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
-KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular_edge": "edge"}
+KINDS = {"wavy": "wavy", "struve": "wavy", "singular_edge": "edge"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
 KINDS |= {"nonlocal": "means", "half_sphere": "means"}
@@ -32,8 +32,6 @@ DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 OTHERS = {
     "look.DIGITS_PER_ZOOM": ("4.0",),
     "look.SETTLED": ("1.0",),
-    "surface_circle.ANGLES": ("v[::2]",),
-    "surface_circle.DIGITS": ("3.5",),
     "paraboloid.APPROACH_COUNT": ("5",),
     "growth.NODES_PER_OSCILLATION": ("v / 2",),
     "look.REACH": ("0.125",),

@@ -29,11 +29,11 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
 
+from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.solver import arguments_of
 
 Array = NDArray[np.float64]

@@ -352,8 +352,8 @@ def largest_at_places(
         )
         for c in range(3):
             normals[i, c] = G.normal[c]
-        if values[i] == 0.0:  # all planes are alike
-            normals[i, 0], normals[i, 1], normals[i, 2] = 1.0, 0.0, 0.0
+        if values[i] == 0.0:  # no plane ever sees tension
+            normals[i, 0], normals[i, 1], normals[i, 2] = np.nan, np.nan, np.nan
 
 
 @jit

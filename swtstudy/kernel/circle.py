@@ -20,7 +20,7 @@ from swtstudy.kernel.all_planes import PLANES, ROWS, activate, climb_from, highe
 from swtstudy.kernel.chebyshev import FINEST, barycentric
 from swtstudy.kernel.compiled import jit, jit_reordered, new_record
 from swtstudy.kernel.contact import solve_cycle
-from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, value_of
+from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.line import ROUNDS
@@ -53,7 +53,8 @@ CIRCLE = np.dtype(
         ("of_tension", "f8"),  # bounds of the derivatives over φ
         ("of_swing", "f8"),
         ("swing", "f8"),  # bound of A
-        ("tension", "f8"),  # bound of T at the last angle
+        ("highest", "f8"),  # and of T
+        ("tension", "f8"),  # the same at the last angle
         ("ends", "f8", (MAX_ARCS, 2)),  # φ
         ("value", "f8", (MAX_ARCS, 2)),  # h at both ends, or more where it does not matter
         ("most", "f8", (MAX_ARCS, 2)),  # bound of T there
@@ -240,11 +241,18 @@ def value_at(D, G, S, H, W, C, P, K, L, Q, angle, floor):
 
 
 @jit
+def curvature_over_angles(D, Q, T):
+    """Bound of -h″ over φ on an arc whose tension is bounded by T."""
+    slope = slope_bound(D.of_tension, D.highest)
+    return curvature_bound(Q, T, D.swing, D.of_tension, D.of_swing, slope)
+
+
+@jit
 def bound_of_arc(D, Q, k):
     """Bound of h on arc k."""
     square = (D.ends[k, 1] - D.ends[k, 0]) * (D.ends[k, 1] - D.ends[k, 0])
     T = above(D.most[k, 0], D.most[k, 1], D.of_tension * square)
-    K = curvature_bound(Q, T, D.swing, D.of_tension, D.of_swing)
+    K = curvature_over_angles(D, Q, T)
     return min(above(D.value[k, 0], D.value[k, 1], K * square), lifted(Q, T, D.swing, 0.0))
 
 
@@ -275,10 +283,14 @@ def search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, known):
     """Largest value on the circle at a place s, if it is above what is known; else that."""
     sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
     bound_turning(D, H, Q)
-    D.angles, D.peaks, D.next, D.parts, D.swing, D.best = 0, 0, 0, 0, 0.0, lift(Q, known)
+    D.angles, D.peaks, D.next, D.parts, D.swing, D.highest = 0, 0, 0, 0, 0.0, 0.0
+    D.best = least = lift(Q, known)
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     see_parts(D, H)
     m = first_arcs(D, G, S, H, W, C, P, K, L, Q)
+    for i in range(m):
+        square = (D.ends[i, 1] - D.ends[i, 0]) * (D.ends[i, 1] - D.ends[i, 0])
+        D.highest = max(D.highest, above(D.most[i, 0], D.most[i, 1], D.of_tension * square))
     while m < MAX_ARCS:
         k, bound = 0, -1.0
         for i in range(m):
@@ -289,7 +301,7 @@ def search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, known):
             break
         halve_arc(D, G, S, H, W, C, P, K, L, Q, k, m)
         m += 1
-    return max(value_of(Q, D.best), known)
+    return value_of(Q, D.best) if D.best > least else known
 
 
 @jit
@@ -297,7 +309,7 @@ def halve_arc(D, G, S, H, W, C, P, K, L, Q, k, m):
     """Halve arc k; its upper half becomes arc m."""
     angle, half = 0.5 * (D.ends[k, 0] + D.ends[k, 1]), 0.5 * (D.ends[k, 1] - D.ends[k, 0])
     T = max(D.most[k, 0], D.most[k, 1])
-    drop = curvature_bound(Q, T, D.swing, D.of_tension, D.of_swing) * half * half
+    drop = curvature_over_angles(D, Q, T) * half * half
     for end in range(2):
         D.ends[m, end], D.value[m, end], D.most[m, end] = D.ends[k, end], D.value[k, end], D.most[k, end]
         for c in range(3):

@@ -297,7 +297,7 @@ def survey_planes(H, W, Q, side):
     ranges *= 1.1
     of_plane = 1.0 + Q.poisson_ratio if Q.criterion == SWT else 1.0
     swing = min(2.0 * of_plane * amplitude, ranges)
-    W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing)
+    W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing, amplitude)
     bound = 0.0
     for k in range(PLANES):
         bound = max(bound, above(W.value[k], W.value[(k + 1) % PLANES], W.curvature * STEP * STEP))

@@ -15,8 +15,8 @@ from solved import REGIMES
 
 from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
+from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.point import NEAREST, TEARS
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.points.validity import LIMITS
 from swtstudy.reports.values import LARGEST_TABLE

@@ -1,10 +1,10 @@
-"""Criteria of any stress history: over all plane orientations (eq. 9), and Crossland's, which has no plane.
+"""Criteria of the body's stress histories over all plane orientations (eq. 9).
 
 On the plane with the normal n, swt is the maximum over the cycle of σ_n times half the range of ε_n. It is a
 maximum over triples of instants (of the largest stress, the largest and the smallest strain) of a product of
 two quadratic forms of n. A maximum of smooth functions has its own maxima where one of them has: the search
 climbs from the highest planes of a coarse hemisphere (`swtstudy.mechanics.planes.ascent`) and keeps the
-highest summit. Crossland's criterion has the deviatoric path and the hydrostatic stress.
+highest summit.
 """
 
 from __future__ import annotations
