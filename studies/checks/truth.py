@@ -2,15 +2,19 @@
 
 ``python studies/checks/truth.py``, from the project folder, writes results/truth.md: by scene, how many
 points are low or high by more than s_error at two tolerances, and the worst of them; and how s_error over the
-error is distributed, which results/truth.png draws. ``--every 10`` takes every tenth point of each scene,
-``--scenes`` some scenes, ``--workers`` so many processes; ``--quick`` next to no points. It ends with 1 if
-more values are wrong than ``--missed`` says.
+error is distributed, which results/truth.png draws. ``--every 1 10`` takes all points at the first tolerance
+and every tenth of each scene at the other, ``--scenes`` some scenes, ``--workers`` so many processes;
+``--quick`` next to no points. ``--parts`` keeps what was found of each scene in a folder, and goes on from
+it. ``--misses`` writes the points that are wrong, with all parameters, as CSV. It ends with 1 if more values
+are wrong than ``--missed`` says.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import importlib
+import json
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
@@ -28,8 +32,10 @@ Array = NDArray[np.float64]
 DIGITS = 1e-11
 #: Least ratio that is drawn, –.
 LEAST_DRAWN = 1e-2
-#: What is found at the points of a scene at each tolerance: the columns of `truth.solved`.
-Found = Mapping[str, tuple[Sequence[Any], list[dict[str, Array]]]]
+#: The columns of `truth.solved`, and how many points are solved together.
+COLUMNS, TOGETHER = ("s", "s_error", "critical_x"), 2500
+#: At each tolerance, by scene: points and what is found there, the columns of `truth.solved`.
+Found = Sequence[Mapping[str, tuple[Sequence[Any], dict[str, Array]]]]
 
 
 def _records() -> Any:
@@ -77,43 +83,43 @@ def quantiles(points: Sequence[Any], s: Array, error: Array) -> list[str]:
     )
 
 
-def lines(records: Any, found: Found, every: int) -> Iterator[str]:
+def lines(records: Any, found: Found, every: Sequence[int]) -> Iterator[str]:
     """The page: a table for each tolerance, then the points that are wrong."""
-    share = "All points" if every == 1 else f"One in {every} points"
     yield "# s against recorded values"
     yield ""
     yield (
-        f"{share} of `tests/data/truth`. A point is low or high if s differs from the record by more than "
+        "Points of `tests/data/truth`. A point is low or high if s differs from the record by more than "
         "s_error and the record's own error; the lowest and the highest difference are relative. The other "
         "columns are percentiles of s_error over the difference, or over the record's own error where that "
         "is more, so that they are lower bounds where s is as good as its record. "
         "`python studies/checks/truth.py`"
     )
     wrong: list[str] = []
-    for index, rtol in enumerate(RTOLS):
+    for rtol, of, step in zip(RTOLS, found, every, strict=True):
         yield from ("", f"## rtol {rtol:g}", "")
+        yield from ("All points." if step == 1 else f"One in {step} points.", "")
         shares = " | ".join(f"{each:g} %" for each in QUANTILES)
         yield f"| scene | points | low | lowest | high | highest | {shares} |"
         yield "|" + "---|" * (6 + len(QUANTILES))
-        for scene, (points, columns) in found.items():
-            s, error = columns[index]["s"], columns[index]["s_error"]
+        for scene, (points, columns) in of.items():
+            s, error = columns["s"], columns["s_error"]
             yield f"| {' | '.join([scene, *cells_of(records, points, s, error)])} |"
             for point, value, own in zip(points, s, error, strict=True):
                 word = records.verdict(point, value, own)
                 if word != "right":
                     record = f"recorded {point.s:.9g} ± {point.error:.1e} ({point.kind})"
                     wrong.append(f"{point.name}, rtol {rtol:g}: {word}, {value:.9g} ± {own:.1e}; {record}")
-        every_point, values = joined(found, index)
+        every_point, values = joined(of)
         yield f"| **all** | {' | '.join(cells_of(records, every_point, *values))} |"
     yield from ("", "## Wrong", "", *(f"* {each}" for each in wrong))
 
 
-def joined(found: Found, index: int) -> tuple[list[Any], tuple[Array, Array]]:
-    """The points of all scenes, and s and s_error there at a tolerance."""
+def joined(
+    found: Mapping[str, tuple[Sequence[Any], dict[str, Array]]],
+) -> tuple[list[Any], tuple[Array, Array]]:
+    """The points of all scenes, and s and s_error there."""
     several = [point for points, _ in found.values() for point in points]
-    s, error = (
-        np.concatenate([columns[index][name] for _, columns in found.values()]) for name in ("s", "s_error")
-    )
+    s, error = (np.concatenate([columns[name] for _, columns in found.values()]) for name in ("s", "s_error"))
     return several, (s, error)
 
 
@@ -121,8 +127,8 @@ def chart(found: Found) -> Figure:
     """The share of points that have less than a ratio of s_error to the error."""
     figure = Figure(figsize=(3.35, 2.4), layout="constrained")
     axes = figure.subplots()
-    for index, (rtol, style) in enumerate(zip(RTOLS, ("k-", "k--"), strict=True)):
-        several, values = joined(found, index)
+    for rtol, of, style in zip(RTOLS, found, ("k-", "k--"), strict=True):
+        several, values = joined(of)
         ratios = np.sort(ratios_of(several, *values))
         share = (np.arange(ratios.size) + 1.0) / max(ratios.size, 1)
         axes.plot(np.maximum(ratios, LEAST_DRAWN), 100.0 * share, style, label=f"rtol {rtol:g}")
@@ -132,26 +138,80 @@ def chart(found: Found) -> Figure:
     return figure
 
 
+def found_of(
+    records: Any, scene: str, points: Sequence[Any], index: NDArray[np.intp], rtol: float, given: Any
+) -> dict[str, Array]:
+    """What is found at some points of a scene: what the folder of parts has, and the rest by the solver."""
+    part = given.parts and given.parts / f"{scene.replace('/', '÷')} {rtol:g}.npz"
+    values = {name: np.full(len(points), np.nan) for name in COLUMNS}
+    is_known = np.zeros(len(points), dtype=bool)
+    if part and part.exists():
+        kept = np.load(part)
+        is_known[: len(kept["is_known"])] = kept["is_known"]
+        for name in COLUMNS:
+            values[name][: len(kept[name])] = kept[name]
+    missing = index[~is_known[index]]
+    for some in np.array_split(missing, -(-len(missing) // TOGETHER)) if len(missing) else ():
+        new = records.solved([points[k] for k in some], rtol, given.workers)
+        is_known[some] = True
+        for name in COLUMNS:
+            values[name][some] = new[name]
+        if part:
+            np.savez(part, is_known=is_known, **values)
+    return {name: of[index] for name, of in values.items()}
+
+
+def write_misses(records: Any, found: Found, file: Path) -> None:
+    """The points that are wrong at any tolerance, with what is recorded and what is found."""
+    rows: list[dict[str, Any]] = []
+    for rtol, scenes in zip(RTOLS, found, strict=True):
+        for points, of in scenes.values():
+            for point, s, error, x in zip(points, of["s"], of["s_error"], of["critical_x"], strict=True):
+                word = records.verdict(point, s, error)
+                if word == "right":
+                    continue
+                row = {"point": point.name, "rtol": rtol, "verdict": word, "s": s, "s_error": error}
+                row |= {"x": x, "recorded": point.s, "recorded_error": point.error, "kind": point.kind}
+                row |= {"recorded_x": point.critical_x, "source": point.source}
+                path = point.arguments.get("load")
+                vertices = {} if path is None else {"vertices": json.dumps(path.vertices.tolist())}
+                rows.append(row | point.arguments | vertices)
+    with file.open("w", encoding="utf-8", newline="") as text:
+        table = csv.DictWriter(text, list(dict.fromkeys(key for row in rows for key in row)))
+        table.writeheader()
+        table.writerows(rows)
+
+
 def main() -> int:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
-    arguments.add_argument("--every", type=int, default=1, help="take one point of so many")
+    arguments.add_argument(
+        "--every", type=int, nargs=2, default=[1, 1], help="take one point of so many at each tolerance"
+    )
     arguments.add_argument("--scenes", nargs="+", help="only these scenes")
     arguments.add_argument("--missed", type=int, default=0, help="how many values are known to be wrong")
     arguments.add_argument("--workers", type=int, default=2)
+    arguments.add_argument("--parts", type=Path, help="folder that keeps what was found of each scene")
+    arguments.add_argument("--misses", type=Path, help="CSV file for the points that are wrong")
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
     records = _records()
     scenes = {name: points for name, points in records.points().items() if name in (given.scenes or [name])}
     if given.quick:
-        scenes, given.every, given.workers = dict([*scenes.items()][:1]), 1000, 1
-    found = {}
-    for name, every in scenes.items():
-        points = every[:: given.every]
-        found[name] = points, [records.solved(points, rtol, given.workers) for rtol in RTOLS]
-        print(name, flush=True)
+        scenes, given.every, given.workers = dict([*scenes.items()][:1]), [1000, 1000], 1
+    if given.parts:
+        given.parts.mkdir(parents=True, exist_ok=True)
+    found = []
+    for rtol, every in zip(RTOLS, given.every, strict=True):
+        found.append({})
+        for name, points in scenes.items():
+            index = np.arange(0, len(points), every)
+            found[-1][name] = [points[k] for k in index], found_of(records, name, points, index, rtol, given)
+            print(f"{name}, rtol {rtol:g}", flush=True)
     text = "\n".join(lines(records, found, given.every)) + "\n"
     (given.results / "truth.md").write_text(text, encoding="utf-8")
+    if given.misses:
+        write_misses(records, found, given.misses)
     chart(found).savefig(given.results / "truth.png", dpi=200)
     print(text)
     return int(sum(line.startswith("* ") for line in text.splitlines()) > given.missed)

@@ -68,9 +68,22 @@ def jit(function, **options):
     numba.config.CACHE_DIR = _FOLDER
     try:
         own = {"cache": bool(_FOLDER), "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-        return numba.njit(**own, **options)(function)
+        compiled = numba.njit(**own, **options)(function)
     finally:
         numba.config.CACHE_DIR = before
+    if not numba.config.DISABLE_JIT:
+        _compile_literals_as_numbers(compiled)
+    return compiled
+
+
+def _compile_literals_as_numbers(compiled):
+    """Let a call with a literal such as 0 use the code for all integers: Numba would compile it anew."""
+    template = compiled.get_call_template
+
+    def call_template(arguments, keywords):
+        return template(tuple(numba.types.unliteral(each) for each in arguments), keywords)
+
+    compiled.get_call_template = call_template
 
 
 def jit_reordered(function):

@@ -18,8 +18,9 @@ from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
-#: Coordinates are rounded to some 4e-14; tractions follow the root of what a slip front is off.
-ROUNDING = 2e-7
+#: Places of slip fronts are rounded to some 4e-14, and those of a moving edge to some 4e-16. Shear tractions,
+#: over μ, and pressures follow their roots.
+OF_FRONT, OF_EDGE = 2e-7, 2e-8
 #: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
 NEAREST = 1e-9
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
@@ -110,6 +111,13 @@ def tension_share(C, Q, tension):
 
 
 @jit
+def rounding_share(C, Q, tension):
+    """Largest stress that rounding makes near edge and front, over the tension."""
+    moves = C.largest > C.smallest
+    return (OF_FRONT * Q.friction + (OF_EDGE if moves else 0.0)) * sqrt(C.largest) / tension
+
+
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -141,7 +149,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s, out.place = S.best, S.place
-    rounding = (ROUNDING + coarse) / share if S.best > 0.0 else 0.0
+    rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
     out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
     if S.best > 0.0:
         b = P.flat_radius

@@ -240,17 +240,19 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
+def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
-    ``bulk_shift`` as long as it is no larger than the width of the slip zone.
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
+    known without a compiler, to 1e-5.
     """
     from swtstudy.mechanics.margins import Margins
 
     names = grid.margins
     if not names:
         return {}
-    every = Margins.joined([Margins.of(batch) for batch in points.batches])
+    of = Margins.foreseen if foreseen else Margins.of
+    every = Margins.joined([of(batch) for batch in points.batches])
     radius, stick, shift, ratio, slide = vars(every.take(points.index)).values()
     width = radius - stick  # of the slip zone
     if "bulk_shift" in names:

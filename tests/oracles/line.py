@@ -490,26 +490,9 @@ class Line:
         share = 0.5 - 0.5 * np.cos(pi * np.linspace(0.0, 1.0, count + 1))
         ends = self._passages(of, G_x, r)
         t = ends[:, :-1, None] + np.diff(ends, axis=1)[:, :, None] * share
-        n, v = course.n(t), course.v(t)
-        front, slope = of.front(n, v)
-        edge, ξ_front = self.radius(n), self.radius(front)
-        knots = np.broadcast_to(self.radius(of.G), (r.size, of.G.size))
-        slopes = np.clip(np.diff(of.o) / np.diff(of.G), -1.0, 1.0)
-        cell = np.clip(np.searchsorted(of.G, front, "right") - 1, 0, of.G.size - 2)
-
-        def sheared(at: Callable[[Array], Array]) -> Array:
-            """−Σ slope ΔA over the polygon up to the front, and over what slips beyond."""
-            A = at(knots)
-            total = np.concatenate(
-                [np.zeros((2, r.size, 1)), np.cumsum(slopes * np.diff(A), axis=-1)], axis=-1
-            )
-            rows = np.arange(r.size)[:, None, None]
-            A_front, A_edge = at(ξ_front), at(edge)
-            held = total[:, rows, cell] + slopes[cell] * (A_front - A[:, rows, cell])
-            return -(held + slope * (A_edge - A_front))
-
-        T1, T3 = sheared(running.inner_at)
-        Π, _ = sheared(running.outer_at)
+        edge = self.radius(course.n(t))
+        T1, T3 = self.sheared(of, t, running.inner_at)
+        Π, _ = self.sheared(of, t, running.outer_at)
         pressure, W = running.outer_at(edge)
         p, ν, μ, x = pressure / pi, self.ν, self.μ, r[:, None, None]
         bulk = course.bulk(t)
@@ -522,6 +505,22 @@ class Line:
         spread = (1.0 - 2.0 * ν) / pi * (load / (x * x) + W)
         normal = bulk + spread - p, -spread - 2.0 * ν * p, -p
         return np.stack([*normal, μ / pi * ((1.0 + ν) * T1 - ν * T3), μ / pi * ν * T3, μ / pi * Π])
+
+    def sheared(self, of: Interval, t: Array, at: Callable[[Array], Array]) -> Array:
+        """−Σ slope ΔA over the polygon up to the front, and over what slips beyond, at instants.
+
+        ``t`` has the shape (X, …); ``at`` gives A, shape (kinds, X, …), at radii ξ.
+        """
+        n, v = self.course.n(t), self.course.v(t)
+        front, slope = of.front(n, v)
+        A = at(np.broadcast_to(self.radius(of.G), (len(t), of.G.size)))
+        slopes = np.clip(np.diff(of.o) / np.diff(of.G), -1.0, 1.0)
+        cell = np.clip(np.searchsorted(of.G, front, "right") - 1, 0, of.G.size - 2)
+        total = np.cumsum(np.pad(slopes * np.diff(A), ((0, 0), (0, 0), (1, 0))), axis=-1)
+        rows = np.arange(len(t)).reshape(-1, *(1,) * (t.ndim - 1))
+        A_front, A_edge = at(self.radius(front)), at(self.radius(n))
+        held = total[:, rows, cell] + slopes[cell] * (A_front - A[:, rows, cell])
+        return -np.asarray(held + slope * (A_edge - A_front))
 
     def _passages(self, of: Interval, G_x: Array, r: Array) -> Array:
         """The instants at which the edge and the front pass positions, ascending with both ends, (X, k)."""
