@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from swtstudy import swt_of_history
 from swtstudy.kernel import batch
 from swtstudy.kernel.beneath import stretch_of
 from swtstudy.kernel.contact import NONE
@@ -22,7 +23,6 @@ from swtstudy.kernel.field import instants_of, open_cycle, stress_at
 from swtstudy.kernel.growth import solved_places
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.points import Points
 from swtstudy.mechanics.solver import arguments_of
 

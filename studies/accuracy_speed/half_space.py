@@ -7,8 +7,9 @@ from functools import lru_cache
 import numpy as np
 from histories import INSTANTS, history_at
 
+from swtstudy.kernel.field import largest_radius, open_cycle
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.paper.reference import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
@@ -32,8 +33,7 @@ def _model(side: int, width: float, nu: float):
 def half_space_s(point: Points, side: int) -> float:
     """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
     nu, mu = point.poisson_ratio.item(), point.friction.item()
-    profile = scene_of(point).profile
-    largest = float(profile.radius(profile.largest_depth)[0])
+    largest = largest_radius(open_cycle(**arguments_of(point)))
     width = 2.0 * WIDTH * largest
     radius = np.linspace(1e-3, 1.01, RADII) * largest
     history = history_at(point, radius)
