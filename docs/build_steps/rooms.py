@@ -72,8 +72,8 @@ MECHANICS = House(
     "swtstudy.mechanics",
     ("points", "numerics"),
     (
-        *("load", "indenter", "control", "contact", "planes", "events", "stress", "body"),
-        *("solver", "margins", "load_cycle", "counted", "quantities", "__init__"),
+        *("load", "indenter", "control", "solver", "body"),
+        *("margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )
 

@@ -24,10 +24,8 @@ RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 KINDS = {"wavy": "wavy", "struve": "wavy"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
-KINDS |= {"nonlocal": "means", "local_swt": "means", "half_sphere": "means", "quick_planes": "means"}
-KINDS |= {"histories": "means"}
-KINDS |= {"paraboloid": "edge", ".punch": "body", ".strip": "body", ".superposition": "body"}
-KINDS |= {".contact_states": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
+KINDS |= {"nonlocal": "means", "half_sphere": "means"}
+KINDS |= {"paraboloid": "edge", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
 #: Numbers that mean something rather than tune something.
 DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 #: Other values than half and twice, or a hundredth and a hundred times: v is the constant.

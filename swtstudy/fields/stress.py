@@ -24,8 +24,8 @@ from swtstudy.fields.one_point import (
 from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_at, stress_at
 from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.mechanics.numerics.arrays import SAME
-from swtstudy.mechanics.planes.criterion import criterion_of
 from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.vocabulary.criteria import CRITERIA
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.
@@ -146,10 +146,10 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     # n and −n are one plane: the first component that is not 0 is positive.
     first = np.take_along_axis(normal, (np.abs(normal) > SAME).argmax(axis=1)[:, None], axis=1)
     normal = normal * np.where(first < 0.0, -1.0, 1.0) + 0.0
-    criterion = criterion_of(points)
+    criterion = CRITERIA[points.criterion]
     dims, shape = places[0].dims, places[0].shape
     unit = "E* delta0/R" if criterion.degree == 2 else "E* delta0/a_H"
-    words = f"{criterion.words.replace('–', '-')} over {unit}"
+    words = f"{criterion.words} over {unit}"
     variables = {"s_local": (dims, swt.reshape(shape), named(words, criterion.symbol))}
     for axis, name in enumerate("xyz"):
         meaning = named("unit normal of the critical plane", f"n_{name}")

@@ -37,7 +37,7 @@ from swtstudy.kernel.history import (
     split,
 )
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, unresolved
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, locate, unresolved
 from swtstudy.kernel.profile import coordinate_at
 
 #: Intervals of a part at first.
@@ -53,6 +53,8 @@ ALONG, ACROSS = np.array([7, 8])
 ROUNDS = 8
 #: Cosine of the angle between planes that are one, and most planes that may follow one another as the best.
 SAME_PLANE, RIVALS = 0.9998, 4
+#: Share of the tolerance to which no plane is higher, where values are averaged.
+PROOF = 5.0
 #: Values lower than a floor by more than this share are left as the first instants give them.
 CLOSE = 0.2
 HERE = np.dtype(
@@ -232,7 +234,10 @@ def value_on_plane(S, H, W, G, Q):
     """H of the best plane with the maxima between the instants."""
     follow_plane(S, H, W, G, Q)
     find_peaks(H, W, Q, 1.0, 0.0)
-    return lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING], G.noise)
+    for which in range(3):
+        locate(H, W, Q, which, 1.0, 0.0)
+    swing = W.at_peak[SWING, 0] - W.at_peak[MINUS_SWING, 0]
+    return lifted(Q, W.at_peak[STRESS, 0], swing, G.noise)
 
 
 @jit
@@ -264,7 +269,7 @@ def settle_place(S, B, H, W, G, C, P, L, Q, tolerance):
 
 
 @jit
-def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, coarsest):
+def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest):
     """The criterion at (x, y, z) over all planes, with its plane's normal in G, and what it may miss.
 
     The normal in G before is a guess, or 0. Parts are doubled on its plane, before all planes are searched.
@@ -274,7 +279,9 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
     floor
         Values below it may be low.
     tolerance
-        Relative, of the value.
+        Relative, of the value on its plane.
+    proof
+        No plane is higher by more, relative, at the instants that there are.
     coarsest
         Intervals of a part at first.
     """
@@ -290,13 +297,13 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
     if n[0] != 0.0 or n[1] != 0.0 or n[2] != 0.0:
         climb_from(G, S.stress, H.instants, Q, n[0], n[1], n[2])
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
-        highest_plane(G, S.stress, H.instants, Q, least, allowed)
+        highest_plane(G, S.stress, H.instants, Q, least, proof)
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
         return value_of(Q, G.best), 0.0
     h = settle_place(S, B, H, W, G, C, P, L, Q, allowed)
     for _ in range(RIVALS):
         missing, first[0], first[1], first[2] = S.missing, n[0], n[1], n[2]
-        best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), allowed)
+        best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), proof)
         if (
             best <= (1.0 - allowed) * h
             or abs(first[0] * n[0] + first[1] * n[1] + first[2] * n[2]) > SAME_PLANE
@@ -338,17 +345,18 @@ def largest_at_places(
     Each place takes the plane of the one before as a guess, unless it is alone.
     """
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
+    proof = 0.5 * tolerance if alone else PROOF * tolerance
     for i in range(places.shape[0]):
         if alone:
             G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
         values[i], missing[i] = largest_at(
-            S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, coarsest
+            S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest
         )
         for c in range(3):
             normals[i, c] = G.normal[c]
-        if values[i] == 0.0:  # all planes are alike
-            normals[i, 0], normals[i, 1], normals[i, 2] = 1.0, 0.0, 0.0
+        if values[i] == 0.0:  # no plane ever sees tension
+            normals[i, 0], normals[i, 1], normals[i, 2] = np.nan, np.nan, np.nan
 
 
 @jit

@@ -20,7 +20,6 @@ from swtstudy.kernel.field import (
     passed_radii,
 )
 from swtstudy.mechanics.numerics.arrays import SAME
-from swtstudy.mechanics.planes.all_planes import CriticalPlane
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.solver import arguments_of
 
@@ -55,7 +54,7 @@ _ALONG_X = np.array([1.0, 0.0, 0.0])
 
 @dataclass(frozen=True)
 class BodyMaximum:
-    """Largest swt of the body.
+    """Largest swt of the body, or swt at one of its places.
 
     Attributes
     ----------
@@ -91,7 +90,7 @@ class _Search:
     ring: float
 
 
-def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, CriticalPlane]:
+def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximum]:
     """Largest swt over the body, and swt over all planes at the surface line's critical point.
 
     Parameters
@@ -120,8 +119,10 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, CriticalPl
     found = BodyMaximum(float(swt[best][0]), position, normal[best][0])
     if far > 0.0 and far >= (1.0 - SAME) * found.swt:
         found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
-    at_line = (np.array(far), _ALONG_X) if line_is_far else (swt[1][0], normal[1][0])
-    return found, CriticalPlane(*at_line)
+    at_line = BodyMaximum(float(swt[1][0]), np.array(_cartesian(own)), normal[1][0])
+    if line_is_far:
+        at_line = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
+    return found, at_line
 
 
 def _swt(opened: Opened, places: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
