@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.load import closed_course
 from swtstudy.figures.style import stroke
-from swtstudy.mechanics.load.load import Loop
+from swtstudy.loads.loop import Loop
 
 if TYPE_CHECKING:
     from swtstudy.figures.sheet import Figure
