@@ -64,7 +64,18 @@ WHOLE = House(
     "swtstudy",
     ("vocabulary",),
     (
-        *("kernel", "mechanics", "points", "solving", "units", "study", "archive", "results", "fields"),
+        *(
+            "kernel",
+            "loads",
+            "mechanics",
+            "points",
+            "solving",
+            "units",
+            "study",
+            "archive",
+            "results",
+            "fields",
+        ),
         *("figures", "contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
     ),
 )
@@ -72,7 +83,7 @@ MECHANICS = House(
     "swtstudy.mechanics",
     ("points", "numerics"),
     (
-        *("load", "indenter", "control", "solver", "body"),
+        *("indenter", "control", "solver", "body"),
         *("margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )

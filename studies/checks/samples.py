@@ -10,9 +10,9 @@ from accuracy import points_at_ends, random_points
 from nonlocal_means import worn
 from overlooked import CHUNK, drawn
 
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import body_maximum
-from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.quantities import quantities_of
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of

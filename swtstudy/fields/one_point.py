@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
-from swtstudy.mechanics.load.load import Loop
+from swtstudy.loads.loop import Loop
 from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.points import FloatArray, Points

@@ -7,10 +7,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
-from swtstudy.kernel.loops import without_collinear
-
-#: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
-SAMPLES = 32
+from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
 
 def load_of(
@@ -106,35 +103,9 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     load["fastest"] = max([1, fastest, *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
-    for component, name in ((0, "normal_range"), (BULK, "bulk_range")):
-        rest = float(load["rest"][component])
-        if len(components[component]) < 2:
-            swing = sum(abs(row[1]) for row in components[component])
-            load[name] = rest - swing, rest + swing
-        else:
-            load[name] = _range(load, component)
+    for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
+        load[name] = np.add(means[component], ends_of_sum(rows))
     return load
-
-
-def _range(load, component):
-    """Smallest and largest value of one component of a sum of harmonics."""
-    count = load["terms"]
-    cosine, sine = load["cosine"][component, :count], load["sine"][component, :count]
-    moving, rest = np.flatnonzero(np.hypot(cosine, sine)), load["rest"][component]
-    order = load["order"][:count]
-    waves = np.outer(2.0 * np.pi / (SAMPLES * order.max()) * np.arange(SAMPLES * order.max()), order)
-    values = np.cos(waves) @ cosine + np.sin(waves) @ sine
-    ends = []
-    for best in (values.argmin(), values.argmax()):
-        t, value = waves[best, moving[0]] / order[moving[0]], values[best]
-        for _ in range(6):
-            of_cos, of_sin = np.cos(order * t), np.sin(order * t)
-            rate = order * (sine * of_cos - cosine * of_sin)
-            bend = order**2 * (cosine * of_cos + sine * of_sin)
-            t += rate.sum() / bend.sum() if bend.sum() else 0.0
-        found = np.cos(order * t) @ cosine + np.sin(order * t) @ sine
-        ends.append(rest + (min if best == values.argmin() else max)(value, found))
-    return ends
 
 
 def polygon(normal, tangential, bulk=None, every=False):

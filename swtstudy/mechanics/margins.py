@@ -21,10 +21,10 @@ from swtstudy.mechanics.control.coordinate import (
     Coordinate,
     DepthCoordinate,
     ForceCoordinate,
+    largest_depth,
     profile_up_to_force,
     unit_half_load,
 )
-from swtstudy.mechanics.control.diagram import largest_depth
 from swtstudy.mechanics.indenter import make_profile, roughness
 from swtstudy.mechanics.points import FloatArray, IndexArray, Points, Rows
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
@@ -183,8 +183,7 @@ def bulk_shift(points: Points) -> FloatArray:
     """
     ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
     if points.path is not None:
-        course = points.path.bulk
-        amplitude = amplitude * (0.0 if course is None else 0.5 * np.ptp(course.ends))
+        amplitude = amplitude * 0.5 * np.ptp(points.path.bulk_ends or (0.0, 0.0))
     if points.profile not in (PLAIN, PLAIN_STRIP):
         return np.where((amplitude == 0.0) & (μ > 0.0), 0.0, np.nan)
     stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
+    from swtstudy.loads.loop import Loop
     from swtstudy.mechanics.indenter.profile_table import AnyProfile
-    from swtstudy.mechanics.load.load import Loop
 
 
 class Rows:

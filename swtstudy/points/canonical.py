@@ -139,7 +139,7 @@ def _make_profiles_canonical(table: Table) -> None:
 
 def _make_loads_canonical(table: Table) -> BoolArray:
     """Returns where x is mirrored."""
-    from swtstudy.mechanics.load.bimodal import fold_bulk_phase, fold_phase, without_what_stands_still
+    from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = table["p"], table["q"]
     normal, tangential, phase = (
@@ -219,7 +219,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     definitions
         What the user has defined, by its code.
     """
-    from swtstudy.mechanics.load.load import Loop
+    from swtstudy.loads.loop import Loop
     from swtstudy.mechanics.points import Points
 
     profile = value_of(table["profile"][0], definitions)

@@ -183,7 +183,7 @@ def estimate(work: Workload, rtol: float, solver: Solver) -> tuple[float, int]:
 
 def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[int, float]]:
     """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.loads.load_path import LoadPath
 
     lean, growth = dict(points.definitions), {}
     for code, loop in points.definitions.items():

@@ -11,10 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.kernel.loops import without_collinear
-from swtstudy.mechanics.load.load import FINITE, LARGEST, Load, Loop, checked_mean, checked_name, mean_of
-from swtstudy.mechanics.load.polygon import PolygonCourse, PolygonLoad
-from swtstudy.mechanics.load.smooth import SmoothPath, sampled
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.loads.loop import FINITE, LARGEST, FloatArray, Loop, checked_mean, checked_name, mean_of
+from swtstudy.loads.smooth_path import SmoothPath, sampled
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -190,24 +188,14 @@ class LoadPath(Loop):
     def tangential_ends(self) -> tuple[float, float]:
         return float(self.vertices[:, 1].min()), float(self.vertices[:, 1].max())
 
-    @cached_property
-    def bulk(self) -> PolygonCourse | None:
+    @property
+    def bulk_ends(self) -> tuple[float, float] | None:
         if self.vertices.shape[1] < 3:
             return None
-        return PolygonCourse(np.append(self.vertices[:, 2], self.vertices[0, 2]))
+        return float(self.vertices[:, 2].min()), float(self.vertices[:, 2].max())
 
-    @property
-    def turn_count(self) -> int:
-        # As many again where contact is made or lost.
-        return len(self.vertices)
-
-    def loads(self, normal_amplitude: FloatArray, tangential_amplitude: FloatArray) -> Load:
-        normal, tangential = self.vertices.T[:2]
-        loops = [
-            np.stack([1.0 + n * normal, t * tangential], axis=1)
-            for n, t in zip(normal_amplitude, tangential_amplitude, strict=True)
-        ]
-        return PolygonLoad.of(loops) if self.bulk is None else PolygonLoad.through(loops)
+    def course(self) -> FloatArray:
+        return np.concatenate([self.vertices, self.vertices[:1]])
 
 
 def _checked(vertices: ArrayLike, name: str) -> FloatArray:
