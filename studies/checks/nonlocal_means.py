@@ -59,8 +59,8 @@ RUNS = 3
 #: Means with so many places and instants are what the others are held against.
 TIGHT = {
     "ONE": nonlocal_swt.ONE._replace(distances=19, inclinations=39, on_line=63),
-    "OF_MANY": 0.05,
-    "OF_SINGLE": 0.05,
+    "OF_MANY": 0.02,
+    "OF_SINGLE": 0.01,
     "FLOOR": 1e-4,
     "MANY": nonlocal_swt.SINGLE,
 }

@@ -375,7 +375,8 @@ def von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values):
             W.a[j] = sqrt(0.5 * normal + 3.0 * (yz * yz + xz * xz + xy * xy))
             W.b[j], W.c[j], W.d[j] = 0.0, 0.0, 0.0
         find_peaks(H, W, Q, 1.0, 0.0)
-        values[i] = W.top[STRESS]
+        locate(H, W, Q, STRESS, 1.0, 0.0)
+        values[i] = W.at_peak[STRESS, 0]
 
 
 @jit

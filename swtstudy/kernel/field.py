@@ -176,7 +176,8 @@ def instants_at(opened, place, tolerance):
     time = np.empty(MAX_INSTANTS)
     count = write_instants(_workspace()[3], load, time)
     turn = 2.0 * np.pi / load["period"]
-    angle = np.unique(np.mod(time[:count] * turn, 2.0 * np.pi))
+    angle = np.mod(time[:count] * turn, 2.0 * np.pi)
+    angle = np.unique(np.concatenate([angle, [0.0, 2.0 * np.pi]]))
     nu = float(opened.ask["poisson_ratio"]) if opened.ask["criterion"] == SWT else 0.0
     share = np.arange(1, CLOSER) / CLOSER
     for _ in range(LOOKS):

@@ -12,7 +12,6 @@ from scenes import each_profile, random_points
 from scipy.integrate import simpson
 
 import swtstudy
-from swtstudy.fields import stress
 from swtstudy.vocabulary.mistakes import StudyError
 
 
@@ -317,9 +316,8 @@ def swt_at(x, y, z, parameters):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
-def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
-    """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
-    monkeypatch.setattr(stress, "_STEPS_OF_SWT", 10)
+def test_nonlocal_values_are_means_of_the_field(parameters):
+    """Of swt_field, by quadratures of the test's own."""
     distance = 0.15
     found = swtstudy.solve(critical_distance=distance, **parameters)
     angle = np.radians(float(found.critical_angle))

@@ -166,8 +166,8 @@ def test_the_body_says_the_same_as_the_line_where_friction_rules() -> None:
         own = of_criterion(batch, name, 0.3)
         line = solve_points(own, 1e-5)
         body, at_line = body_maximum(own, float(line.critical_x[0]))
-        assert at_line.swt == pytest.approx(line.s[0], rel=2e-5)
-        assert body.swt == pytest.approx(line.s[0], rel=1e-4)
+        assert at_line.swt == pytest.approx(line.s[0], rel=2e-4)
+        assert body.swt == pytest.approx(line.s[0], rel=2e-4)
 
 
 def test_crosslands_sphere() -> None:

@@ -218,7 +218,8 @@ def test_known_means(known):
     _, found = nonlocal_of(batch, distance)
     values = found.volume[0, 0], found.point[0, 0, 0], found.line[0, 0, 0]
     off = np.abs(np.subtract(values, expected)) / expected
-    assert (off < [1.5e-3, 3e-4, 1e-3]).all()
+    # The critical place is a smooth maximum, known to 1e-4; beneath it swt falls by 1e-3 over that.
+    assert (off < [1.5e-3, 1e-3, 1e-3]).all()
     errors = found.volume_error[0, 0], found.point_error[0, 0, 0], found.line_error[0, 0, 0]
     # The other rule is off by up to 8e-4 itself.
     assert (off < np.array(errors) / expected + 8e-4).all()
@@ -283,7 +284,8 @@ def test_planes_that_take_turns_straight_down_are_all_found():
     x = float(solve_points(batch, 1e-6).critical_x[0])
     places = np.array([[x, 0.0, share * distance] for share in (0.1, 0.2, 0.3)])
     found = criterion_at(opened(batch), places, 1e-4)[0]
-    np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-4)
+    # The critical place is known to 1e-4, over which the first value changes by 3e-3.
+    np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-3)
 
 
 def around(batch, distance):

@@ -48,7 +48,7 @@ OF_SMALLER = 2e-4
 #: many planes are alike.
 OF_LARGEST = 2e-5
 #: Relative tolerance of values that are averaged, and of single ones, over that of the means.
-OF_MANY, OF_SINGLE = 1.0, 0.3
+OF_MANY, OF_SINGLE = 0.3, 0.03
 #: Values below this share of those at ℓ/2 are not told as closely: they do not tell in a mean.
 FLOOR = 0.02
 #: Tolerance of what grew in stick.
