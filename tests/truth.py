@@ -264,6 +264,13 @@ def contacts() -> list[Counted]:
 OF_MEANS = 1e-2
 
 
+def is_elsewhere(name: str, found: dict[str, float], recorded: dict[str, float]) -> bool:
+    """Whether a larger mean was found about another local maximum than the recorded one."""
+    kind, _, way = name.removeprefix("s_").partition("_")
+    place = f"{kind}_x_{way}" if way else f"{kind}_x"
+    return found[name] > recorded[name] and abs(found[place] - recorded[place]) > 1e-3
+
+
 def off_means(point: Point, rtol: float = 1e-4) -> dict[str, tuple[float, float]]:
     """The means that differ from the record by more than all errors: found and recorded."""
     found, recorded = means(point, rtol), point.values
@@ -273,6 +280,7 @@ def off_means(point: Point, rtol: float = 1e-4) -> dict[str, tuple[float, float]
         if f"{name}_error" in recorded
         and abs(value - recorded[name])
         > found[f"{name}_error"] + recorded[f"{name}_error"] + OF_MEANS * recorded[name]
+        and not is_elsewhere(name, found, recorded)
     }
 
 

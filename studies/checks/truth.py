@@ -148,7 +148,7 @@ def other_values(records: Any, step: int) -> Iterator[tuple[str, list[Other]]]:
     for point in means:
         own = records.means(point)
         for name in own:
-            if f"{name}_error" in own:
+            if f"{name}_error" in own and not records.is_elsewhere(name, own, point.values):
                 value = point.values[name]
                 allowed = own[f"{name}_error"] + point.values[f"{name}_error"] + records.OF_MEANS * value
                 of_means.append((f"{point.name} {name}", own[name], value, allowed))

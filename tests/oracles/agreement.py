@@ -89,7 +89,10 @@ def lines(rows: list[dict[str, str]]) -> Iterator[str]:
     for kind, (_, words) in KINDS.items():
         own = [row for row in rows if row["kind"] == kind]
         if own:
-            off = np.array([float(row["oracle"]) / float(row["recorded"]) - 1.0 for row in own])
+            recorded, oracle = (
+                np.array([float(row[name]) for row in own]) for name in ("recorded", "oracle")
+            )
+            off = (oracle - recorded) / np.where(recorded > 0.0, recorded, 1.0)
             within = [f"{(np.abs(off) <= bound).sum()}" for bound in BOUNDS]
             yield f"| {words} | {len(own)} | {' | '.join(within)} | {off.min():.1e} | {off.max():.1e} |"
             far += [
