@@ -22,8 +22,6 @@ MISSED: tuple[str, ...] = (
     "phases next to 0 and π 987",
     "phases next to 0 and π 1232",
     "phases next to 0 and π 1673",
-    # The sharp tip of a power law: s leaves out what is nearer to it than 1e-5 of the contact radius.
-    "reference values 128",
 )
 #: Scenes of which every point is a case of its own.
 NAMED = ("turns within growth", "coincident phases")
