@@ -75,17 +75,19 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process."""
+    from swtstudy.points.chunk import Asked, chunks, solve_points, values_of
     from swtstudy.points.labelled import label_records
-    from swtstudy.runner.chunk import chunks, solve_points, values_of
-    from swtstudy.runner.workload import everything
+    from swtstudy.points.records import Records
+    from swtstudy.points.unique import kinds, unique_points, wanted
 
-    work = everything(grid, asked)
-    with Progress(work.todo) as progress:
-        for wanted, of_them in list(work.tasks()):
-            for chunk in chunks(work.points, wanted, of_them):
-                work.records.fill(chunk.rows, values_of(chunk, rtol, solve_points))
+    points = unique_points(grid)
+    records = Records.missing(points.table)
+    with Progress(len(records)) as progress:
+        for some, items in kinds(np.ones(len(records), bool), *wanted(grid, asked, points)):
+            for chunk in chunks(points, some, Asked(items)):
+                records.fill(chunk.rows, values_of(chunk, rtol, solve_points))
                 progress.add(len(chunk))
-    dataset = label_records(grid, work.points, work.records, asked, of_runs=False)
+    dataset = label_records(grid, points, records, asked, of_runs=False)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 

@@ -23,7 +23,7 @@ from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
-from swtstudy.runner.chunk import Chunk
+from swtstudy.points.chunk import Chunk
 from swtstudy.runner.run import Stopped
 
 WORKERS = 2

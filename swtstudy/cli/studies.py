@@ -139,7 +139,7 @@ def _again(work: Workload) -> Iterator[str]:
 
 def _time(work: Workload, rtol: float, workers: int) -> Iterator[str]:
     """Estimate the time of a run from a few points that are solved."""
-    from swtstudy.runner.chunk import solve_points
+    from swtstudy.points.chunk import solve_points
     from swtstudy.runner.workload import estimate
     from swtstudy.vocabulary.wording import duration
 

@@ -76,6 +76,14 @@ def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str,
     return (*asked.same, *distances), of
 
 
+def kinds(
+    some: BoolArray, items: tuple[str, ...], of: BoolArray
+) -> Iterator[tuple[BoolArray, tuple[str, ...]]]:
+    """Masks of those of some points of which the same items are wanted, and these; see `wanted`."""
+    for one in np.unique(of[some], axis=0) if of.size else [of[0]] * bool(some.any()):
+        yield some & (of == one).all(axis=1), tuple(np.array(items, object)[one])
+
+
 def columns_at(
     grid: Grid, asked: Request, points: UniquePoints, known: Callable[[str], FloatArray]
 ) -> dict[str, FloatArray]:

@@ -10,8 +10,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swtstudy.points.chunk import Solver, chunks
 from swtstudy.points.records import Records, Run
-from swtstudy.runner.chunk import Solver, chunks
 from swtstudy.runner.collector import Collector
 from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.workload import Workload, assess

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.runner.chunk import Solver, solve_points
+from swtstudy.points.chunk import Solver, solve_points
 from swtstudy.runner.engine import ThreadPool
 from swtstudy.runner.job import Job, Stopped
 from swtstudy.study.definition import Study, read_studies

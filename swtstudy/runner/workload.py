@@ -7,19 +7,17 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Table, group_rows
-from swtstudy.points.grid import Grid
-from swtstudy.points.records import MISSING, Records, join, look_up, matching
-from swtstudy.points.unique import UniquePoints, unique_points, wanted
-from swtstudy.runner.chunk import Asked, Solver, chunks, solve_chunk
+from swtstudy.points.chunk import Asked, Solver, chunks, solve_chunk
+from swtstudy.points.records import MISSING, Records, look_up, matching
+from swtstudy.points.unique import UniquePoints, kinds, unique_points, wanted
 from swtstudy.study.definition import Study
-from swtstudy.vocabulary.quantities import Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 
@@ -47,9 +45,9 @@ class Workload:
     records: Records
     quantities: tuple[str, ...]
     wanted: BoolArray
-    dropped: Records = field(default_factory=lambda: join([]))
-    outdated: int = 0
-    coarse: int = 0
+    dropped: Records
+    outdated: int
+    coarse: int
 
     @property
     def missing(self) -> BoolArray:
@@ -78,15 +76,8 @@ class Workload:
             (missing, self.wanted, None),
             (lacking.any(axis=1), lacking, self.records.solution),
         ):
-            for one in np.unique(of[some], axis=0) if of.size else [of[0]] * bool(some.any()):
-                names = tuple(name for name, lacks in zip(self.quantities, one, strict=True) if lacks)
-                yield some & (of == one).all(axis=1), Asked(names, known)
-
-
-def everything(grid: Grid, asked: Request) -> Workload:
-    """The work of a grid of which nothing is known."""
-    points = unique_points(grid)
-    return Workload(points, Records.missing(points.table), *wanted(grid, asked, points))
+            for mask, names in kinds(np.asarray(some), self.quantities, of):
+                yield mask, Asked(names, known)
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Workload:

@@ -7,7 +7,7 @@ import sys
 import time
 from typing import Any, Self, TextIO
 
-_log = logging.getLogger("swtstudy.progress")
+_log = logging.getLogger(__name__)
 
 #: Seconds after which a bar appears, unless it is there from the first moment.
 PATIENCE = 2.0
