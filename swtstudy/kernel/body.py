@@ -40,8 +40,8 @@ from swtstudy.kernel.load import bulk_at
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, locate, unresolved
 from swtstudy.kernel.profile import coordinate_at
 
-#: Intervals of a part at first.
-COARSEST = np.int64(4)
+#: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
+COARSEST, OF_VON_MISES = np.array([4, 8])
 #: Where the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25
@@ -364,19 +364,17 @@ def von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values):
     """Write the largest von Mises stress of the cycle at places, (n, 3)."""
     for i in range(places.shape[0]):
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
-        sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, Q.poisson_ratio, Q.friction, COARSEST)
+        sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, Q.poisson_ratio, Q.friction, OF_VON_MISES)
         if S.overflow:
             values[i] = np.nan
             continue
+        largest_square = 0.0
         for j in range(H.instants):
             xx, yy, zz = S.stress[0, j], S.stress[1, j], S.stress[2, j]
             yz, xz, xy = S.stress[3, j], S.stress[4, j], S.stress[5, j]
             normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)
-            W.a[j] = sqrt(0.5 * normal + 3.0 * (yz * yz + xz * xz + xy * xy))
-            W.b[j], W.c[j], W.d[j] = 0.0, 0.0, 0.0
-        find_peaks(H, W, Q, 1.0, 0.0)
-        locate(H, W, Q, STRESS, 1.0, 0.0)
-        values[i] = W.at_peak[STRESS, 0]
+            largest_square = max(largest_square, 0.5 * normal + 3.0 * (yz * yz + xz * xz + xy * xy))
+        values[i] = sqrt(largest_square)
 
 
 @jit

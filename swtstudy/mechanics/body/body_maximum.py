@@ -27,6 +27,8 @@ from swtstudy.mechanics.solver import arguments_of
 LOOK, SEARCH, VALUE = 1e-2, 1e-3, 1e-5
 #: In a climb places below this share of the height are of no interest.
 LEFT_OUT = 0.9
+#: Where the bulk stress alone is as high as the body's maximum but for this share, it is the maximum.
+FAR = 1e-6
 #: Most radii of the first look at which edges and fronts turn.
 MOST_CUSPS = 40
 #: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius. Half
@@ -117,7 +119,7 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     best = int(swt[1][0] >= swt[0][0])
     position = np.array(_cartesian((place, own)[best]))
     found = BodyMaximum(float(swt[best][0]), position, normal[best][0])
-    if far > 0.0 and far >= (1.0 - SAME) * found.swt:
+    if far > 0.0 and far >= (1.0 - FAR) * found.swt:
         found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
     at_line = BodyMaximum(float(swt[1][0]), np.array(_cartesian(own)), normal[1][0])
     if line_is_far:
