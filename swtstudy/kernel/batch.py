@@ -245,7 +245,7 @@ def cycle_batch(with_ratio, *points, **given):
 
 
 def margins_batch(*points, **given):
-    """How far points are from where the model ends, as far as the load alone gives it.
+    """Margins of points: how far they are from where the model ends, as far as the load alone gives it.
 
     Parameters
     ----------

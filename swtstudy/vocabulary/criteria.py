@@ -8,7 +8,7 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 
 
 class Swing(NamedTuple):
-    """What swings on a plane: its name as a variable, what a reader calls it, and its symbol in LaTeX."""
+    """The swing of a plane: its name as a variable, what a reader calls it, and its symbol in LaTeX."""
 
     name: str
     words: str
