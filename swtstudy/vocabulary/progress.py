@@ -68,7 +68,7 @@ class Progress:
 
     def _show(self) -> None:
         """Show the bar where there is somebody to see it; importing tqdm takes a while."""
-        notebook = "ipykernel" in sys.modules
+        notebook = _in_notebook()
         self._hidden = not self._total or not (notebook or _is_terminal(sys.stderr))
         if self._hidden:
             return
@@ -93,6 +93,13 @@ class Progress:
         of = f" of {self._total}" if self._total else ""
         rate = f", {self._done / seconds:.3g}/s" if seconds > 0.0 else ""
         return f"{self._name}: {self._done}{of} {self._unit}{rate}".removeprefix(": ")
+
+
+def _in_notebook() -> bool:
+    """True in a cell of a notebook; not where its kernel is merely imported."""
+    ipython = sys.modules.get("IPython")
+    shell = None if ipython is None else ipython.get_ipython()
+    return shell is not None and "IPKernelApp" in shell.config
 
 
 def _is_terminal(stream: TextIO | None) -> bool:
