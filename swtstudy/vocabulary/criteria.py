@@ -1,4 +1,4 @@
-"""What a reader calls the criteria on a plane, and what swings; formulas: `swtstudy.kernel.criterion`."""
+"""Words for the criteria on a plane and for what swings; formulas: `swtstudy.kernel.criterion`."""
 
 from __future__ import annotations
 
