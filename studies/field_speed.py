@@ -15,13 +15,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from swtstudy.mechanics import solve_points, solver
-from swtstudy.mechanics.body.body import Body, nodes_at
+from swtstudy import swt_of_history
+from swtstudy.kernel import batch
+from swtstudy.kernel.beneath import stretch_of
+from swtstudy.kernel.contact import NONE
+from swtstudy.kernel.field import instants_of, open_cycle, stress_at
+from swtstudy.kernel.growth import solved_places
+from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_of_history
 from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.stress.contact_states import contact_states
-from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mechanics.solver import arguments_of
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", ImportWarning)
@@ -29,7 +32,7 @@ with warnings.catch_warnings():
 
 FRICTION, POISSON = 0.3, 0.3
 P0 = 2 / np.pi
-PLAIN_PLANES, CELLS = 281, 200
+PLAIN_PLANES = 281
 WIDTH, DEPTH = 6.0, 1.5
 
 
@@ -57,31 +60,39 @@ def timed(call, repeats=3):
 
 
 def table_1(instants):
-    """Table 1 at uniform instants, and its contact states: all slopes are −1, 0 or 1 at ψ = 0."""
+    """Table 1's cycle, uniform instants, and its contact states: all slopes are −1, 0 or 1 at ψ = 0."""
     values = (np.array([v]) for v in (POISSON, FRICTION, 0.75))
     ratio = np.array([1]), np.array([1])
-    scene = scene_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
-    nodes = nodes_at(scene, 2.0 * np.pi * np.arange(instants) / instants)
-    states = contact_states(scene.cycle, scene.coordinate, nodes.interval, nodes.instant, CELLS)
-    return Body(scene, nodes, CELLS), states
+    opened = open_cycle(
+        **arguments_of(Points("paraboloid", *values, *ratio, np.array([5 / 6]), np.array([0.0])))
+    )
+    angle = 2.0 * np.pi * np.arange(instants) / instants
+    return opened, angle, [jumps(opened, float(t)) for t in instants_of(opened, angle)]
 
 
-def jumps(states, instant):
+def jumps(opened, instant):
     """Radii and slope jumps of the pressure and of the tangential load at an instant."""
-    for slope, factor, tangential in (
-        (states.touching[instant], 1.0, False),
-        (states.tangential_slope[instant, 0], -FRICTION, True),
-    ):
-        size = -np.diff(slope, append=0.0)
-        for a, jump in zip(states.cells.radius[1:][size != 0.0], size[size != 0.0], strict=True):
-            yield tangential, a, factor * jump
+    C, _, P, L, _, _ = opened
+    k, t, sign = stretch_of(C, L, instant)
+    edge, front = solved_places(C, P, L, k, t)
+    slope, radius, piece = float(C["push"][k]), edge, int(C["piece"][k])
+    found, outer = [(False, edge, 1.0)], 0.0
+    while True:
+        if slope != outer and radius > 0.0:
+            found.append((True, radius, sign * FRICTION * (slope - outer)))
+        if piece == NONE:
+            return found
+        outer, slope, radius = slope, float(C["slope"][piece]), front
+        front, piece = float(C["start_s"][piece]), int(C["beneath"][piece])
+        if piece == NONE and front > 0.0:
+            raise ValueError("the lowest piece begins at the axis")
 
 
 def by_hamilton(states, x, y, z):
     """Shape (points, instants, 6)."""
-    stress = np.zeros((len(states.touching), 6, x.size))
+    stress = np.zeros((len(states), 6, x.size))
     for instant in range(len(stress)):
-        for tangential, a, factor in jumps(states, instant):
+        for tangential, a, factor in states[instant]:
             solution = Hertz.stress_for_tangential_loading if tangential else Hertz.stress_Cartesian
             stress[instant] += factor * a * P0 * np.array(solution(x / a, y / a, z / a, POISSON))
     return np.moveaxis(stress, -1, 0)
@@ -105,7 +116,7 @@ class Tamaas:
         """Stress on the whole grid (z, x, y, 6), components as in this package."""
         r2 = self.axis[:, None] ** 2 + self.axis**2
         self.model.traction[...] = 0.0
-        for tangential, a, factor in jumps(states, instant):
+        for tangential, a, factor in states[instant]:
             traction = factor * P0 * np.sqrt(np.maximum(a * a - r2, 0.0))
             self.model.traction[..., 0 if tangential else 2] += traction
         self.model.operators["boussinesq_gradient"](self.model.traction, self.strain)
@@ -116,7 +127,7 @@ class Tamaas:
 
 def report(size):
     """The table, as lines of Markdown."""
-    body, states = table_1(size.instants)
+    opened, angle, states = table_1(size.instants)
     axis = (np.arange(size.grid) - size.grid // 2) * WIDTH / size.grid
     inside = np.flatnonzero(np.abs(axis) < 1.5)
     layers = np.arange(1, size.layers - 8, 3)
@@ -124,7 +135,7 @@ def report(size):
         np.linspace(0.0, DEPTH, size.layers)[layers], axis[inside], axis[inside], indexing="ij"
     )
     z, x, y = (v.ravel() for v in grid)
-    ours, our_time = timed(lambda: body.stress(x, y, z))
+    ours, our_time = timed(lambda: stress_at(opened, np.stack([x, y, z], axis=1), angle))
     hamilton, hamilton_time = timed(lambda: by_hamilton(states, x, y, z), repeats=1)
     values = ours.size // 6
     # Hamilton's formulas cancel next to the axis.
@@ -166,9 +177,9 @@ def plain_search(stress, normals):
 def planes(size):
     """Time of the search over all planes on the histories of the body, as lines of Markdown."""
     rng = np.random.default_rng(0)
-    body, _ = table_1(size.instants)
+    opened, angle, _ = table_1(size.instants)
     x, y, z = *rng.uniform(-1.5, 1.5, (2, size.points)), rng.uniform(0.0, 0.3, size.points)
-    stress = body.stress(x, y, z)
+    stress = stress_at(opened, np.stack([x, y, z], axis=1), angle)
     found, full = timed(lambda: swt_of_history(stress, POISSON, 1.0 - POISSON**2))
     normals = hemisphere(PLAIN_PLANES)
     parts = np.array_split(stress, 20)
@@ -191,9 +202,9 @@ def circle(size):
     amplitudes = 0.75 * one, ratio, ratio, 5 / 6 * one
     points = Points("paraboloid", 0.45 * one, FRICTION * one, *amplitudes, phase)
     _, looking = timed(lambda: solve_points(points))
-    safe, solver.SAFE_POISSON_RATIO = solver.SAFE_POISSON_RATIO, 0.5
+    search, batch.search_circles = batch.search_circles, lambda *records: None
     _, alone = timed(lambda: solve_points(points))
-    solver.SAFE_POISSON_RATIO = safe
+    batch.search_circles = search
     return [
         "",
         f"s at {len(phase)} phases and ν = 0.45: {1e3 * alone / len(phase):.2f} ms a value on the line, "

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from swtstudy.figures.inspection import inspect as inspect
     from swtstudy.figures.load import draw_load as draw_load
     from swtstudy.figures.profile import draw_profile as draw_profile
+    from swtstudy.loads.load_path import LoadPath as LoadPath
     from swtstudy.mechanics.indenter.profile_table import TabulatedProfile as TabulatedProfile
-    from swtstudy.mechanics.load.load_path import LoadPath as LoadPath
     from swtstudy.paper.audit.audit import audit_study as audit_study
     from swtstudy.results.fitting import fit as fit
     from swtstudy.results.optimise import optimise as optimise
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 # Imported on first use: the command line starts in a tenth of the time that xarray takes to import.
 _HOMES = {
     "FatigueConstants": "swtstudy.units.life",
-    "LoadPath": "swtstudy.mechanics.load.load_path",
+    "LoadPath": "swtstudy.loads.load_path",
     "ShearConstants": "swtstudy.units.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.vocabulary.mistakes",

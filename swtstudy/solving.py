@@ -9,6 +9,7 @@ import numpy as np
 
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
 
@@ -73,32 +74,20 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
-    """s on a grid, and what is ``asked`` beside it, solved in this process in bounded memory."""
-    from swtstudy.mechanics import solve_points
-    from swtstudy.mechanics.points import Solution
-    from swtstudy.mechanics.quantities import quantities_of
-    from swtstudy.points.labelled import arrays_of, label, margins
-    from swtstudy.points.unique import columns_at, unique_points, wanted
-    from swtstudy.vocabulary.quantities import columns_of
+    """s on a grid, and what is ``asked`` beside it, solved in this process."""
+    from swtstudy.points.chunk import Asked, chunks, solve_points, values_of
+    from swtstudy.points.labelled import label_records
+    from swtstudy.points.records import Records
+    from swtstudy.points.unique import kinds, unique_points, wanted
 
-    unique = unique_points(grid)
-    batches = unique.batches
-    solution = Solution.joined([solve_points(batch, rtol) for batch in batches])
-    arrays = arrays_of(solution.take(unique.index), unique.mirrored) | margins(unique, grid)
-    items, of = wanted(grid, asked, unique)
-    known = {name: np.full(len(unique.table), np.nan) for name in columns_of(items)}
-    begin = 0
-    for batch in batches if items else ():
-        of_batch = of[begin : begin + len(batch)]
-        for one in np.unique(of_batch, axis=0):
-            rows = np.flatnonzero((of_batch == one).all(axis=1))
-            own = [items[index] for index in np.flatnonzero(one)]
-            found = quantities_of(batch.take(rows), own, solution.take(begin + rows))
-            for name, values in found.items():
-                known[name][begin + rows] = values
-        begin += len(batch)
-    columns = columns_at(grid, asked, unique, known.__getitem__)
-    dataset = label(grid, arrays, asked, columns)
+    points = unique_points(grid)
+    records = Records.missing(points.table)
+    with Progress(len(records)) as progress:
+        for some, items in kinds(np.ones(len(records), bool), *wanted(grid, asked, points)):
+            for chunk in chunks(points, some, Asked(items)):
+                records.fill(chunk.rows, values_of(chunk, rtol, solve_points))
+                progress.add(len(chunk))
+    dataset = label_records(grid, points, records, asked, of_runs=False)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 

@@ -19,12 +19,11 @@ SOLVER = "swtstudy.mechanics.solve_points"
 
 
 def smooth(points: Points, rtol: float) -> Solution:
-    """A cheap function of every parameter, whose last bits depend on what is solved together."""
+    """A cheap function of every parameter."""
     s = 0.1 + 0.01 * points.normal_amplitude * np.cos(points.phase) + points.friction
     s = s + points.p / points.q + 0.1 * points.tangential_amplitude + points.poisson_ratio
     for index, shape in enumerate(points.shape.values()):
         s = s + (index + 1) * shape
-    s = s * (1 + 1e-13 * len(points))
     angle = 10 * np.sin(points.phase)
     return Solution(s, rtol * s, 1 + points.phase, angle, np.ones(len(points), np.int8), s)
 

@@ -36,4 +36,4 @@ if __name__ == "__main__":
     study, results, friction, gate = sys.argv[1:]
     PartsWriter.add, LocalPool.__exit__ = told_add, told_leave
     run_several.__kwdefaults__["solver"] = partial(stand_in.up_to, float(friction), gate)
-    main(["run", study, "--results", results])
+    main(["run", study, "--results", results, "--processes"])

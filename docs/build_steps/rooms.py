@@ -64,7 +64,18 @@ WHOLE = House(
     "swtstudy",
     ("vocabulary",),
     (
-        *("kernel", "mechanics", "points", "solving", "units", "study", "archive", "results", "fields"),
+        *(
+            "kernel",
+            "loads",
+            "mechanics",
+            "points",
+            "solving",
+            "units",
+            "study",
+            "archive",
+            "results",
+            "fields",
+        ),
         *("figures", "contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
     ),
 )
@@ -72,8 +83,8 @@ MECHANICS = House(
     "swtstudy.mechanics",
     ("points", "numerics"),
     (
-        *("load", "indenter", "control", "contact", "planes", "events", "stress", "line", "body"),
-        *("solver", "margins", "load_cycle", "counted", "quantities", "__init__"),
+        *("indenter", "control", "solver", "body"),
+        *("margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )
 

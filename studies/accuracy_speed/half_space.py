@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import lru_cache
 
 import numpy as np
-from histories import INSTANTS, history_at
+from histories import INSTANTS, stress_at
 
 from swtstudy.mechanics import Points
-from swtstudy.mechanics.stress.scene import scene_of
+from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.paper.reference import brute_force
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
@@ -31,13 +31,12 @@ def _model(side: int, width: float, nu: float):
 
 def half_space_s(point: Points, side: int) -> float:
     """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
-    nu, mu = point.poisson_ratio.item(), point.friction.item()
-    profile = scene_of(point).profile
-    largest = float(profile.radius(profile.largest_depth)[0])
+    nu, cycle = point.poisson_ratio.item(), LoadCycle.of(point)
+    largest = cycle.radii[2]
     width = 2.0 * WIDTH * largest
     radius = np.linspace(1e-3, 1.01, RADII) * largest
-    history = history_at(point, radius)
-    pressure, traction = history.pressure[0], -mu * history.traction[0]
+    _, _, zz, xz = stress_at(cycle, radius)
+    pressure, traction = -zz, -xz
     axis = (np.arange(side) - side // 2) * width / side
     grid = np.hypot(axis[:, None], axis)
     model, strain, stress = _model(side, width, nu)

@@ -6,12 +6,13 @@ import numpy as np
 from histories import stress_at
 
 from swtstudy.mechanics import Points
+from swtstudy.mechanics.load_cycle import LoadCycle
 
 
 def plane_loop_s(point: Points, x: float, step: float) -> float:
     """Largest swt over planes every ``step`` degrees, at a given position."""
     nu = point.poisson_ratio.item()
-    xx, yy, zz, xz = stress_at(point, x)
+    xx, yy, zz, xz = stress_at(LoadCycle.of(point), np.array([x]))[:, 0]
     zero = np.zeros_like(xx)
     stress = np.moveaxis(np.array([[xx, zero, xz], [zero, yy, zero], [xz, zero, zz]]), 2, 0)
     trace = np.trace(stress, axis1=1, axis2=2)

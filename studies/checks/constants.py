@@ -21,33 +21,17 @@ from altered import ROOT, assigned, in_a_process
 MECHANICS = ROOT / "swtstudy" / "mechanics"
 RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
-KINDS = {"wavy": "wavy", "struve": "wavy", "surface_circle": "circle", "singular_edge": "edge"}
+KINDS = {"wavy": "wavy", "struve": "wavy"}
 KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
 KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
-KINDS |= {"nonlocal": "means", "local_swt": "means", "half_sphere": "means", "quick_planes": "means"}
-KINDS |= {"histories": "means", ".work": "work"}
-KINDS |= {"paraboloid": "edge", ".punch": "body", ".strip": "body", ".superposition": "body"}
-KINDS |= {".contact_states": "body", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
+KINDS |= {"nonlocal": "means", "half_sphere": "means"}
+KINDS |= {"paraboloid": "edge", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
 #: Numbers that mean something rather than tune something.
 DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 #: Other values than half and twice, or a hundredth and a hundred times: v is the constant.
 OTHERS = {
-    "look.DIGITS_PER_ZOOM": ("4.0",),
-    "look.SETTLED": ("1.0",),
-    "surface_circle.ANGLES": ("v[::2]",),
-    "surface_circle.DIGITS": ("3.5",),
     "paraboloid.APPROACH_COUNT": ("5",),
-    "growth.NODES_PER_OSCILLATION": ("v / 2",),
-    "look.REACH": ("0.125",),
-    "positions.INNERMOST": ("10 * v",),
     "roots.LAST_STEP": ("100 * v",),
-    "rounds.CHANGE_SHARE": ("v / 10", "10 * v"),
-    "rounds.CORNER_CHANGE_SHARE": ("0.03",),
-    "rounds.OFFSETS": ("v / 1.5",),
-    "rounds.POLYNOMIAL_SHARE": ("v / 10",),
-    "rounds.TIE": ("0.0",),
-    "rounds.WALKING": ("v / 2",),
-    "singular_edge.FINER": ("v[:1]", "v[1:]"),
     "stretches.PER_INTERVAL": (),
     "wavy.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
     "body_maximum.ANGLES": ("v[::2]",),

@@ -13,7 +13,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
-from swtstudy.runner.chunk import Chunk
+from swtstudy.points.chunk import Chunk
 from swtstudy.runner.run import Stopped
 
 WORKERS = 2
@@ -43,18 +42,20 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
+    from swtstudy.runner import collector
     from swtstudy.runner import job as module
 
     cut = module.chunks
 
-    def noted(*arguments: Any) -> Iterator[Chunk]:
-        for chunk in cut(*arguments):
-            with open(f"{log}-chunks", "a") as file:
-                file.write(f"{len(chunk)}\n")
-            yield chunk
+    def noted(*arguments: Any) -> list[Chunk]:
+        found = cut(*arguments)
+        with open(f"{log}-chunks", "a") as file:
+            file.writelines(f"{len(chunk)}\n" for chunk in found)
+        return found
 
     module.chunks = noted
-    run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap)
+    collector.PART_SECONDS = collector.PART_SHARE = 0.0  # saved at once
+    run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap, processes=True)
 
 
 def start(what: str, text: str, path: Path, log: Path) -> subprocess.Popen[bytes]:

@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]

@@ -24,11 +24,11 @@ from unittest.mock import patch
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.kernel.field import criterion_at, open_cycle
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import nonlocal_swt
-from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mechanics.stress.scene import Scene, scene_of
+from swtstudy.mechanics.solver import arguments_of
 
 FloatArray = NDArray[np.float64]
 
@@ -59,10 +59,15 @@ RUNS = 3
 #: Means with so many places and instants are what the others are held against.
 TIGHT = {
     "ONE": nonlocal_swt.ONE._replace(distances=19, inclinations=39, on_line=63),
-    "FINENESS": nonlocal_swt.FINENESS._replace(steps=8, cells=60, settled=1e-5),
+    "OF_MANY": 0.02,
+    "OF_SINGLE": 0.01,
+    "FLOOR": 1e-4,
+    "MANY": nonlocal_swt.SINGLE,
 }
 #: Places of the other rule: over the distance from the circle, the angle about the axis, and the depth.
 OTHER = 9, 4, 13
+#: Relative tolerance of its values.
+OTHER_TOLERANCE = 1e-4
 KINDS = "volume", "point", "line"
 
 
@@ -102,10 +107,10 @@ def random_points(profile: str) -> Iterator[tuple[Points, float]]:
             yield point, distance
 
 
-def place_of(point: Points) -> tuple[Scene, FloatArray, FloatArray, FloatArray]:
-    """Scene, critical x and angle, and s of points of one ratio."""
+def place_of(point: Points) -> tuple[Points, FloatArray, FloatArray, FloatArray]:
+    """The points, their critical x and angle, and s."""
     solution = solve_points(point, 1e-6)
-    return scene_of(point), solution.critical_x, solution.critical_angle, solution.s
+    return point, solution.critical_x, solution.critical_angle, solution.s
 
 
 def timed(points: Points, distance: FloatArray) -> tuple[nonlocal_swt.NonlocalSwt, float]:
@@ -129,11 +134,11 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
 
 
 def tight_means(
-    scene: Scene, x: FloatArray, angle: FloatArray, distance: FloatArray
+    points: Points, x: FloatArray, angle: FloatArray, distance: FloatArray
 ) -> nonlocal_swt.NonlocalSwt:
     """Means with many more places and instants than they need."""
     with patch.multiple(nonlocal_swt, **TIGHT):
-        return nonlocal_swt.nonlocal_swt(scene, x, angle, distance)
+        return nonlocal_swt.nonlocal_swt(points, x, angle, distance)
 
 
 def off_and_claimed(point: Points, distance: float) -> tuple[FloatArray, FloatArray]:
@@ -170,8 +175,9 @@ def gauss(count: int) -> tuple[FloatArray, FloatArray]:
     return 0.5 + 0.5 * node, 0.5 * weight
 
 
-def other_mean(scene: Scene, x: float, distance: float) -> float:
+def other_mean(point: Points, x: float, distance: float) -> float:
     """Mean over the half sphere in cylindrical coordinates about the axis."""
+    opened = open_cycle(**arguments_of(point))
     total = volume = 0.0
     (u, of_u), (w, of_w), (v, of_v) = (gauss(count) for count in OTHER)
     # Depths end like a root where the circle leaves the sphere; y → −y is a symmetry.
@@ -188,8 +194,8 @@ def other_mean(scene: Scene, x: float, distance: float) -> float:
             z = deepest * v**2
             weights = weight * most * r * of_angle * deepest * 2 * v * of_v
             place = np.copysign(1.0, x) * r * np.cos(most * angle + 0 * v), r * np.sin(most * angle + 0 * v)
-            near = np.maximum(r + distance * np.array([-1.0, -0.3, -0.1, 0.0, 0.1, 0.3]), 1e-3)
-            swt = Body(scene, time_nodes(scene, 10, near), 60).swt(*place, z).swt
+            places = np.stack([v.ravel() for v in (*place, z)], axis=1)
+            swt = criterion_at(opened, places, OTHER_TOLERANCE)[0].reshape(z.shape)
             total, volume = total + (weights * swt).sum(), volume + weights.sum()
     return float(total / volume)
 
@@ -198,10 +204,10 @@ def against_other(profile: str, count: int) -> list[str]:
     """Lines of the table of the other rule."""
     lines = []
     for point, distance in islice(random_points(profile), count):
-        scene, x, angle, _ = place_of(point)
+        _, x, angle, _ = place_of(point)
         distance = min(distance, 0.6 * abs(float(x[0])))
-        found = nonlocal_swt.nonlocal_swt(scene, x, angle, np.array([distance]))
-        other = other_mean(scene, float(x[0]), distance)
+        found = nonlocal_swt.nonlocal_swt(point, x, angle, np.array([distance]))
+        other = other_mean(point, float(x[0]), distance)
         value, error = float(found.volume[0, 0]), float(found.volume_error[0, 0])
         load = f"δA/δ0 = {point.normal_amplitude[0]:.2f}, U = {point.tangential_amplitude[0]:.2f}"
         load += ", bulk stress" if point.bulk_stress_amplitude[0] else ""

@@ -29,18 +29,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
 
+from swtstudy.kernel.circle import SAFE_POISSON_RATIO
+from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
 from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body.body import Body, time_nodes
 from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.body.local_swt import Places
-from swtstudy.mechanics.body.nonlocal_swt import Around, nonlocal_swt
-from swtstudy.mechanics.line.look import Look
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
-from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.planes.all_planes import swt_on_planes
-from swtstudy.mechanics.planes.weights import tangent_basis
-from swtstudy.mechanics.stress.history import circle_stress
-from swtstudy.mechanics.stress.scene import Scene, scene_of
+from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
+from swtstudy.mechanics.solver import arguments_of
 
 Array = NDArray[np.float64]
 #: By scene: points on circles, in bodies, and with means.
@@ -64,68 +58,52 @@ KINDS = {
 }
 #: Largest distance of the means, and least over that.
 DISTANCES = 0.2, 0.05
-#: Binary logarithm of the number of places of a plain mean, and how many of them are looked at together.
-PLACES, TOGETHER = 13, 2048
-#: On a circle: angles, planes and instants of the first look, in rad how far the first closer one goes,
-#: how often, and how it narrows.
-ANGLES, PLANES, INSTANTS = np.linspace(0.0, np.pi, 65), 2000, 8
-REACH, ROUNDS, NARROWER = 0.08, 6, 0.35
+#: Binary logarithm of the number of places of a plain mean, and the tolerances of values there and elsewhere.
+PLACES, OF_PLACES, TOLERANCE = 13, 1e-3, 1e-5
+#: On a circle: angles of the first look, how often one goes closer, and how it narrows.
+ANGLES, ROUNDS, NARROWER = np.linspace(0.0, np.pi, 65), 6, 0.35
 #: In the body, over the largest contact radius: radii and depths, and steps of the first closer look.
 RADII, DEPTHS = np.linspace(0.05, 1.15, 23), np.array([0.0, 0.003, 0.01, 0.03, 0.1, 0.2, 0.4, 0.8])
 STEPS = 0.03, 0.2, 0.004
-CELLS = 48
+#: Radii at which edges and fronts turn at most.
+MOST_CUSPS = 60
 
 
-def dense_circle(scene: Scene, r: float) -> float:
-    """Largest swt on the circle of a radius, on all planes, of a batch of one point."""
-    scene = scene.split_at_breakpoints()
-    planes = hemisphere(PLANES)
-    values = _on_circle(scene, r, ANGLES, planes, INSTANTS)
-    tops = np.pad(values.max(axis=1), 1, constant_values=-1.0)
+def dense_circle(opened: Opened, r: float) -> float:
+    """Largest swt on the circle of a radius, on all planes, of one point."""
+    values = _at(opened, r, ANGLES, np.zeros(1))[:, 0]
+    tops = np.pad(values, 1, constant_values=-1.0)
     highest = float(tops.max())
     is_peak = (tops[1:-1] >= tops[:-2]) & (tops[1:-1] >= tops[2:]) & (tops[1:-1] > 0.9 * highest)
     for k in np.flatnonzero(is_peak):
-        angle, normal = ANGLES[k], planes[values[k].argmax()]
-        step, turn, count = ANGLES[2], REACH, INSTANTS
+        angle, step = ANGLES[k], ANGLES[2]
         for _ in range(ROUNDS):
-            angles, normals = angle + step * np.linspace(-1.0, 1.0, 9), _around(normal, turn)
-            closer = _on_circle(scene, r, angles, normals, count)
-            best = np.unravel_index(closer.argmax(), closer.shape)
-            highest = max(highest, float(closer[best]))
-            angle, normal = angles[best[0]], normals[best[1]]
-            step, turn, count = NARROWER * step, NARROWER * turn, min(2 * count, 192)
+            angles = angle + step * np.linspace(-1.0, 1.0, 9)
+            closer = _at(opened, r, angles, np.zeros(1))[:, 0]
+            highest, angle = max(highest, float(closer.max())), angles[closer.argmax()]
+            step *= NARROWER
     return highest
 
 
-def _on_circle(scene: Scene, r: float, angles: Array, normals: Array, count: int) -> Array:
-    """The parameter swt at angles on planes, shape (angles, planes)."""
-    look = Look.at(scene, np.array([[r]]), count, 9.0)
-    history = look.history.take((np.arange(1), 0))
-    stress = circle_stress(history, scene.poisson_ratio, scene.friction, angles[None])[0]
-    ν = float(scene.poisson_ratio[0])
-    return swt_on_planes(stress, normals, ν, 1.0 - ν**2, scene.criterion)
+def _at(opened: Opened, r: float, angles: Array, depths: Array, tolerance: float = TOLERANCE) -> Array:
+    """The parameter swt at angles and depths of one radius, shape (angles, depths)."""
+    angle, depth = np.meshgrid(angles, depths, indexing="ij")
+    across = np.where(np.abs(np.sin(angle)) < 1e-12, 0.0, r * np.sin(angle))
+    places = np.stack([(r * np.cos(angle)).ravel(), across.ravel(), depth.ravel()], axis=1)
+    return np.asarray(criterion_at(opened, places, tolerance)[0].reshape(angle.shape))
 
 
-def _around(normal: Array, turn: float) -> Array:
-    """Normals on a grid about one of them."""
-    basis = tangent_basis(normal[None])[0]
-    grid = np.stack(np.meshgrid(*(turn * np.linspace(-1.0, 1.0, 9),) * 2), axis=-1).reshape(-1, 2)
-    normals = normal + grid @ basis
-    return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))
-
-
-def dense_body(scene: Scene, x: float) -> float:
+def dense_body(opened: Opened, x: float) -> float:
     """Largest swt on a lattice of the body and on closer ones, of one point; x is on one circle."""
-    largest = float(scene.largest_radius[0])
-    start = scene.cycle.memory.start
-    cusps = scene.coordinate.radius(np.unique(start[np.isfinite(start)])[None])[0]
+    largest, profile = largest_radius(opened), opened.profile
+    cusps = passed_radii(opened, MOST_CUSPS)
     known = cusps > 0.02 * largest
-    if scene.profile.has_singular_edge:
+    if profile["singular"]:
         # At the edge of a face pressure has no bound: as the audit does, this leaves out what is next to it.
-        known &= np.abs(cusps - scene.profile.flat_radius) > 1e-6 * largest
+        known &= np.abs(cusps - profile["flat_radius"]) > 1e-6 * largest
     radii = np.concatenate([[abs(x)], cusps[known], largest * RADII])
     angles, depths = np.linspace(0.0, np.pi, 9), largest * DEPTHS
-    of_radii = [_highest(scene, r, angles, depths, 5) for r in np.unique(radii)]
+    of_radii = [_highest(opened, r, angles, depths, 1e-3) for r in np.unique(radii)]
     swt = np.pad([top for top, *_ in of_radii], 1)
     is_peak = (swt[1:-1] >= swt[:-2]) & (swt[1:-1] >= swt[2:]) & (swt[1:-1] >= 0.8 * swt.max())
     tops = sorted((of_radii[k] for k in np.flatnonzero(is_peak)), reverse=True)
@@ -138,38 +116,32 @@ def dense_body(scene: Scene, x: float) -> float:
                 for at, step in zip((r, angle, depth), steps, strict=True)
             ]
             below = np.maximum(grids[2], 0.0)
-            found = max(_highest(scene, abs(own), grids[1], below, INSTANTS) for own in grids[0])
+            found = max(_highest(opened, abs(own), grids[1], below, TOLERANCE) for own in grids[0])
             if found[0] > top:
                 top, r, angle, depth = found
             steps = 0.4 * steps
-        # Beside a cusp of the surface the field of cells is up to 2e-3 off.
-        highest = max(highest, dense_circle(scene, r) if depth == 0.0 else top)
+        highest = max(highest, top)
     return highest
 
 
 def _highest(
-    scene: Scene, r: float, angles: Array, depths: Array, count: int
+    opened: Opened, r: float, angles: Array, depths: Array, tolerance: float
 ) -> tuple[float, float, float, float]:
     """The highest swt at angles and depths of one radius, and that radius, its angle and its depth."""
-    angle, depth = np.meshgrid(angles, depths, indexing="ij")
-    body = Body(scene, time_nodes(scene, count, [r]), CELLS)
-    swt = body.swt(r * np.cos(angle), r * np.sin(angle), depth).swt
+    swt = _at(opened, r, angles, depths, tolerance)
     best = np.unravel_index(swt.argmax(), swt.shape)
-    return float(swt[best]), float(r), float(angle[best]), float(depth[best])
+    return float(swt[best]), float(r), float(angles[best[0]]), float(depths[best[1]])
 
 
-def plain_mean(scene: Scene, x: Array, angle: Array, distance: Array) -> tuple[float, float]:
+def plain_mean(opened: Opened, x: Array, distance: Array) -> tuple[float, float]:
     """Mean of swt over places of a Sobol sequence in the half sphere, and by how much its halves differ."""
     share, cosine, turn = qmc.Sobol(3, seed=SEED).random_base2(PLACES).T
     away, about = float(distance[0]) * np.cbrt(share), 2.0 * np.pi * turn
     across = away * np.sqrt(1.0 - cosine**2)
     right, aside = float(x[0]) + across * np.cos(about), across * np.sin(about)
-    places = Places(np.hypot(right, aside), away * cosine, np.abs(np.arctan2(aside, right)))
-    # The directions are those of lines, which no one asks for.
-    local = Around(scene, float(x[0]), np.array([[0.0, 1.0]]), distance).local
-    parts = np.split(np.arange(len(share)), len(share) // TOGETHER)
-    means = [local.swt(places.at(part), np.ones(TOGETHER, dtype=bool))[0].mean() for part in parts]
-    first, second = (np.mean(half) for half in np.split(np.array(means), 2))
+    places = np.stack([right, aside, away * cosine], axis=1)
+    values = criterion_at(opened, places, OF_PLACES)[0]
+    first, second = (float(half.mean()) for half in np.split(values, 2))
     return float(0.5 * (first + second)), float(abs(first - second))
 
 
@@ -191,24 +163,26 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             if not (np.isfinite(x[0]) and surface > 0.0):
                 low.append(np.nan)
                 continue
-            scene = scene_of(points.take(one))
+            own = points.take(one)
+            opened = open_cycle(**arguments_of(own))
             if solved.s[k] <= solved.s_error[k]:
                 # s that is nothing but rounding has no place.
-                x = scene.largest_radius
+                x = np.array([largest_radius(opened)])
             with np.errstate(all="ignore"):
                 if kind == "mean":
                     distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
                     means = nonlocal_swt, tight_means
-                    found, dense = (float(of(scene, x, angle, distance).volume[0, 0]) for of in means)
+                    found, dense = (float(of(own, x, angle, distance).volume[0, 0]) for of in means)
                     allowed = KINDS[kind][1]
                     if abs(1.0 - found / dense) > allowed:
-                        plain, spread = plain_mean(scene, x, angle, distance)
+                        plain, spread = plain_mean(open_cycle(**arguments_of(own)), x, distance)
                         # Where the mean is a thousandth of swt, few of the even places show any.
                         dense = plain if spread < allowed * plain else dense
                 elif kind == "body":
-                    found, dense = body_maximum(scene, float(x[0]))[0].swt, dense_body(scene, float(x[0]))
+                    found = body_maximum(own, float(x[0]))[0].swt
+                    dense = dense_body(open_cycle(**arguments_of(own)), float(x[0]))
                 else:
-                    found, dense = float(surface), dense_circle(scene, abs(float(x[0])))
+                    found, dense = float(surface), dense_circle(opened, abs(float(x[0])))
             low.append(1.0 - found / dense)
     return name, kind, np.array(low)
 

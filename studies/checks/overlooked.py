@@ -28,9 +28,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from accuracy import SHAPES
 from nonlocal_means import worn
 
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.indenter import check_shape
-from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.points import Solution
 from swtstudy.paper.audit.dense import dense_maximum
 from swtstudy.vocabulary.parameters import Control

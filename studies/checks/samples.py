@@ -10,11 +10,10 @@ from accuracy import points_at_ends, random_points
 from nonlocal_means import worn
 from overlooked import CHUNK, drawn
 
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.mechanics import Points, solve_points
 from swtstudy.mechanics.body import body_maximum
-from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.mechanics.quantities import quantities_of
-from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
 
@@ -109,7 +108,7 @@ def in_body(points: Points, rtol: float) -> Values:
     found = []
     for k, x in enumerate(solve_points(some, rtol).critical_x):
         if np.isfinite(x):
-            largest, at_line = body_maximum.body_maximum(scene_of(some.take(np.array([k]))), float(x))
+            largest, at_line = body_maximum.body_maximum(some.take(np.array([k])), float(x))
             found += [largest.swt, float(at_line.swt)]
     return np.array(found), np.full(len(found), np.inf)
 

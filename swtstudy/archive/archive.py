@@ -15,9 +15,9 @@ from swtstudy.archive.attributes import definitions_text, versions
 from swtstudy.archive.netcdf import read_archive
 from swtstudy.archive.parts import known_records, parts_folder, read_parts
 from swtstudy.points.canonical import Definitions, describe_point
-from swtstudy.points.labelled import arrays_of, label, margins
+from swtstudy.points.labelled import label_records
 from swtstudy.points.records import FAILED, Records, matching
-from swtstudy.points.unique import UniquePoints, columns_at, unique_points
+from swtstudy.points.unique import UniquePoints, unique_points
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.version import __version__
 
@@ -40,11 +40,7 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
     seconds
         Wall time of the run that ends with this archive.
     """
-    arrays = arrays_of(records.solution.take(points.index), points.mirrored)
-    arrays |= margins(points, study.grid)
-    arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
-    columns = columns_at(study.grid, study.asked, points, records.quantity)
-    dataset = label(study.grid, arrays, study.asked, columns)
+    dataset = label_records(study.grid, points, records, study.asked)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"

@@ -8,6 +8,8 @@ changes an archive and saves it with xarray leaves one without these check sums,
 
 from __future__ import annotations
 
+import math
+import threading
 import zlib
 from collections.abc import Hashable
 from os import PathLike
@@ -27,6 +29,10 @@ from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.files import replacing
 
 _GROUP = "check_sums"
+#: netCDF and HDF5 are not thread-safe: one thread at a time reads or writes a file.
+_ONE_AT_A_TIME = threading.RLock()
+#: More bytes of values for each byte of a file than deflate can make, and bytes that any file may hold.
+_MOST_PACKED, _ANY = 1100, 2**24
 
 
 def has_its_own(variable: xr.Variable | xr.DataArray) -> bool:
@@ -85,7 +91,10 @@ def read_archive(path: Path) -> xr.Dataset:
     loaded = load_file(path)
     absent = lacking(loaded)
     if absent:
-        raise ArchiveError(f"{path}: a netCDF file, but not an archive of swtstudy (no {', '.join(absent)})")
+        words = f"{path}: a netCDF file, but not an archive of swtstudy"
+        if str(loaded.attrs.get("source", "")).startswith("swtstudy") or "s" in loaded:
+            words = f"{path}: an archive changed by another program"
+        raise ArchiveError(f"{words} (no {', '.join(absent)})")
     found = mistakes(loaded, str(path))
     if found:
         raise ArchiveError("\n".join(map(str, found)))
@@ -114,8 +123,10 @@ def load_file(path: Path) -> xr.Dataset:
     if is_locked(path):
         raise LockedError(f"{path} is locked: another program has it open for writing")
     try:
+        content = path.read_bytes()
         # From memory: xarray and netCDF4 crash if a file is opened twice in one process.
-        with netCDF4.Dataset(path.name, memory=path.read_bytes()) as file:
+        with _ONE_AT_A_TIME, netCDF4.Dataset(path.name, memory=content) as file:
+            _refuse_more_than_fits(file, len(content))
             try:
                 loaded = xr.open_dataset(xr.backends.NetCDF4DataStore(file)).load()
                 wrong = damaged(file, loaded)
@@ -124,12 +135,25 @@ def load_file(path: Path) -> xr.Dataset:
                 if not wrong:
                     raise
     except _UNREADABLE as error:
+        if path.suffix == ".toml":
+            raise ArchiveError(f"{path}: a study, not an archive; swtstudy run {path} makes one") from None
         raise ArchiveError(f"{path}: not a readable netCDF archive ({error})") from None
     if wrong:
         raise ArchiveError(f"{path}: a damaged file: wrong check sum of {', '.join(wrong)}")
+    loaded.set_close(None)  # the file is closed; what would close it again cannot be pickled
     for variable in loaded.variables.values():
         variable.encoding = {}  # a kept encoding would truncate longer labels when a file is written again
     return loaded
+
+
+def _refuse_more_than_fits(file: netCDF4.Dataset, size: int) -> None:
+    """Refuse a file that claims to hold more than so many bytes can: reading it would fill the memory."""
+    claimed = sum(
+        math.prod(each.shape) * (each.dtype.itemsize if isinstance(each.dtype, np.dtype) else 8)
+        for each in file.variables.values()
+    )
+    if claimed > max(_ANY, _MOST_PACKED * size):
+        raise ValueError(f"it claims to hold {claimed:.2g} bytes of values in {size} bytes")
 
 
 def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = None) -> None:
@@ -152,7 +176,7 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     for name, variable in dataset.data_vars.items():
         if variable.ndim:
             encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
-    with replacing(path, beside) as temporary:
+    with _ONE_AT_A_TIME, replacing(path, beside) as temporary:
         # Not by to_netcdf: that imports all of distributed where it is installed.
         with netCDF4.Dataset(temporary, "w", format="NETCDF4") as file:
             dataset.dump_to_store(xr.backends.NetCDF4DataStore(file), encoding=encoding)

@@ -41,9 +41,6 @@ _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 #: Names of parts: another file is not ours.
 _NAME = re.compile(r"[0-9]{6,}\.npz")
 
-#: So many parts are joined into one: a long run does not leave thousands of files.
-_JOINED = 32
-
 #: What the numbers in a table mean; parts with another layout cannot be used.
 _LAYOUT = {
     "columns": [[name, ROW[name].str] for name in ROW.names or ()],
@@ -63,7 +60,7 @@ def kept_folder(path: Path) -> Path:
 
 
 class PartsWriter:
-    """Writes records as parts into a folder of its own; existing parts are first joined into one.
+    """Writes records as parts into a folder of its own, beside those that are there.
 
     Parameters
     ----------
@@ -74,26 +71,11 @@ class PartsWriter:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._number = _next_number(folder)
-        self._small: list[tuple[Path, Records]] = []
-        # A part that cannot be read now may be readable later: it stays until the archive has its points.
-        present = {path: part for path in _paths(folder) if (part := _read(path)) is not None}
-        if len(present) > 1:
-            self._write(join(present.values()))
-            _remove(present)
 
     def add(self, records: Records) -> None:
         """Write one more part; when this returns, it is safe."""
-        self._small.append((self._write(records), records))
-        if len(self._small) >= _JOINED:
-            # Every point is in the new part before its old one is removed.
-            self._write(join(records for _, records in self._small))
-            _remove(path for path, _ in self._small)
-            self._small.clear()
-
-    def _write(self, records: Records) -> Path:
-        path = _write(self._folder, self._number, records)
+        _write(self._folder, self._number, records)
         self._number += 1
-        return path
 
 
 @contextmanager
@@ -143,12 +125,14 @@ def clear_unfinished(folder: Path) -> None:
 
 
 def _next_number(folder: Path) -> int:
-    return 1 + max((int(path.stem) for path in _paths(folder)), default=0)
+    # Whatever is there under such a name: it is not replaced.
+    return 1 + max((int(path.stem) for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)), default=0)
 
 
 def _paths(folder: Path) -> list[Path]:
     refuse_link(folder)
-    return sorted(path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
+    named = (path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
+    return sorted(path for path in named if path.is_file() and not path.is_symlink())
 
 
 def _remove(paths: Iterable[Path]) -> None:
@@ -157,6 +141,7 @@ def _remove(paths: Iterable[Path]) -> None:
 
 
 def _write(folder: Path, number: int, records: Records) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)  # without locks another run may have removed it
     path = folder / f"{number:06d}.npz"
     meta = {
         "layout": _LAYOUT,

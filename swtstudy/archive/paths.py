@@ -5,8 +5,11 @@ Names are checked before anything is computed.
 
 from __future__ import annotations
 
+import errno
+import logging
 import os
 import socket
+import stat
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from os import PathLike
@@ -18,6 +21,8 @@ try:
     import fcntl
 except ImportError:  # Windows: without a lock, the later of two runs wins, still with a complete archive
     fcntl = None  # type: ignore[assignment]
+
+_log = logging.getLogger(__name__)
 
 
 class ArchiveError(ValueError):
@@ -89,6 +94,12 @@ def _longest_name(folder: Path) -> int:
         return _LONGEST_NAME
 
 
+#: What file systems without locks say.
+_NO_LOCKS = (errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP, errno.EINVAL)
+#: A link is not followed, and a pipe not waited for.
+_NO_LINK = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+
+
 class LockedError(OSError):
     """An archive that another process is writing."""
 
@@ -112,10 +123,12 @@ def locked(folder: Path) -> Iterator[None]:
         os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
         yield
     finally:
-        # Removed while held: whoever opened it in the meantime will find another file under its name.
-        if list(folder.iterdir()) == [path]:
-            path.unlink()
-            folder.rmdir()
+        # Removed while held: whoever opened it in the meantime will find another file under its name. Without
+        # locks another run may have removed it.
+        with suppress(FileNotFoundError):
+            if list(folder.iterdir()) == [path]:
+                path.unlink()
+                folder.rmdir()
         os.close(handle)
 
 
@@ -143,19 +156,38 @@ def _acquire(path: Path) -> int:
     while True:
         path.parent.mkdir(parents=True, exist_ok=True)
         try:
-            handle = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+            handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
         except FileNotFoundError:
             continue  # the folder was removed in between
-        if fcntl is None:
-            return handle
+        except OSError as error:
+            if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
+                raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
+            raise
         try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            holder = os.read(handle, 200).decode(errors="replace") or "another process"
-            os.close(handle)
-            target = path.parent.with_suffix("")
-            raise LockedError(f"{target} is being written by {holder}; wait until it has finished") from None
-        with suppress(FileNotFoundError):
-            if os.stat(path).st_ino == os.fstat(handle).st_ino:
+            if _held(handle, path):
                 return handle
+        except BaseException:
+            os.close(handle)
+            raise
         os.close(handle)
+
+
+def _held(handle: int, path: Path) -> bool:
+    """Lock an open file; False if it has been removed in between."""
+    if not stat.S_ISREG(os.fstat(handle).st_mode):
+        raise OSError(f"{path} is no file of ours (not a regular file); remove it")
+    if fcntl is None:
+        return True
+    target = path.parent.with_suffix("")
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        holder = os.read(handle, 200).decode(errors="replace") or "another process"
+        raise LockedError(f"{target} is being written by {holder}; wait until it has finished") from None
+    except OSError as error:
+        if error.errno not in _NO_LOCKS:
+            raise OSError(f"cannot lock {target} ({error.strerror}); choose another folder") from None
+        _log.warning(f"{path.parent.parent}: a file system without locks; run {target.name} once at a time")
+    with suppress(FileNotFoundError):
+        return os.stat(path).st_ino == os.fstat(handle).st_ino
+    return False

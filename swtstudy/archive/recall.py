@@ -81,7 +81,8 @@ def grid_of(dataset: xr.Dataset) -> Grid:
 def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     """A grid of contacts that can be."""
     report = Report()
-    for name in ("young_modulus", "poisson_ratio", "friction"):
+    named = any(isinstance(profile, str) for profile in grid.values("profile"))
+    for name in ("young_modulus", "poisson_ratio", "friction", *("radius",) * named):
         if name not in grid.pairs and not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
     if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):

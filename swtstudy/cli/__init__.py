@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import gc
+import io
 import itertools
 import logging
 import signal
@@ -20,6 +21,7 @@ from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
 from swtstudy.cli.studies import list_studies, new, plan, schema, validate
+from swtstudy.cli.terminal import printable
 
 #: Exit code for input that cannot be used, the same as click's for wrong options.
 BAD_INPUT = 2
@@ -53,6 +55,12 @@ class _Commands(click.Group):
             check_options(context, command, rest)
         return name, command, rest
 
+    def main(self, *arguments: Any, **options: Any) -> Any:
+        for stream in sys.stdout, sys.stderr:
+            if isinstance(stream, io.TextIOWrapper):
+                stream.reconfigure(errors="replace")  # a console may lack Greek letters
+        return super().main(*arguments, **options)
+
     def invoke(self, context: click.Context) -> Any:
         _log_to_terminal()
         # Before it exits, Python would look through all objects once more: for 0.3 s after a run.
@@ -63,7 +71,7 @@ class _Commands(click.Group):
             raise  # the reader of our output has closed it, such as `head -1`: click ends silently
         except (ValueError, OSError, MemoryError) as error:
             for line in (str(error) or type(error).__name__).splitlines():
-                click.echo(f"Error: {line}", err=True)
+                click.echo(f"Error: {printable(line)}", err=True)
             sys.exit(BAD_INPUT)
         except KeyboardInterrupt as error:
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing

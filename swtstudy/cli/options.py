@@ -107,7 +107,7 @@ with_width = click.option(
     help="For print: 8.5 or 17.5 cm wide, letters of 8 pt; by default for a screen.",
 )
 with_workers = click.option(
-    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Worker processes."
+    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Threads, or processes."
 )
 
 

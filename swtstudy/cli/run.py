@@ -55,6 +55,7 @@ _NAMED = 5
 )
 @with_width
 @with_workers
+@click.option("--processes", is_flag=True, help="Compute in processes: a point that kills one fails alone.")
 @click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
 @click.option("--retry-failed", is_flag=True, help="Recompute points that failed before.")
 def run(
@@ -64,6 +65,7 @@ def run(
     formats: tuple[str, ...],
     width: Width | None,
     workers: int,
+    processes: bool,
     scheduler: str | None,
     retry_failed: bool,
 ) -> None:
@@ -110,7 +112,8 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _stopped_once():
-        run_and_draw(pairs, formats, done, width, workers=workers, client=client, retry_failed=retry_failed)
+        options = {"workers": workers, "processes": processes, "client": client, "retry_failed": retry_failed}
+        run_and_draw(pairs, formats, done, width, **options)
     if any(failed):
         sys.exit(POINTS_FAILED)
 

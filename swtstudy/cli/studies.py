@@ -13,7 +13,6 @@ from swtstudy.cli.terminal import cut, line_length, wrapped
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 if TYPE_CHECKING:
-    from swtstudy.points.records import Records
     from swtstudy.runner.workload import Workload
     from swtstudy.study.definition import Study
 
@@ -98,15 +97,12 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """Describe in lines what a run would do."""
-    from swtstudy.points.unique import loads
     from swtstudy.runner.workload import assess
 
     work = assess(study, target)
-    missing, todo = work.missing, work.todo
-    grid, distinct = study.grid, len(missing)
+    grid, distinct, todo = study.grid, len(work.records), work.todo
     panels = study.figure.panels if study.figure else None
     count = len(grid.values(panels)) if panels else 1
-    shared = int(missing.sum()) - loads(work.points.table[missing])
     return [
         study.title,
         f"  prescribed         {grid.control.name}",
@@ -115,7 +111,7 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
         *_quantities(study),
         f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
         f"  already computed   {distinct - todo}",
-        f"  to be computed     {todo} ({shared} of them share another's contact solution)",
+        f"  to be computed     {todo}",
         *_again(work),
         *(_time(work, study.rtol, workers) if todo else ()),
     ]
@@ -143,21 +139,12 @@ def _again(work: Workload) -> Iterator[str]:
 
 def _time(work: Workload, rtol: float, workers: int) -> Iterator[str]:
     """Estimate the time of a run from a few points that are solved."""
-    from swtstudy.points.unique import duration
-    from swtstudy.runner.chunk import solve_points
-    from swtstudy.runner.collector import CHUNK_SECONDS
+    from swtstudy.points.chunk import solve_points
     from swtstudy.runner.workload import estimate
+    from swtstudy.vocabulary.wording import duration
 
-    timed: list[int] = []
-
-    def count(found: Records) -> None:
-        timed.append(len(found))
-
-    seconds = sum(
-        estimate(work.points, wanted, rtol, solve_points, count, asked) for wanted, asked in work.tasks()
-    )
-    of = f"{sum(timed)} point" + ("s" if sum(timed) > 1 else "")
-    yield f"  chunks             about {min(max(1, round(seconds / CHUNK_SECONDS)), work.todo)}"
+    seconds, timed = estimate(work, rtol, solve_points)
+    of = f"{timed} point" + "s" * (timed > 1)
     yield (
         f"  time               about {duration(seconds / workers)} with {workers} workers "
         f"({1e3 * seconds / work.todo:.3g} ms a point, from {of} timed)"

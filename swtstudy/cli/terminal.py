@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import textwrap
 from collections.abc import Iterator, Sequence
@@ -16,7 +17,21 @@ _NARROWEST = 12
 
 def line_length() -> int | None:
     """Letters in a line of the terminal; None for a pipe or a file, whose lines may be of any length."""
-    return get_terminal_size().columns if sys.stdout.isatty() else None
+    try:
+        return get_terminal_size().columns if sys.stdout is not None and sys.stdout.isatty() else None
+    except ValueError:
+        return None  # a closed stream
+
+
+def printable(text: str) -> str:
+    """A text without control characters, which a terminal would obey; lines and tabs stay.
+
+    Examples
+    --------
+    >>> printable("a\x1b[31m title")
+    'a�[31m title'
+    """
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "\N{REPLACEMENT CHARACTER}", text)
 
 
 def cut(line: str, width: int | None) -> str:
@@ -27,6 +42,7 @@ def cut(line: str, width: int | None) -> str:
     >>> cut("Figure 3: s over the phase", 12)
     'Figure 3: s…'
     """
+    line = printable(line)
     return line if width is None or len(line) <= width else f"{line[: width - 1].rstrip()}…"
 
 
@@ -39,6 +55,7 @@ def wrapped(line: str, width: int | None, indent: int = 0) -> str:
     axis  phase: 0, 0.04363 …
           2π (151 values)
     """
+    line = printable(line)
     if width is None or len(line) <= width:
         return line
     return textwrap.fill(

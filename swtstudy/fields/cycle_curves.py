@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.numerics.arrays import ROUNDING
-from swtstudy.mechanics.planes.swing import NORMAL_STRAIN, SHEAR_STRESS
 from swtstudy.mechanics.points import FloatArray, IndexArray
+from swtstudy.vocabulary.criteria import NORMAL_STRAIN, SHEAR_STRESS
 
 #: States of the contact at its instants, `swtstudy.kernel.course.STATE`.
 States = Any

@@ -19,12 +19,12 @@ from swtstudy.fields.cycle_curves import (
     of_states,
     springs_of,
 )
-from swtstudy.fields.one_point import label_angles, periods, read_cycle
+from swtstudy.fields.one_point import labelled_time, read_cycle, turns_of
 from swtstudy.fields.stress import slip_map
 from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.planes.criterion import criterion_of
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.solving import solve
+from swtstudy.vocabulary.criteria import CRITERIA
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -88,19 +88,15 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     x, double_angle = _shown(solved, values, double_angles, radius)
     instant = instants_of(cycle, x)
     states = cycle.states(instant)
-    time = periods(cycle.points) * instant
+    time = turns_of(cycle.points) * instant
     course = course_of_load(cycle, states) | _stress_cycle(cycle, states, x, double_angle)
     marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in course.items()})
     some = states[marked]
-    criterion = criterion_of(cycle.points)
+    criterion = CRITERIA[cycle.points.criterion]
     shown: Variables = {
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": (
-            "x",
-            _both_sides(values[:, 0], values[:, 1]),
-            named(criterion.words.replace("–", "-"), criterion.symbol),
-        ),
+        "s_local": ("x", _both_sides(values[:, 0], values[:, 1]), named(criterion.words, criterion.symbol)),
     }
     largest = float(extent["largest_radius"][1])
     slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
@@ -159,7 +155,7 @@ def _stress_cycle(cycle: LoadCycle, states: States, x: float, double_angle: floa
     bulk: Variables = {}
     if cycle.load.bulk_range.any():
         bulk["bulk_stress"] = "time", stress["bulk"], named("bulk stress", r"\sigma_B")
-    swing = criterion_of(cycle.points).swing
+    swing = CRITERIA[cycle.points.criterion].swing
     return {
         "normal_stress": ("time", normal, named("stress normal to the plane", r"\sigma_n")),
         swing.name: ("time", moved, named(swing.words, swing.symbol)),
@@ -207,7 +203,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
     cycle = read_cycle(parameters)
     instant = instants_of(cycle)
     states = cycle.states(instant)
-    time = label_angles(cycle.points, periods(cycle.points) * instant, ("time",))
+    time = labelled_time(cycle.points.path is None, turns_of(cycle.points) * instant, ("time",))
     course = course_of_load(cycle, states)
     curves = {name: part[1] for name, part in course.items()}
     marked, reasons = marked_instants(time.values / time.values[-1], curves)

@@ -12,16 +12,11 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
-from swtstudy.mechanics.body.body import TimeNodes, nodes_at
-from swtstudy.mechanics.contact.cycle import out_of_equilibrium
-from swtstudy.mechanics.control.diagram import MappedLoad
-from swtstudy.mechanics.load.bimodal import BimodalLoad
-from swtstudy.mechanics.load.load import Loop
+from swtstudy.loads.loop import Loop
 from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.mechanics.margins import Margins
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.solver import arguments_of
-from swtstudy.mechanics.stress.scene import Scene, scene_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
@@ -69,6 +64,20 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     )
 
 
+def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
+    """The stationary load cycle of one point, for what is on the surface line; see `read_point`.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in the parameters, or if there is no equilibrium.
+    """
+    cycle = LoadCycle.of(read_point(parameters))
+    if not cycle.equilibrium:
+        raise StudyError([_no_equilibrium(cycle.points, parameters)])
+    return cycle
+
+
 def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
     """A batch of one point, see `read_point`, and its load cycle in the kernel.
 
@@ -82,39 +91,6 @@ def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
     if opened is None:
         raise StudyError([_no_equilibrium(points, parameters)])
     return points, opened
-
-
-def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
-    """The stationary load cycle of one point; see `read_point`.
-
-    Raises
-    ------
-    StudyError
-        A ValueError, if there is no equilibrium: then there is no cycle.
-    """
-    cycle = LoadCycle.of(read_point(parameters))
-    if not cycle.equilibrium:
-        raise StudyError([_no_equilibrium(cycle.points, parameters)])
-    return cycle
-
-
-def read_scene(parameters: Mapping[str, object]) -> Scene:
-    """The contact cycle of one point; see `read_point` and `cycle_at`."""
-    return cycle_at(read_point(parameters), parameters)
-
-
-def cycle_at(points: Points, parameters: Mapping[str, object]) -> Scene:
-    """The contact cycle of a batch of one point with these parameters.
-
-    Raises
-    ------
-    StudyError
-        A ValueError, if there is no equilibrium: then there is no cycle.
-    """
-    scene = scene_of(points)
-    if out_of_equilibrium(scene.cycle.load, points.control)[0]:
-        raise StudyError([_no_equilibrium(points, parameters)])
-    return scene
 
 
 def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
@@ -211,46 +187,14 @@ def _coordinate(name: str, values: object, allowed: str = POSITIONS) -> xr.DataA
     return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
-def read_time(scene: Scene, time: object) -> tuple[xr.DataArray, TimeNodes]:
-    """Instants of the stationary cycle.
-
-    Parameters
-    ----------
-    scene
-        A batch of one point.
-    time
-        ω1 t in rad, a number or a one-dimensional sequence. The cycle has the period 2πq, where ω2/ω1 = p/q.
-        A loop has the period 2π.
-
-    Returns
-    -------
-    time, nodes
-        These, and the same instants of the cycle in the order of time.
-    """
-    array = read_instants(time)
-    nodes = nodes_at(scene, np.mod(array.ravel() / turns(scene), 2.0 * np.pi))
-    return label_time(scene, array, ("time",) * array.ndim), nodes
-
-
 def read_instants(time: object) -> FloatArray:
     """ω1 t in rad, a number or a one-dimensional sequence."""
     return read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
 
 
 def turns_of(points: Points) -> int:
-    """As `turns`, of a batch of one point."""
-    return 1 if points.path is not None else int(points.q[0])
-
-
-def turns(scene: Scene) -> int:
     """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
-    two = _harmonic(scene)
-    return 1 if two is None else two.q
-
-
-def label_time(scene: Scene, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
-    return labelled_time(_harmonic(scene) is not None, time, dims)
+    return 1 if points.path is not None else int(points.q[0])
 
 
 def labelled_time(harmonic: bool, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
@@ -258,31 +202,3 @@ def labelled_time(harmonic: bool, time: FloatArray, dims: tuple[Hashable, ...]) 
     words, symbol = ("omega1 t", r"\omega_1 t") if harmonic else ("angle of the period", r"\varphi")
     attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
     return xr.DataArray(time, dims=dims, attrs=attributes)
-
-
-def _harmonic(scene: Scene) -> BimodalLoad | None:
-    """The two harmonic loads as they are prescribed; None for a loop."""
-    load = scene.cycle.load
-    given = load.given if isinstance(load, MappedLoad) else load
-    return given if isinstance(given, BimodalLoad) else None
-
-
-def periods(points: Points) -> int:
-    """Ratio of ω1 t to the angle of the common period: q of ω2/ω1 = p/q; 1 for a loop, which has no ω1."""
-    return 1 if points.path is not None else int(points.q[0])
-
-
-def label_angles(points: Points, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
-    """Instants ω1 t, or angles of a loop's period, as a labelled array."""
-    words, symbol = (
-        ("omega1 t", r"\omega_1 t") if points.path is None else ("angle of the period", r"\varphi")
-    )
-    attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
-    return xr.DataArray(time, dims=dims, attrs=attributes)
-
-
-def read_angles(points: Points, time: object) -> tuple[xr.DataArray, FloatArray]:
-    """Instants ω1 t in rad, or angles of a loop's period, labelled, and as angles of the common period."""
-    array = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
-    turned = np.mod(array.ravel() / periods(points), 2.0 * np.pi)
-    return label_angles(points, array, ("time",) * array.ndim), turned

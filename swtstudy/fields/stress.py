@@ -13,35 +13,23 @@ import xarray as xr
 from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
-    cycle_at,
-    label_time,
     labelled_time,
     open_point,
-    periods,
-    read_angles,
     read_cycle,
     read_finite,
     read_instants,
     read_places,
-    read_scene,
-    turns,
     turns_of,
 )
-from swtstudy.kernel.field import contact_radii, stress_at
+from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_at, stress_at
 from swtstudy.kernel.punch import COMPONENTS
-from swtstudy.mechanics.body.body import Body, TimeNodes, closer_nodes, time_nodes
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.scene import Scene
-from swtstudy.mechanics.stress.superposition import kernels_of
+from swtstudy.mechanics.numerics.arrays import SAME
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.vocabulary.criteria import CRITERIA
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
-#: Pairs of depth in a_H and number of cells: deeper than that, so many cells give the stress to 1e-8 p0.
-_CELLS_BY_DEPTH = ((0.03, 200), (0.001, 800), (-np.inf, 2400))
-#: Steps on each stretch between two events: a smooth extreme is missed by 0.6 % of the range there at most.
-_STEPS_OF_STRESS = 10
-#: Cells of the field in which extremes are searched, and rounds of the search: swt is then within 1e-6 of
-#: that over all instants.
-_SEARCH = 60, 2
+#: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.
+_OF_INSTANTS, _OF_FIELD = 1e-5, 1e-3
 
 
 def stress_field(
@@ -78,7 +66,7 @@ def stress_field(
     The stress at a point has square-root cusps in time, when the contact edge or a slip front passes, and a
     criterion over the cycle often has its extreme at one. By default the instants are aligned with these
     events, and dense around the extremes of stress and strain on the critical plane: `swt_of_history`
-    of such a history is within 1e-5 of s at the critical point. That takes about 0.1 s for each position; for
+    of such a history is within 1e-5 of s at the critical point. That takes about 1 ms for each position; for
     a map at a few instants, give these. At 64 evenly spaced instants swt can be 23 % low, at 512 still 10 %.
     Within 1e-6 a_H of the edge of a truncated paraboloid's face the stress, which is infinite there, is
     cut off. Nothing of a plane contact depends on y, and σ_yy is that of plane strain.
@@ -97,7 +85,7 @@ def stress_field(
         raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
     rounds = turns_of(points)
     if time is None:
-        instants, history = _at_own_instants(cycle_at(points, parameters), places)
+        instants, history = _at_own_instants(points, opened, places)
     else:
         given = read_instants(time)
         instants = labelled_time(points.path is None, given, ("time",) * given.ndim)
@@ -116,47 +104,19 @@ def stress_field(
     return xr.Dataset(variables, {"time": instants, **as_given(places, x, y, z)})
 
 
-def _at_own_instants(scene: Scene, places: tuple[xr.DataArray, ...]) -> tuple[xr.DataArray, FloatArray]:
-    """ω1 t over instant and the dimensions of the positions, and the stress, shape S + (T, 6)."""
-    x, y, z = (place.values.ravel().tolist() for place in places)
-    points = list(zip(x, y, z, strict=True))
-    nodes = [decisive_nodes(scene, point) for point in points]
-    count = max(some.instant.size for some in nodes)
-    instant, stress = np.empty((len(points), count)), np.empty((len(points), count, 6))
-    for k, (some, point) in enumerate(zip(nodes, points, strict=True)):
-        every = np.minimum(np.arange(count), some.instant.size - 1)
-        instant[k] = some.instant[every]
-        stress[k] = Body(scene, some, _cells(point[2])).stress(*point)[every]
-    shape = places[0].shape
-    time = np.moveaxis(turns(scene) * instant, -1, 0).reshape(count, *shape)
-    return label_time(scene, time, ("instant", *places[0].dims)), stress.reshape(*shape, count, 6)
-
-
-def _cells(depth: float) -> int:
-    return next(count for limit, count in _CELLS_BY_DEPTH if depth > limit)
-
-
-def decisive_nodes(scene: Scene, point: tuple[float, float, float]) -> TimeNodes:
-    """Instants aligned with the events at a point, and close to the extremes that decide its swt.
-
-    Parameters
-    ----------
-    scene
-        A batch of one point.
-    point
-        x, y, z in a_H.
-    """
-    distance = kernels_of(scene.profile).distance(*np.array(point[:2]))
-    nodes = time_nodes(scene, _STEPS_OF_STRESS, [distance])
-    return closer_nodes(scene, nodes, point, *_SEARCH)
-
-
-#: Cells of the field.
-_CELLS_OF_SWT = 60
-#: Steps on each stretch between two events.
-_STEPS_OF_SWT = 4
-#: Distances from the axis whose points are computed together, at the instants of all of them.
-_RADII_AT_ONCE = 12
+def _at_own_instants(
+    points: Points, opened: Opened, places: tuple[xr.DataArray, ...]
+) -> tuple[xr.DataArray, FloatArray]:
+    """ω1 t over instant and the dimensions of the positions, and the stress, shape (n, T, 6)."""
+    flat = np.stack([place.values.ravel() for place in places], axis=1)
+    angles = [instants_at(opened, place, _OF_INSTANTS) for place in flat]
+    count = max(angle.size for angle in angles)
+    instant, stress = np.empty((len(flat), count)), np.empty((len(flat), count, 6))
+    for k, angle in enumerate(angles):
+        every = np.minimum(np.arange(count), angle.size - 1)
+        instant[k], stress[k] = angle[every], stress_at(opened, flat[k : k + 1], angle)[0, every]
+    time = np.moveaxis(turns_of(points) * instant, -1, 0).reshape(count, *places[0].shape)
+    return labelled_time(points.path is None, time, ("instant", *places[0].dims)), stress
 
 
 def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:
@@ -176,26 +136,21 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
 
     Notes
     -----
-    At each point the instants are aligned with the events at its distance from the axis: otherwise swt on the
-    surface would be up to 20 % low, in rings. Between the events there are few instants: where an extreme
-    over the cycle is smooth, mostly beneath the surface, swt can still be 10 % low. `swt_of_history` of the
-    default history of `stress_field` is exact, but slower. Few distinct distances (a grid in polar
-    coordinates) are computed faster. Nothing of a plane contact depends on y.
+    Each value is within 1e-3 of the largest one over all instants and planes. Where nothing is in tension it
+    is 0. Nothing of a plane contact depends on y.
     """
-    scene = read_scene(parameters)
+    points, opened = open_point(parameters)
     places = read_places(x, y, z)
-    flat = np.stack([place.values.ravel() for place in places])
-    away = kernels_of(scene.profile).distance(flat[0], flat[1])
-    distance, group = np.unique(np.round(away, 12), return_inverse=True)
-    swt, normal = np.empty(flat.shape[1]), np.empty((flat.shape[1], 3))
-    for first in range(0, distance.size, _RADII_AT_ONCE):
-        some = (group >= first) & (group < first + _RADII_AT_ONCE)
-        nodes = time_nodes(scene, _STEPS_OF_SWT, distance[first : first + _RADII_AT_ONCE])
-        swt[some], normal[some] = Body(scene, nodes, _CELLS_OF_SWT).swt(*flat[:, some])
+    flat = np.stack([place.values.ravel() for place in places], axis=1)
+    swt, _, normal = criterion_at(opened, flat, _OF_FIELD)
+    # n and −n are one plane: the first component that is not 0 is positive.
+    first = np.take_along_axis(normal, (np.abs(normal) > SAME).argmax(axis=1)[:, None], axis=1)
+    normal = normal * np.where(first < 0.0, -1.0, 1.0) + 0.0
+    criterion = CRITERIA[points.criterion]
     dims, shape = places[0].dims, places[0].shape
-    unit = "E* delta0/R" if scene.criterion.degree == 2 else "E* delta0/a_H"
-    words = f"{scene.criterion.words.replace('–', '-')} over {unit}"
-    variables = {"s_local": (dims, swt.reshape(shape), named(words, scene.criterion.symbol))}
+    unit = "E* delta0/R" if criterion.degree == 2 else "E* delta0/a_H"
+    words = f"{criterion.words} over {unit}"
+    variables = {"s_local": (dims, swt.reshape(shape), named(words, criterion.symbol))}
     for axis, name in enumerate("xyz"):
         meaning = named("unit normal of the critical plane", f"n_{name}")
         variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)
@@ -232,16 +187,18 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         If a distance, an instant or a parameter is not allowed.
     """
     cycle = read_cycle(parameters)
+    rounds = turns_of(cycle.points)
     if time is None:
-        time = 2.0 * np.pi * periods(cycle.points) * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    instants, turned = read_angles(cycle.points, time)
+        time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
+    given = read_instants(time)
+    instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
     allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
     distances = np.atleast_1d(read_finite("r", r, allowed))
     if (distances < 0.0).any():
         raise StudyError([Mistake("r", literal(r), allowed)])
     radius = xr.DataArray(distances, dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = cycle.states(turned)
+    states = cycle.states(given.ravel() / rounds)
     # A ring under a flat face is the whole face.
     place = np.maximum(cycle.place(radius.values), 0.0)
     slips = np.where(states.push > 0, 2, 3)[:, None]

@@ -17,9 +17,8 @@ from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from swtstudy.figures.load import closed_course
 from swtstudy.figures.style import stroke
-from swtstudy.mechanics.load.load import Loop
+from swtstudy.loads.loop import Loop
 
 if TYPE_CHECKING:
     from swtstudy.figures.sheet import Figure
@@ -55,7 +54,7 @@ class LoopHandler(HandlerLine2D):
         loop = self._loops.get(str(orig_handle.get_label()))
         if loop is None or not isinstance(orig_handle, Line2D):
             return [*artists]
-        normal, tangential = closed_course(loop).T
+        normal, tangential = loop.course().T[:2]
         side = 0.85 * height
         left, bottom = width - side - xdescent, -ydescent + 0.5 * (height - side)
         x, y = left + side * _unit(tangential), bottom + side * _unit(normal)

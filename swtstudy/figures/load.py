@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, stroke, styled
-from swtstudy.mechanics.load.load import PERIOD, Loop
+from swtstudy.loads.loop import Loop
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.values import as_number
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
@@ -110,24 +110,12 @@ def _loads(study: Study, loop: Loop) -> FloatArray:
     normal, tangential = (
         _first(study, control.given_for(f"{each}_amplitude"), 1.0) for each in ("normal", "tangential")
     )
-    course = closed_course(loop)
+    course = loop.course()
     columns = [_mean(study, loop) + normal * course[:, 0], tangential * course[:, 1]]
-    if loop.bulk is not None:
+    if loop.bulk_ends is not None:
         amplitude = _first(study, "bulk_stress_amplitude", 1.0)
-        columns.append(
-            _first(study, "bulk_stress_mean", 0.0)
-            + amplitude * loop.bulk.value(np.linspace(0.0, PERIOD, len(course)))
-        )
+        columns.append(_first(study, "bulk_stress_mean", 0.0) + amplitude * course[:, 2])
     return np.stack(columns, axis=1)
-
-
-def closed_course(loop: Loop) -> FloatArray:
-    """Both loads of a loop by itself, the first instant again at the end, shape (k, 2)."""
-    vertices = getattr(loop, "vertices", None)
-    if vertices is not None:
-        return np.asarray(np.concatenate([vertices, vertices[:1]])[:, :2])
-    instant, load = np.linspace(0.0, PERIOD, _INSTANTS + 1), loop.loads(np.ones(1), np.ones(1))
-    return np.stack([load.normal(instant[None])[0] - 1.0, load.tangential(instant[None])[0]], axis=1)
 
 
 def _mean(study: Study, loop: Loop) -> float:

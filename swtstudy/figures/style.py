@@ -118,6 +118,7 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
 
     wanted = STYLE if width is None else STYLE | PRINT
     own: Any = {name: value for name, value in wanted.items() if _untouched(name)}
+    own["text.usetex"] = False  # our words are not LaTeX: it would stop at the first % or _
     with ExitStack() as stack:
         stack.enter_context(matplotlib.rc_context(own))
         if style is not None:

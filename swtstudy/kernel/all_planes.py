@@ -7,7 +7,8 @@ Both are maxima, over instants or pairs of instants, of smooth functions of n. A
 sinusoid of twice the angle. So is the component of a shear stress along a line that turns with the plane: its
 second derivative is at least -4 times itself, and its first one at most twice the largest shear of the
 change. So over twice the angle the bounds of `swtstudy.kernel.criterion.curvature_bound` hold with the
-largest √J2 of a stress, and of a change of it. In a triangle of normals the value is at most that of the
+largest √J2 of a stress, and of a change of it, and no slope of T is steeper than its height above 0 allows
+(`swtstudy.kernel.criterion.slope_bound`). In a triangle of normals the value is at most that of the
 plane through the values at its corners, plus what such a curvature adds. Triangles that may hold a higher
 value are cut in two, until there is none.
 """
@@ -17,7 +18,7 @@ from math import acos, cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.compiled import jit, jit_reordered, new_record, once
-from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, value_of
+from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, slope_bound, value_of
 from swtstudy.kernel.planes import NOISE, above
 
 #: Rows of a history: xx, yy, zz, yz, xz, xy; ν tr σ or 0; two components of the shear stress on a plane.
@@ -61,6 +62,7 @@ PLANES = np.dtype(
         ("bend", "f8", (3,)),  # h² times the second derivatives 11, 22, 12 of ln h
         ("corner", "f8", (MAX_TRIANGLES, 3, 6)),  # normal, h, T, A at the corners of triangles
         ("line", "f8"),  # angle of the longest chord in the last plane
+        ("chord", "f8", (2,)),  # direction of that of a climb
         ("waiting", "f8", (64, 4)),  # intervals of lines: angle, width of the path, step, width at its end
     ]
 )
@@ -315,6 +317,7 @@ def activate(G, S, m, Q):
                 break
             A, i1, i2 = length, j1, j2
             C, D = p / length, q / length
+        G.chord[0], G.chord[1] = C, D
     a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
     top, high, low = -1e300, -1e300, 1e300
     for i in range(m):
@@ -472,7 +475,8 @@ def bound_in(G, Q, k, limit):
     A = min(highest(v[k, 0, 5], v[k, 1, 5], v[k, 2, 5], a, b, c, flat * G.of_swing), G.most[1])
     bound = lifted(Q, T, A, G.noise)
     if bound > limit:
-        K = flat * curvature_bound(Q, T, A, G.of_tension, G.of_swing)
+        slope = slope_bound(G.of_tension, G.most[0])
+        K = flat * curvature_bound(Q, T, A, G.of_tension, G.of_swing, slope)
         bound = min(bound, highest(v[k, 0, 3], v[k, 1, 3], v[k, 2, 3], a, b, c, K))
     return bound, longest
 

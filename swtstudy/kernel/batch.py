@@ -7,6 +7,7 @@ from threading import local
 
 import numpy as np
 
+from swtstudy.kernel.circle import circles, search_circles
 from swtstudy.kernel.compiled import new_record, new_records, once
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
@@ -143,6 +144,10 @@ def solve_batch(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
+        if parts[-1]["circle"].any():
+            warm_up_circles()
+            search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
+            _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, RESULT)
 
 
@@ -150,6 +155,14 @@ def solve_batch(*points, **given):
 def warm_up():
     """Compile what the points need, or load it: once in a process, in one process at a time."""
     solve_batch("rounded_punch", [0.3], [0.5], [0.25], [0.25], shape={"flat_radius": [0.5]}, rtol=1e-2)
+
+
+@once
+def warm_up_circles():
+    """The same for the circles, which many points do without."""
+    records = (new_records(0, kind) for kind in (PROFILE, LOAD, ASK, RESULT))
+    profiles, loads, asks, found = records
+    search_circles(*_circles(), *_workspace(), profiles, np.zeros(0, np.int64), loads, asks, found)
 
 
 def count_batch(x, double_angle, *points, **given):
@@ -237,7 +250,7 @@ def cycle_batch(with_ratio, *points, **given):
 
 
 def margins_batch(*points, **given):
-    """How far points are from where the model ends, as far as the load alone gives it.
+    """Margins of points: how far they are from where the model ends, as far as the load alone gives it.
 
     Parameters
     ----------
@@ -281,6 +294,11 @@ def _loads():
 def _workspace():
     """The memory of this thread."""
     return _of_this_thread("workspace", workspace)
+
+
+def _circles():
+    """The same for the circles."""
+    return _of_this_thread("circles", circles)
 
 
 def _of_this_thread(name, make):

@@ -20,7 +20,7 @@ from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN
 from swtstudy.kernel.growth import solved_places
 from swtstudy.kernel.load import bulk_at, load_at
-from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.profile import MEAN_LOAD, place_of, radius_of
 from swtstudy.kernel.punch import (
     FUNCTIONS,
     OF_STRIP,
@@ -44,6 +44,9 @@ LONGEST = 1.0
 BESIDE_FACE = 1.5
 #: Depths below this share of the distance from the axis or from the face's edge are the surface's.
 SHALLOW = 1e-13
+#: What stands for a distance of 0 in the surface, on the axis or at the edge of the face: its fifth power is
+#: a number.
+NEXT_TO_AXIS = 1e-40
 
 PLACE = np.dtype(
     [
@@ -84,7 +87,7 @@ def set_place(B, P, x, y, z):
     if B.omega <= SHALLOW * B.sigma:
         B.omega = 0.0
     if B.sigma == 0.0 and B.omega == 0.0:  # the axis, or the edge of the face, in the surface
-        B.omega = 1e-12
+        B.omega = NEXT_TO_AXIS
 
 
 @jit
@@ -115,8 +118,11 @@ def cell_end(B, b, low, end):
 
 
 @jit_reordered
-def tabulate_cell(B, k, plane, density, begin, end, low, high, b, total):
-    """Cell k: running integrals of a panel's density times the functions, added to the total up to there."""
+def tabulate_cell(B, k, plane, exponent, density, begin, end, low, high, b, total):
+    """Cell k: running integrals of a panel's density times the functions, added to the total up to there.
+
+    The density of ξⁿ has no series at the axis: its exponent n is told, else 0.
+    """
     kind = BENEATH if B.omega > 0.0 else INSIDE if high <= B.sigma else OUTSIDE
     u0, u1 = variable(B, kind, low), variable(B, kind, high)
     half, width = 0.5 * (u1 - u0), 2.0 / (end - begin)
@@ -133,7 +139,11 @@ def tabulate_cell(B, k, plane, density, begin, end, low, high, b, total):
             s, rate = B.sigma * sin(u), B.sigma * cos(u)
         else:
             s, rate = B.sigma * cosh(u), B.sigma * sinh(u)
-        weight = half * rate * clenshaw(density, (s - begin) * width - 1.0)
+        weight = half * rate
+        if exponent > 0.0:
+            weight *= exponent * max(s, 0.0) ** (exponent - 1.0) * (MEAN_LOAD if plane else 1.0)
+        else:
+            weight *= clenshaw(density, (s - begin) * width - 1.0)
         if plane:
             strip(B.r, B.z, sqrt(b * b + s * s), f)
         else:
@@ -150,7 +160,7 @@ def tabulate_cell(B, k, plane, density, begin, end, low, high, b, total):
 
 
 @jit
-def tabulate(B, row, k, plane, begin, end, density, p0, p1, top, b):
+def tabulate(B, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
     """Tabulate panels p0 to p1 of a density up to s = top, from cell k on; returns the next free cell."""
     B.first[row] = k
     total = B.total[row]
@@ -165,7 +175,7 @@ def tabulate(B, row, k, plane, begin, end, density, p0, p1, top, b):
                 B.overflow = 1
                 return k
             high = cell_end(B, b, low, end[p])
-            tabulate_cell(B, k, plane, density[p], begin[p], end[p], low, high, b, total)
+            tabulate_cell(B, k, plane, exponent, density[p], begin[p], end[p], low, high, b, total)
             k += 1
             low = high
     B.last[row] = k
@@ -228,7 +238,7 @@ def open_place(B, C, R, P, x, y, z, largest):
         B.work[0, j], B.at_axis[j] = 0.0, 0.0
     if P.is_hertz == 0:
         panels = P.begin[:], P.end[:], P.density[:]
-        k = tabulate(B, FIRST, k, plane, *panels, FIRST, P.panels, largest, b)
+        k = tabulate(B, FIRST, k, plane, P.exponent, *panels, FIRST, P.panels, largest, b)
     elif plane:
         strip_moments(B.r, z, 0.0, B.at_axis)
     else:
@@ -239,7 +249,7 @@ def open_place(B, C, R, P, x, y, z, largest):
             continue
         if C.kind[i] == GROWN:
             panels = R.begin[:], R.end[:], R.density[:]
-            k = tabulate(B, 1 + i, k, plane, *panels, R.first[i], R.last[i], 1e300, b)
+            k = tabulate(B, 1 + i, k, plane, 0.0, *panels, R.first[i], R.last[i], 1e300, b)
         beneath, s, sums = C.beneath[i], C.start_s[i], B.up_to_start[i]
         jump = -C.slope[i]
         for j in range(FUNCTIONS):

@@ -36,7 +36,7 @@ def find_stretch(C, L, t):
     Where two stretches meet it is the earlier one.
     """
     last, sign = C.stretches - 1, 1.0
-    if t < C.time[0, 0]:
+    if t <= C.time[0, 0] + SAME_INSTANT * L.period:
         t += L.period
     if t > C.time[last, 1] and L.mirrored:
         t -= 0.5 * L.period

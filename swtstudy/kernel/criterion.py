@@ -106,13 +106,19 @@ def partials(Q, T, A):
 
 
 @jit
-def curvature_bound(Q, T, A, of_tension, of_swing):
-    """Bound of -h″ over 2θ for T and A up to these, and |T′|, |T″| and |A′|, |A″| up to those.
+def curvature_bound(Q, T, A, of_tension, of_swing, slope):
+    """Bound of -h″ over 2θ for T and A up to these, |T″| and |A′|, |A″| up to those, and |T′| up to a slope.
 
     The terms with h_TT and h_AA, which are not negative, only help.
     """
     h_t, h_a, _, h_ta, _ = partials(Q, T, A)
-    return h_t * of_tension + 2.0 * h_ta * of_tension * of_swing + h_a * of_swing
+    return h_t * of_tension + 2.0 * h_ta * slope * of_swing + h_a * of_swing
+
+
+@jit
+def slope_bound(of_tension, highest):
+    """Bound of |T′| where T ≥ 0, from one of -T″ and the largest T: nearer to that the slope is less."""
+    return min(of_tension, sqrt(2.0 * of_tension * max(highest, 0.0)))
 
 
 @jit

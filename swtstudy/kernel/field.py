@@ -1,19 +1,33 @@
 """Stress and criterion at places of the body of one point: named arrays in, arrays out."""
 
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from swtstudy.kernel.batch import _of_this_thread, _refuse_overflow, _workspace, chunks, warm_up
-from swtstudy.kernel.beneath import PLACE, edges, stress_field
-from swtstudy.kernel.compiled import new_record
+from swtstudy.kernel.beneath import edges, stress_field
+from swtstudy.kernel.body import (
+    COARSEST,
+    body_workspace,
+    largest_at_places,
+    von_mises_at_places,
+    write_instants,
+)
+from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.contact import solve_cycle
+from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.history import MAX_INSTANTS
+from swtstudy.kernel.profile import place_of, radius_of
 
 #: Tolerance of what grew, of the stress itself: 1e-8 of the largest pressure.
 GROWTH = 1e-7
+#: Intervals of the smooth parts of the cycle at first, where many values are averaged and for single ones.
+MANY, SINGLE = COARSEST, 2 * COARSEST
+#: Whether a place takes the plane of the one before as a guess: its value depends on the others then.
+AVERAGED, ALONE = np.arange(2)
+#: The gaps beside the extremes of a history are divided so finely, so often.
+CLOSER, LOOKS = 6, 3
 
 
 class Opened(NamedTuple):
@@ -75,12 +89,115 @@ def contact_radii(opened, angle):
     return radius
 
 
+def largest_radius(opened):
+    """Largest contact radius of the cycle in a_H."""
+    return float(radius_of(opened.profile, opened.largest))
+
+
+def passed_radii(opened, most):
+    """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
+    C, _, P, _, _, _ = opened
+    pieces, stretches = int(C["pieces"]), int(C["stretches"])
+    starts = C["start_s"][:pieces][C["used"][:pieces] == 1]
+    every = np.unique(np.concatenate([starts, C["place"][:stretches, :: FINEST // 4].ravel()]))
+    if len(every) > most:
+        every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
+    return np.sqrt(every * every + float(P["flat_radius"]) ** 2)
+
+
+def far_field_of(opened):
+    """The criterion far from the contact, where there is the bulk stress alone."""
+    low, high = map(float, opened.load["bulk_range"])
+    return float(far_field(opened.ask, high, low, opened.profile["plane"])[0])
+
+
 def stress_at(opened, places, angle):
     """Stress at places (n, 3) in a_H and angles of the common period (m,), shape (n, m, 6)."""
     C, R, P, L, Q, largest = opened
-    B = _of_this_thread("place", partial(new_record, PLACE))
+    B = _of_this_thread("body", body_workspace)[0]
     stress = np.empty((len(places), angle.size, 6))
     own = float(Q["poisson_ratio"]), float(Q["friction"])
     stress_field(B, C, R, P, L, *own, places, instants_of(opened, angle), largest, stress)
     _refuse_overflow(B["overflow"])
     return stress
+
+
+def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
+    """The criterion at places of the body, over planes of every orientation.
+
+    Parameters
+    ----------
+    opened
+        The load cycle.
+    places
+        Shape (n, 3): x, y, z in a_H.
+    tolerance
+        Relative.
+    floor
+        Values below it may be low.
+    coarsest
+        Intervals of the smooth parts of the cycle at first: `SINGLE`, or `MANY` for what is averaged.
+
+    Returns
+    -------
+    values, missing
+        Shape (n,): over E* δ0/R or E* δ0/a_H, and what they may miss.
+    normals
+        Shape (n, 3): unit normals of the planes; n and -n are one plane.
+    """
+    C, R, P, L, Q, largest = opened
+    H, W, K = _workspace()[3:]
+    B, S, G = _of_this_thread("body", body_workspace)
+    values, missing, normals = np.empty(len(places)), np.empty(len(places)), np.empty((len(places), 3))
+    own = places, largest, floor, tolerance, coarsest, AVERAGED if coarsest == MANY else ALONE
+    largest_at_places(S, B, H, W, G, C, R, P, K, L, Q, *own, values, missing, normals)
+    _refuse_overflow(np.isnan(values).any())
+    return values, missing, normals
+
+
+def von_mises_at(opened, places):
+    """Largest von Mises stress of the cycle at places (n, 3), in E* δ0/a_H."""
+    C, R, P, L, Q, largest = opened
+    H, W, K = _workspace()[3:]
+    B, S, _ = _of_this_thread("body", body_workspace)
+    values = np.empty(len(places))
+    von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values)
+    _refuse_overflow(np.isnan(values).any())
+    return values
+
+
+def instants_at(opened, place, tolerance):
+    """Angles of the common period, ascending, that tell the criterion at a place (3,) to a tolerance.
+
+    They are those from which the value was made, and others that close in on the extremes of its curves.
+    """
+    normal = criterion_at(opened, place[None], tolerance)[2][0]
+    load = opened.load
+    time = np.empty(MAX_INSTANTS)
+    count = write_instants(_workspace()[3], load, time)
+    turn = 2.0 * np.pi / load["period"]
+    angle = np.mod(time[:count] * turn, 2.0 * np.pi)
+    angle = np.unique(np.concatenate([angle, [0.0, 2.0 * np.pi]]))
+    nu = float(opened.ask["poisson_ratio"]) if opened.ask["criterion"] == SWT else 0.0
+    share = np.arange(1, CLOSER) / CLOSER
+    for _ in range(LOOKS):
+        stress = stress_at(opened, place[None], angle / load["rounds"])[0]
+        curves = curves_on_plane(stress, normal, nu, opened.ask["criterion"] == SWT)
+        ends = np.array([index for curve in curves for index in (curve.argmin(), curve.argmax())])
+        left = np.unique(np.concatenate([ends - 1, ends]))
+        left = left[(left >= 0) & (left < len(angle) - 1)]
+        low, high = angle[left, None], angle[left + 1, None]
+        angle = np.unique(np.concatenate([angle, (low + (high - low) * share).ravel()]))
+    rounds = np.arange(load["rounds"])[:, None] * 2.0 * np.pi
+    return ((angle + rounds) / load["rounds"]).ravel()
+
+
+def curves_on_plane(stress, normal, nu, is_swt):
+    """σ_n and the swing of a history (m, 6) on a plane; of a shear stress its two components."""
+    rows = np.array([[0, 5, 4], [5, 1, 3], [4, 3, 2]])
+    traction = stress[:, rows] @ normal
+    tension = traction @ normal
+    if is_swt:
+        return tension, (1.0 + nu) * tension - nu * stress[:, :3].sum(axis=1)
+    shear = traction - tension[:, None] * normal
+    return tension, *shear.T

@@ -12,12 +12,8 @@ MAX_GROWN = 8191
 #: No panel is thinner: its share of the tractions is the root of its width. Where both loads turn nearly at
 #: the same instant the slope changes from one way of slip to the other within as little.
 THINNEST = 1e-12
-#: Places are interpolated over a stretch where the last coefficients of their series are this share of them.
-INTERPOLATED = 1e-9
 #: Panels that wait to be looked at: those of the profile, and those of some 50 halvings.
 WAITING = MAX_PANELS + 103
-#: And this share of the width of the slip zone: tractions follow the root of a distance within it.
-APART = 1e-6
 GROWTH = np.dtype(
     [
         ("panels", "i8"),
@@ -48,7 +44,7 @@ def lay_out(R, C, P, L, tolerance):
             break
         tolerance *= 4.0
     for k in range(C.stretches):
-        tabulate_places(C, P, L, k)
+        tabulate_places(C, P, L, k, tolerance)
     return tolerance
 
 
@@ -107,7 +103,8 @@ def places_at(C, P, L, k, t, weight):
         for j in range(intervals + 1):
             edge += weight[j] * C.place[k, j * step, 0]
             front += weight[j] * C.place[k, j * step, 1]
-        return edge, front
+        # Pressure follows the root of the edge's rounding: one that rests has none.
+        return C.place[k, 0, 0] if C.edge[k, 0] == C.edge[k, 1] else edge, front
     return solved_places(C, P, L, k, t)
 
 
@@ -132,8 +129,12 @@ def solved_places(C, P, L, k, t):
 
 
 @jit
-def tabulate_places(C, P, L, k):
-    """Tabulate places of edge and front over stretch k, until their series give them at any instant."""
+def tabulate_places(C, P, L, k, tolerance):
+    """Tabulate places of edge and front over stretch k, until their series give them at any instant.
+
+    Tractions follow the root of a distance within the slip zone, or within the contact. So the last
+    coefficients of such a series are at most the square of half the tolerance, over that width.
+    """
     begin, end = C.time[k, 0], C.time[k, 1]
     values = np.empty((2, FINEST + 1))
     for e in range(2):
@@ -153,8 +154,8 @@ def tabulate_places(C, P, L, k):
             values[0, j], values[1, j] = C.place[k, j * step, 0], C.place[k, j * step, 1]
             apart = max(apart, values[0, j] - values[1, j])
         rough = max(tail(values[0], intervals), tail(values[1], intervals))
-        near = APART * apart if C.push[k] != STICK else scale
-        C.interpolated[k] = 1 if rough <= min(INTERPOLATED * scale, near) else 0
+        width = scale if C.push[k] == STICK else apart
+        C.interpolated[k] = 1 if rough <= 0.25 * tolerance * tolerance * width else 0
         if C.interpolated[k] or intervals == FINEST:
             return
         intervals *= 2

@@ -478,7 +478,7 @@ def begin_search(S, H, W, C, R, P, K, L, Q):
     """Places s of the smallest and the largest contact, the last cusp's number, and the first intervals'."""
     smallest, largest = place_of(P, C.smallest), place_of(P, C.largest)
     cusp_count = cusps(S, C, P, L, Q, largest) - 1
-    S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
+    S.best, S.place, S.sign, S.angle, S.tension, S.unsettled = 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
     m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
     return smallest, largest, cusp_count, m

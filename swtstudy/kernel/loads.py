@@ -7,10 +7,8 @@ import numpy as np
 
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
-from swtstudy.kernel.loops import without_collinear
+from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
-#: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
-SAMPLES = 32
 #: A bulk stress follows the tangential load where it is off by no more than this share: rounding.
 PROPORTIONAL = 1e-9
 
@@ -45,7 +43,8 @@ def load_of(
     if hasattr(loop, "vertices"):
         columns = [size * column for size, column in zip(amplitudes, loop.vertices.T, strict=False)]
         bulk = bulk_mean + columns[2] if len(columns) == 3 else np.full(len(columns[0]), bulk_mean)
-        return polygon(1.0 + columns[0], columns[1], bulk)
+        # Instants are those of all vertices, of whatever size the bulk stress is that turns at some of them.
+        return polygon(1.0 + columns[0], columns[1], bulk, every=len(columns) == 3)
     rows = [
         [(order, size * amplitude, phase) for order, amplitude, phase in loop.harmonics.get(key, ())]
         for size, key in zip(amplitudes, ("normal", "tangential", "bulk"), strict=True)
@@ -110,41 +109,20 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     if not orders[0]:
         own = (load[name][:, : len(moving)] for name in ("cosine", "sine"))
         load["bulk_slope"] = _slope(*np.concatenate([*own], axis=1)[1:])
-    for component, name in ((0, "normal_range"), (BULK, "bulk_range")):
-        rest = float(load["rest"][component])
-        if len(components[component]) < 2:
-            swing = sum(abs(row[1]) for row in components[component])
-            load[name] = rest - swing, rest + swing
-        else:
-            load[name] = _range(load, component)
+    for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
+        load[name] = np.add(means[component], ends_of_sum(rows))
     return load
 
 
-def _range(load, component):
-    """Smallest and largest value of one component of a sum of harmonics."""
-    count = load["terms"]
-    cosine, sine = load["cosine"][component, :count], load["sine"][component, :count]
-    moving, rest = np.flatnonzero(np.hypot(cosine, sine)), load["rest"][component]
-    order = load["order"][:count]
-    waves = np.outer(2.0 * np.pi / (SAMPLES * order.max()) * np.arange(SAMPLES * order.max()), order)
-    values = np.cos(waves) @ cosine + np.sin(waves) @ sine
-    ends = []
-    for best in (values.argmin(), values.argmax()):
-        t, value = waves[best, moving[0]] / order[moving[0]], values[best]
-        for _ in range(6):
-            of_cos, of_sin = np.cos(order * t), np.sin(order * t)
-            rate = order * (sine * of_cos - cosine * of_sin)
-            bend = order**2 * (cosine * of_cos + sine * of_sin)
-            t += rate.sum() / bend.sum() if bend.sum() else 0.0
-        found = np.cos(order * t) @ cosine + np.sin(order * t) @ sine
-        ends.append(rest + (min if best == values.argmin() else max)(value, found))
-    return ends
+def polygon(normal, tangential, bulk=None, every=False):
+    """Load along a closed polygon through vertices, each of shape (k,).
 
-
-def polygon(normal, tangential, bulk=None):
-    """Load along a closed polygon through vertices, each of shape (k,)."""
+    Those on the straight line between their neighbours are left out, unless ``every`` one counts.
+    """
     bulk = np.zeros(len(normal)) if bulk is None else bulk
-    vertices = without_collinear(np.stack([normal, tangential, bulk], axis=1).astype(float))
+    vertices = np.stack([normal, tangential, bulk], axis=1).astype(float)
+    if not every:
+        vertices = without_collinear(vertices)
     sides = len(vertices)
     if sides >= MAX_VERTICES:
         raise ValueError(f"a loop of {sides} vertices: at most {MAX_VERTICES - 1}")

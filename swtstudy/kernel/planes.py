@@ -178,7 +178,10 @@ def in_swing(Q, b, c):
 
 @jit
 def locate(H, W, Q, which, C, S):
-    """Write the coefficients of a curve at its maximum over time: parabolas on the series of its part."""
+    """Write the coefficients of a curve at its maximum over time: parabolas on the series of its part.
+
+    Returns the place of the maximum on the part, from -1 to 1.
+    """
     z, node = W.part[which], W.node[which]
     first, intervals = H.first[z], H.intervals[z]
     step = FINEST // intervals
@@ -188,7 +191,7 @@ def locate(H, W, Q, which, C, S):
             of_cos, of_sin = in_swing(Q, of_cos, of_sin)
         W.at_peak[which, 0] = W.a[node] if which == STRESS else W.d[node]
         W.at_peak[which, 1], W.at_peak[which, 2] = of_cos, of_sin
-        return
+        return -1.0 if node == first else 1.0
     values = W.curve[0]
     for j in range(intervals + 1):
         values[j] = curve_at(W, Q, first + j, which, C, S)
@@ -227,6 +230,7 @@ def locate(H, W, Q, which, C, S):
     if which != STRESS:
         of_cos, of_sin = in_swing(Q, of_cos, of_sin)
     W.at_peak[which, 0], W.at_peak[which, 1], W.at_peak[which, 2] = constant, of_cos, of_sin
+    return at
 
 
 @jit
@@ -293,7 +297,7 @@ def survey_planes(H, W, Q, side):
     ranges *= 1.1
     of_plane = 1.0 + Q.poisson_ratio if Q.criterion == SWT else 1.0
     swing = min(2.0 * of_plane * amplitude, ranges)
-    W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing)
+    W.curvature = curvature_bound(Q, tops, ranges, amplitude, swing, amplitude)
     bound = 0.0
     for k in range(PLANES):
         bound = max(bound, above(W.value[k], W.value[(k + 1) % PLANES], W.curvature * STEP * STEP))

@@ -4,22 +4,24 @@ from math import nan, sqrt
 
 import numpy as np
 
+from swtstudy.kernel.circle import at_singular_edge, needs_circle
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.events import stick_limit
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import SEARCH, search_line
+from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
-from swtstudy.kernel.planes import WORK
+from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
-#: Coordinates are rounded to some 4e-14; tractions follow the root of what a slip front is off.
-ROUNDING = 2e-7
+#: Places of slip fronts are rounded to some 4e-14, and those of a moving edge to some 4e-16. Shear tractions,
+#: over μ, and pressures follow their roots.
+OF_FRONT, OF_EDGE = 2e-7, 2e-8
 #: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
 NEAREST = 1e-9
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
@@ -40,6 +42,10 @@ RESULT = np.dtype(
         ("positions", "i8"),
         ("instants", "i8"),
         ("overflow", "i8"),
+        ("s_surface", "f8"),  # s; NaN at the singular edge of a face; what the circle has where it is higher
+        ("circle", "i8"),  # 1: the circle may be higher
+        ("place", "f8"),  # s of critical_x on the profile
+        ("growth", "f8"),  # tolerance of the tables of what grew
     ]
 )
 
@@ -126,6 +132,22 @@ def tension_share(C, Q, tension):
 
 
 @jit
+def rounding_share(C, Q, tension):
+    """Largest stress that rounding makes near edge and front, over the tension."""
+    moves = C.largest > C.smallest
+    return (OF_FRONT * Q.friction + (OF_EDGE if moves else 0.0)) * sqrt(C.largest) / tension
+
+
+@jit
+def towards_centre(C, P, place):
+    """Share by which a value may still rise from next to the centre: as the pressure of ξⁿ, like x^(n-1)."""
+    innermost = INNERMOST * place_of(P, C.largest)
+    if P.exponent == 0.0 or P.exponent >= 2.0 or abs(place) > 2.0 * innermost:
+        return 0.0
+    return innermost ** (P.exponent - 1.0)
+
+
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -135,6 +157,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
     out.shift = 0.0
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
+    out.s_surface, out.circle, out.place, out.growth = nan, 0, 0.0, Q.growth
     solve_cycle(C, L)
     if C.no_equilibrium:
         return
@@ -143,13 +166,13 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         return
     C.shift = shift_of(C, L, P, Q)
     out.shift = C.shift * (C.largest - max(stick_limit(L, C.event, C.events), 0.0)) if C.shift != 0.0 else 0.0
-    out.s, out.s_error = 0.0, 0.0
+    out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(L, P, Q)
     if is_idle(C, L, P, Q):
         return
     growth, gap, share, coarse = Q.growth, 0.0, 1.0, 0.0
     for _ in range(5):
-        asked, growth = growth, lay_out(R, C, P, L, growth)
-        coarse = growth if growth > asked else 0.0
+        out.growth, growth = growth, lay_out(R, C, P, L, growth)
+        coarse = growth if growth > out.growth else 0.0
         gap = search_line(S, H, W, C, R, P, K, L, Q)
         share = tension_share(C, Q, S.tension)
         needed = Q.growth * min(share, 1.0)
@@ -158,10 +181,12 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
             break
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
-    out.s = S.best
-    rounding = (ROUNDING + coarse) / share if S.best > 0.0 else 0.0
-    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out) * S.best
-    if S.best > 0.0:
+    out.s, out.place = S.best, S.place
+    rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
+    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
+    if S.best == 0.0:  # tension within rounding is taken for none
+        out.s_error += NOISE * C.largest
+    else:
         b = P.flat_radius
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
         out.critical_angle = degrees(S.angle)
@@ -169,6 +194,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
+    out.s_surface = nan if at_singular_edge(P, out.critical_x) else out.s
 
 
 @jit

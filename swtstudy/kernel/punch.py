@@ -97,10 +97,17 @@ def disc_moments(r, z, xi, f):
 
 
 @jit
+def reciprocal(w):
+    """1/w; where w is 0, which only the edge of the punch itself is, 0."""
+    m = w.real * w.real + w.imag * w.imag
+    return complex(w.real / m, -w.imag / m) if m > TINY else complex(0.0, 0.0)
+
+
+@jit
 def strip(x, z, xi, f):
     """Write the four functions of a strip of half-width ξ at x ≥ 0."""
     w = complex(x, z)
-    over = 1.0 / (np.sqrt(w - xi) * np.sqrt(w + xi))
+    over = reciprocal(np.sqrt(w - xi) * np.sqrt(w + xi))
     rate = -z * w * over * over * over
     f[0], f[1], f[2], f[3] = over.real, over.imag, rate.real, rate.imag
 
@@ -110,7 +117,7 @@ def strip_moments(x, z, xi, f):
     """Write the indefinite integrals of (π/2) ξ times the four functions."""
     w = complex(x, z)
     root = np.sqrt(w - xi) * np.sqrt(w + xi)
-    rate = z * w / root if root != 0.0 else complex(0.0, 0.0)
+    rate = z * w * reciprocal(root)
     f[0], f[1], f[2], f[3] = (
         -0.5 * pi * root.real,
         -0.5 * pi * root.imag,

@@ -388,7 +388,7 @@ def cycles_of(C, R, U, profiles, which, loads, with_ratio, out):
 
 @jit
 def margins_of(C, profiles, which, loads, out):
-    """How far points are from where the model ends, as the load alone gives it, also out of equilibrium."""
+    """Write how far points are from where the model ends, by the load alone, also out of equilibrium."""
     for i in range(which.shape[0]):
         P, L = profiles[which[i]], loads[i]
         m = turning_points(L, C.event)

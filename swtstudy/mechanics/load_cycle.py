@@ -66,7 +66,7 @@ class LoadCycle:
 
     @property
     def equilibrium(self) -> bool:
-        """Whether there is a cycle."""
+        """True if there is a cycle."""
         return not self.memory[0].no_equilibrium
 
     @property
@@ -86,7 +86,7 @@ class LoadCycle:
 
     @property
     def oscillations(self) -> int:
-        """How often the load oscillates in a period, as its fastest component does."""
+        """Number of times that the load oscillates in a period, as its fastest component does."""
         if self.points.path is None:
             return int(max(self.points.p[0], self.points.q[0]))
         load = self.load

@@ -11,14 +11,27 @@ that carries the bulk stress over the mean strain of both, under equal tractions
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
-from swtstudy.kernel.batch import margins_batch
-from swtstudy.mechanics.points import FloatArray, Points, Rows
-from swtstudy.mechanics.solver import arguments_of
-from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP
+from swtstudy.mechanics.control.coordinate import (
+    Coordinate,
+    DepthCoordinate,
+    ForceCoordinate,
+    largest_depth,
+    profile_up_to_force,
+    unit_half_load,
+)
+from swtstudy.mechanics.indenter import make_profile, roughness
+from swtstudy.mechanics.points import FloatArray, IndexArray, Points, Rows
+from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
+
+#: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
+#: are off by some 1e-6 of an amplitude. And values of a load that are held at a time.
+SAMPLES, AT_ONCE = 96, 2_000_000
 
 
 @dataclass(frozen=True)
@@ -51,11 +64,115 @@ class Margins(Rows):
     @classmethod
     def of(cls, points: Points) -> Margins:
         """Margins of points of one profile family and control."""
+        # Compiled: whoever only reads a study does without.
+        from swtstudy.kernel.batch import margins_batch
+        from swtstudy.mechanics.solver import arguments_of
+
         found = margins_batch(**arguments_of(points))
         radius, stick, ratio, slide = (
             found[name].copy() for name in ("contact_radius", "stick_radius", "force_ratio", "slide")
         )
         return cls(radius, stick, bulk_shift(points), ratio, slide)
+
+    @classmethod
+    def foreseen(cls, points: Points) -> Margins:
+        """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
+        found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
+        for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
+            alike = np.flatnonzero((points.p == p) & (points.q == q))
+            parts = -(-alike.size * _motion(points.take(alike[:1]))[0].shape[1] // AT_ONCE)
+            for rows in np.array_split(alike, parts):
+                found.write(rows, _seen(points.take(rows)))
+        return found
+
+
+def _motion(points: Points) -> tuple[FloatArray, FloatArray, bool]:
+    """Normal and tangential motion over their amplitudes, (n, T) or (1, T), and whether it is smooth.
+
+    The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
+    """
+    path: Any = points.path
+    p, q = int(points.p[0]), int(points.q[0])
+    if path is None:
+        rows = [(q, 1.0, points.phase[:, None])], [(p, 1.0, np.zeros((1, 1)))]
+    elif hasattr(path, "vertices"):
+        normal, tangential = path.vertices.T[:2, None]
+        return normal, tangential, False
+    else:
+        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential"))
+    fastest = max([1, *(order for row in rows for order, _, _ in row)])
+    turn = 2.0 * np.pi / (SAMPLES * fastest) * np.arange(SAMPLES * fastest)[None]
+    normal, tangential = (
+        sum((size * np.sin(order * turn + phase) for order, size, phase in row), np.zeros((1, turn.size)))
+        for row in rows
+    )
+    return normal, tangential, True
+
+
+def _largest(values: FloatArray, smooth: bool) -> FloatArray:
+    """Largest values of closed curves, (n, T), shape (n,): of smooth ones by parabolas."""
+    if not smooth:
+        return values.max(axis=1)
+    before, after = np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)
+    top = (values >= before) & (values >= after) & np.isfinite(before + values + after)
+    bend = np.where(top, 2.0 * values - before - after, 0.0)
+    rise = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(values), where=bend > 0.0)
+    return np.asarray((values + rise).max(axis=1))
+
+
+def _seen(points: Points) -> Margins:
+    """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
+    normal, tangential, smooth = _motion(points)
+    normal = 1.0 + points.normal_amplitude[:, None] * normal
+    tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
+    found = Margins(*np.full((len(fields(Margins)), len(points)), np.nan))
+    largest = _largest(normal, smooth)
+    for rows in _of_one_roughness(points, largest):
+        own, coordinate = _in_diagram(points.take(rows), normal[rows], largest[rows])
+        found.write(rows, _of_diagram(points.take(rows), own, tangential[rows], smooth, coordinate))
+    return found
+
+
+def _of_one_roughness(points: Points, largest: FloatArray) -> Iterator[IndexArray]:
+    """Rows of points whose profiles have tables of one fineness, up to the largest normal loads."""
+    level = roughness(
+        points.profile, points.shape, largest_depth(points.control, points.profile, points.shape, largest)
+    )
+    for each in np.unique(level):
+        yield np.flatnonzero(level == each)
+
+
+def _in_diagram(points: Points, normal: FloatArray, largest: FloatArray) -> tuple[FloatArray, Coordinate]:
+    """The normal load, (n, T), in the coordinate of the tangential one, and that coordinate."""
+    control, name, shape = points.control, points.profile, points.shape
+    if control.normal_force or is_plane(name):
+        profile, unit = profile_up_to_force(name, shape, largest)
+    else:
+        profile, unit = make_profile(name, shape, largest), unit_half_load(name, shape, len(points))
+    force, depth = ForceCoordinate(profile, unit), DepthCoordinate(profile)
+    if profile.plane or not control.mixed:
+        return normal, force if profile.plane or control.tangential_force else depth
+    given, own = (force, depth) if control.normal_force else (depth, force)
+    return np.where(normal > 0.0, own.of(given.radius(np.maximum(normal, 0.0))), normal), own
+
+
+def _of_diagram(
+    points: Points, normal: FloatArray, tangential: FloatArray, smooth: bool, coordinate: Coordinate
+) -> Margins:
+    """Margins from both loads in the diagram, (n, T), and its coordinate."""
+    highest, lowest = _largest(tangential - normal, smooth), -_largest(-tangential - normal, smooth)
+    stick = 0.5 * (lowest - highest)
+    ends = np.maximum(np.stack([stick, _largest(normal, smooth)], axis=1), 0.0)
+    stick_radius, largest = coordinate.radius(ends).T
+    stick_radius = np.where(stick >= 0.0, stick_radius, np.nan)
+    unknown = np.full(len(points), np.nan)
+    if not points.control.tangential_force:
+        slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
+        return Margins(largest, stick_radius, bulk_shift(points), unknown, slide)
+    size, load = np.abs(tangential), np.maximum(normal, 0.0)
+    with np.errstate(divide="ignore"):
+        ratio = np.divide(size, load, out=np.zeros_like(load), where=size > 0.0)
+    return Margins(largest, stick_radius, bulk_shift(points), _largest(ratio, smooth), unknown)
 
 
 def bulk_shift(points: Points) -> FloatArray:
@@ -66,8 +183,7 @@ def bulk_shift(points: Points) -> FloatArray:
     """
     ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
     if points.path is not None:
-        course = points.path.bulk
-        amplitude = amplitude * (0.0 if course is None else 0.5 * np.ptp(course.ends))
+        amplitude = amplitude * 0.5 * np.ptp(points.path.bulk_ends or (0.0, 0.0))
     if points.profile not in (PLAIN, PLAIN_STRIP):
         return np.where((amplitude == 0.0) & (μ > 0.0), 0.0, np.nan)
     stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
+    from swtstudy.loads.loop import Loop
     from swtstudy.mechanics.indenter.profile_table import AnyProfile
-    from swtstudy.mechanics.load.load import Loop
 
 
 class Rows:
@@ -116,7 +116,7 @@ class Points(Rows):
     path
         The loop that the load runs through; None for the two harmonic oscillations.
     criterion
-        Of which s is the largest value, a key of `swtstudy.mechanics.planes.criterion.CRITERIA`.
+        Of which s is the largest value, a key of `swtstudy.vocabulary.criteria.CRITERIA`.
     walker_exponent
         Shape (n,), of SWT; 1/2 unless given.
     normal_sensitivity

@@ -12,14 +12,13 @@ from dataclasses import replace
 import numpy as np
 
 from swtstudy.kernel.batch import cycle_batch, maxima_batch
-from swtstudy.mechanics.body import von_mises
+from swtstudy.kernel.field import largest_radius, open_cycle
 from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
-from swtstudy.mechanics.control.coordinate import unit_half_load
+from swtstudy.mechanics.body.von_mises import largest_von_mises
 from swtstudy.mechanics.counted import FewCycles
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import arguments_of, scenes
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.vocabulary.quantities import (
     COUNTED,
     COUNTS,
@@ -46,7 +45,7 @@ CANDIDATE_TOLERANCE = 1e-4
 SAME_MAXIMUM = 0.01
 
 
-def worst_means(points: Points, scene: Scene, solution: Solution, distance: FloatArray) -> NonlocalSwt:
+def worst_means(points: Points, solution: Solution, distance: FloatArray) -> NonlocalSwt:
     """The largest values over critical distances among those about the critical points and other maxima.
 
     Each kind, distance and direction has its own place. Another local maximum of swt along the line is tried
@@ -55,27 +54,27 @@ def worst_means(points: Points, scene: Scene, solution: Solution, distance: Floa
 
     Parameters
     ----------
-    points, scene, solution
-        n points, their scene and their solution.
+    points, solution
+        n points and their solution.
     distance
         As of `nonlocal_swt`.
     """
     position = solution.critical_x
-    found = nonlocal_swt(scene, position, solution.critical_angle, distance)
+    found = nonlocal_swt(points, position, solution.critical_angle, distance)
     rows = np.flatnonzero(np.isfinite(position))
     if not rows.size:
         return found
     limits = np.maximum(_least(found)[rows], 0.0), solution.s[rows]
     others = maxima_batch(*limits, **arguments_of(points.take(rows)), rtol=CANDIDATE_TOLERANCE)
-    near = SAME_MAXIMUM * scene.largest_radius
     for row, maxima in zip(rows, others, strict=True):
-        tried = [float(position[row])]
+        one, tried = points.take(np.array([row])), [float(position[row])]
+        near = SAME_MAXIMUM * largest_radius(open_cycle(**arguments_of(one)))
         for x, double_angle, swt in zip(*maxima, strict=True):
-            if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near[row]:
+            if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near:
                 continue
             tried.append(float(x))
             degrees = np.degrees(0.5 * double_angle)
-            own = nonlocal_swt(scene.take(np.array([row])), np.array([x]), np.array([degrees]), distance)
+            own = nonlocal_swt(one, np.array([x]), np.array([degrees]), distance)
             found = _larger(found, int(row), own)
     return found
 
@@ -123,17 +122,10 @@ def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> d
     names = [name for name in asked.names if NAMED[name].function in OF_CYCLE]
     if names:
         found |= _of_cycles(points, names)
-    for index, scene in scenes(points) if asked.distances or YIELD in asked.names else ():
-        some = points.take(index)
-        own = solution.take(index)
-        parts: dict[str, FloatArray] = {}
-        if YIELD in asked.names:
-            unit = unit_half_load(some.profile, some.shape, len(index))
-            parts |= {YIELD: von_mises.largest_von_mises(scene, unit)}
-        if asked.distances:
-            parts |= _nonlocal(some, scene, own, asked.distances)
-        for column, values in parts.items():
-            found[column][index] = values
+    if YIELD in asked.names:
+        found[YIELD] = largest_von_mises(points)
+    if asked.distances:
+        found |= _nonlocal(points, solution, asked.distances)
     if asked.counts:
         found |= _counted(points, solution)
     return found
@@ -151,10 +143,8 @@ def _of_cycles(points: Points, names: Sequence[str]) -> dict[str, FloatArray]:
     return found
 
 
-def _nonlocal(
-    points: Points, scene: Scene, solution: Solution, distances: Sequence[float]
-) -> dict[str, FloatArray]:
-    made = worst_means(points, scene, solution, np.array(distances))
+def _nonlocal(points: Points, solution: Solution, distances: Sequence[float]) -> dict[str, FloatArray]:
+    made = worst_means(points, solution, np.array(distances))
     # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:

@@ -18,7 +18,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Points
+    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -59,7 +59,7 @@ RATIO_COLUMNS = ("p", "q")
 COST = "load_cost"
 LOAD_COLUMNS = ("control", COST, "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", "control", "load", *RATIO_COLUMNS, "criterion")
+SHARED_COLUMNS = ("profile", "control", "load", "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Those of bodies and criterion; friction is before the Poisson ratio, which the tractions do not depend on.
@@ -139,7 +139,7 @@ def _make_profiles_canonical(table: Table) -> None:
 
 def _make_loads_canonical(table: Table) -> BoolArray:
     """Returns where x is mirrored."""
-    from swtstudy.mechanics.load.bimodal import fold_bulk_phase, fold_phase, without_what_stands_still
+    from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
     p, q = table["p"], table["q"]
     normal, tangential, phase = (
@@ -202,6 +202,13 @@ def group_rows(table: Table) -> tuple[IntArray, IntArray]:
     return first, group
 
 
+def alike(table: Table, *more: str) -> list[IndexArray]:
+    """Indices of the rows that share `SHARED_COLUMNS`, and more columns, one array for each kind."""
+    _, group = group_rows(table[[*SHARED_COLUMNS, *more]])
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.cumsum(np.bincount(group))[:-1]) if len(table) else []
+
+
 def points_from(table: Table, definitions: Definitions) -> Points:
     """A batch for the solver from canonical rows that share one profile, control and course of the load.
 
@@ -212,7 +219,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     definitions
         What the user has defined, by its code.
     """
-    from swtstudy.mechanics.load.load import Loop
+    from swtstudy.loads.loop import Loop
     from swtstudy.mechanics.points import Points
 
     profile = value_of(table["profile"][0], definitions)

@@ -30,7 +30,7 @@ from swtstudy.vocabulary.quantities import Request, item_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.load.load import Loop
+    from swtstudy.loads.loop import Loop
     from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 
 
@@ -98,7 +98,7 @@ class Grid:
     @property
     def loops(self) -> tuple[Loop, ...]:
         """Its loads that are loops."""
-        from swtstudy.mechanics.load.load import Loop
+        from swtstudy.loads.loop import Loop
 
         return tuple(load for load in self.values("load") if isinstance(load, Loop))
 

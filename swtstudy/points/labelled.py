@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import fields
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any
@@ -13,9 +14,10 @@ from numpy.typing import NDArray
 
 from swtstudy.mechanics.points import REGIMES, BoolArray, Solution
 from swtstudy.points import requested
+from swtstudy.points.canonical import alike, points_from
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.records import STATES
-from swtstudy.points.unique import UniquePoints
+from swtstudy.points.records import STATES, Records
+from swtstudy.points.unique import UniquePoints, columns_at
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, with_values_of
@@ -26,6 +28,9 @@ from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attribute
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
+
+#: Points whose margins are found together: the working memory for one is some kB.
+_TOGETHER = 2000
 
 #: Data variables that results have where something is given that they are about.
 MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio", "slide_ratio")
@@ -181,6 +186,16 @@ def label(
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
+def label_records(
+    grid: Grid, points: UniquePoints, records: Records, asked: Request, of_runs: bool = True
+) -> xr.Dataset:
+    """The Dataset of a grid whose distinct points have these records; ``of_runs`` with status and run."""
+    arrays = arrays_of(records.solution.take(points.index), points.mirrored) | margins(points, grid)
+    if of_runs:
+        arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
+    return label(grid, arrays, asked, columns_at(grid, asked, points, records.quantity))
+
+
 def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
     """Say of s and of what is made of it which criterion it is, unless it is the paper's."""
     criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
@@ -240,18 +255,25 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: UniquePoints, grid: Grid) -> dict[str, NDArray]:
+def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
-    ``bulk_shift`` as long as it is no larger than the width of the slip zone.
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
+    known without a compiler, to 1e-5.
     """
     from swtstudy.mechanics.margins import Margins
 
     names = grid.margins
     if not names:
         return {}
-    every = Margins.joined([Margins.of(batch) for batch in points.batches])
-    radius, stick, shift, ratio, slide = vars(every.take(points.index)).values()
+    of = Margins.foreseen if foreseen else Margins.of
+    every = np.full((len(fields(Margins)), len(points.table)), np.nan)
+    for rows in alike(points.table):
+        for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
+            with np.errstate(all="ignore"):
+                found_here = of(points_from(points.table[some], points.definitions))
+            every[:, some] = list(vars(found_here).values())
+    radius, stick, shift, ratio, slide = every[:, points.index]
     width = radius - stick  # of the slip zone
     if "bulk_shift" in names:
         shift = shift * grid.strain_shares

@@ -13,7 +13,7 @@ from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.load.load import Loop
+    from swtstudy.loads.loop import Loop
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -136,7 +136,7 @@ def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
 
 def sizes_of(load: Loop) -> dict[str, float]:
     """Largest size of the values of a loop, by the amplitude that multiplies them."""
-    bulk = load.bulk.ends if load.bulk else (0.0, 0.0)
+    bulk = load.bulk_ends or (0.0, 0.0)
     ends = zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True)
     return {name: max(map(abs, each)) for name, each in ends}
 

@@ -98,7 +98,7 @@ def _largest_course(grid: Grid) -> float:
 
 def largest_reach(grid: Grid) -> float:
     """By how many amplitudes the normal load rises at most."""
-    from swtstudy.mechanics.load.load import Loop
+    from swtstudy.loads.loop import Loop
 
     return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
 
@@ -142,7 +142,7 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
     """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
-    from swtstudy.mechanics.control.diagram import largest_depth
+    from swtstudy.mechanics.control.coordinate import largest_depth
     from swtstudy.mechanics.indenter import compact_shapes
 
     if not grid.control.normal_force:

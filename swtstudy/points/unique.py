@@ -1,4 +1,4 @@
-"""The distinct canonical points behind a grid, their cost, the blocks they are solved in, and the way back.
+"""The distinct canonical points behind a grid, and the way back.
 
 Columns of the quantities that are asked of them are spread to all points of the grid.
 """
@@ -11,20 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
-from swtstudy.points.canonical import (
-    COST,
-    LOAD_COLUMNS,
-    ROW,
-    SHARED_COLUMNS,
-    Definitions,
-    Table,
-    canonical_cycles,
-    group_rows,
-    points_from,
-)
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
+from swtstudy.points.canonical import ROW, Definitions, Table, canonical_cycles, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.vocabulary.quantities import NONLOCAL, YIELD, Request, columns_in, columns_of, item_of, rows_of
+from swtstudy.vocabulary.quantities import NONLOCAL, Request, columns_in, columns_of, item_of, rows_of
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
 LARGEST_GRID = 50_000_000
@@ -40,7 +30,7 @@ class UniquePoints:
     Attributes
     ----------
     table
-        Shape (m,) of `ROW`, sorted by profile and frequency ratio, then by load.
+        Shape (m,) of `ROW`, in lexicographic order.
     index
         Shape (grid.size,): row of `table` for every grid point.
     mirrored
@@ -54,15 +44,9 @@ class UniquePoints:
     mirrored: BoolArray
     definitions: Definitions
 
-    @property
-    def batches(self) -> list[Points]:
-        """The batches that are solved one by one, in the order of the table; see `block_ends`."""
-        blocks = np.split(self.table, block_ends(self.table)[:-1])
-        return [points_from(block, self.definitions) for block in blocks]
-
 
 def unique_points(grid: Grid) -> UniquePoints:
-    """The distinct canonical points of a grid, in the order in which they are best computed.
+    """The distinct canonical points of a grid.
 
     Raises
     ------
@@ -82,88 +66,6 @@ def unique_points(grid: Grid) -> UniquePoints:
     return UniquePoints(rows[first], index, mirrored, grid.definitions)
 
 
-def loads(table: Table) -> int:
-    """Number of distinct loads, each of which needs one contact solution."""
-    return len(group_rows(table[[*LOAD_COLUMNS]])[0])
-
-
-#: Rough cost of a point by its weight, before any has been timed.
-SECONDS_PER_WEIGHT = 4e-3
-#: The same of the nonlocal values of a point, whatever its weight and the number of distances.
-SECONDS_NONLOCAL = 0.2
-#: The same of the largest von Mises stress.
-SECONDS_YIELD = 0.05
-#: How much more counting the strain cycles of a point costs than its s.
-COUNTING = 2.5
-
-
-def weights(table: Table) -> IntArray:
-    """Rough relative cost of points: long cycles cost more."""
-    return table["p"] + table["q"] + table[COST]
-
-
-def rough_seconds(weight: float, points: int, asked: Request) -> float:
-    """Rough computing time of points of this weight together, before any has been timed."""
-    beside = SECONDS_NONLOCAL * bool(asked.distances) + SECONDS_YIELD * (YIELD in asked.names)
-    return float(weight * SECONDS_PER_WEIGHT * (1.0 + COUNTING * asked.counts) + points * beside)
-
-
-def duration(seconds: float) -> str:
-    """Seconds as people say them.
-
-    Examples
-    --------
-    >>> duration(0.5), duration(75), duration(7500)
-    ('0.5 s', '1 min 15 s', '2 h 5 min')
-    """
-    if seconds < 10:
-        return f"{seconds:.1f} s"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"
-
-
-#: Points in a block, times their weight: one or two seconds of work. In small blocks each point costs more:
-#: with half of it, and of the solver's batches, a tenth at long cycles.
-_BLOCK_SIZE = 1024
-_SMALLEST_BLOCK = 4
-#: Points that are worth more than one block: then there are as many for one of two workers as for the other.
-_WORTH_SHARING = 64
-
-
-def block_ends(table: Table) -> IntArray:
-    """Ends of the blocks of a table; what is solved in one call does not depend on the run.
-
-    The last bits of a value depend on what it is solved together with. Blocks that depend on the table
-    alone make an interrupted run end with the very values of an undisturbed one.
-
-    A block has one profile and one frequency ratio, and ends between two loads where it can: points with
-    the same load share their contact solution.
-    """
-    load_end = _stretch_ends(table, ("profile", *LOAD_COLUMNS))
-    load_begin = np.append(0, load_end)
-    ends, begin = [], 0
-    for end in _stretch_ends(table, SHARED_COLUMNS).tolist():
-        length = end - begin
-        size = max(_BLOCK_SIZE // int(weights(table[begin:end]).max(initial=1)), _SMALLEST_BLOCK)
-        share = 2 if length >= _WORTH_SHARING else 1
-        count = max(share * -(-length // (share * size)), 1)
-        cuts = begin + length * np.arange(1, count + 1) // count
-        # Where the last load begins; but not at the cost of half a block.
-        between = load_begin[np.searchsorted(load_end, cuts, "right")]
-        ends.append(np.where(cuts - between <= length / count / 2.0, between, cuts))
-        begin = end
-    return np.concatenate(ends)
-
-
-def _stretch_ends(table: Table, names: tuple[str, ...]) -> IntArray:
-    columns = table[[*names]]
-    return np.append(np.flatnonzero(columns[1:] != columns[:-1]) + 1, len(columns))
-
-
 def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str, ...], BoolArray]:
     """Items that are asked of some points, and of which, shape (len(points.table), number of items)."""
     distances, at = grid.items(asked)
@@ -172,6 +74,14 @@ def wanted(grid: Grid, asked: Request, points: UniquePoints) -> tuple[tuple[str,
     for each in at:
         of[points.index, len(asked.same) + each] = True
     return (*asked.same, *distances), of
+
+
+def kinds(
+    some: BoolArray, items: tuple[str, ...], of: BoolArray
+) -> Iterator[tuple[BoolArray, tuple[str, ...]]]:
+    """Masks of those of some points of which the same items are wanted, and these; see `wanted`."""
+    for one in np.unique(of[some], axis=0) if of.size else [of[0]] * bool(some.any()):
+        yield some & (of == one).all(axis=1), tuple(np.array(items, object)[one])
 
 
 def columns_at(

@@ -195,13 +195,22 @@ def rows_of(dataset: xr.Dataset) -> list[str]:
     return [str(name) for name in dataset.dims if name not in dropped]
 
 
+#: First letters of what spreadsheets run.
+_FORMULA = ("=", "+", "-", "@", "\t", "\r")
+
+
 def packed(table: pd.DataFrame) -> str:
     """The table as a compressed CSV file in a data URI; empty if it is too large for a page."""
-    text = _rounded(table).to_csv(index=False, float_format=f"%.{_DIGITS}g", lineterminator="\n")
+    text = _inert(_rounded(table)).to_csv(index=False, float_format=f"%.{_DIGITS}g", lineterminator="\n")
     # Without a time stamp: the same results give the same page.
     content = gzip.compress(text.encode(), 9, mtime=0)
     whole = base64.b64encode(content).decode()
     return f"data:application/gzip;base64,{whole}" if len(whole) <= LARGEST_TABLE else ""
+
+
+def _inert(table: pd.DataFrame) -> pd.DataFrame:
+    """The table with an apostrophe before words that a spreadsheet would run as formulae."""
+    return table.map(lambda cell: f"'{cell}" if isinstance(cell, str) and cell[:1] in _FORMULA else cell)
 
 
 def _rounded(table: pd.DataFrame) -> pd.DataFrame:

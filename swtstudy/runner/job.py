@@ -5,20 +5,18 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swtstudy.points.chunk import Solver, chunks
 from swtstudy.points.records import Records, Run
-from swtstudy.points.unique import rough_seconds, weights
-from swtstudy.runner.chunk import Solver, chunks
 from swtstudy.runner.collector import Collector
 from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.workload import Workload, assess
 from swtstudy.study.definition import Study, require_study
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.quantities import Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
@@ -73,17 +71,10 @@ class Job:
     def __exit__(self, *_: object) -> None:
         self._held.close()
 
-    @property
-    def seconds(self) -> float:
-        """Roughly the work that is left, in seconds of one process."""
-        wanted = self.work.missing | self.work.incomplete
-        weight = weights(self.work.points.table[wanted]).sum()
-        return rough_seconds(weight, wanted.sum(), Request.of(self.work.quantities))
-
-    def compute(self, workers: AbstractContextManager[Pool | None], solver: Solver) -> None:
-        """Compute what is missing, saved in parts as it comes; without a pool in this process."""
+    def compute(self, pool: Pool, solver: Solver) -> None:
+        """Compute what is missing, saved in parts as it comes."""
         with self.reporting():
-            self._records = _compute(self.work, self.study, self.path, workers, solver)
+            self._records = _compute(self.work, self.study, self.path, pool, solver)
 
     def finish(self) -> xr.Dataset:
         """Write the archive, and return it."""
@@ -153,9 +144,7 @@ def _saved(work: Workload, path: Path) -> str:
     return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
 
 
-def _compute(
-    work: Workload, study: Study, path: Path, workers: AbstractContextManager[Pool | None], solver: Solver
-) -> Records:
+def _compute(work: Workload, study: Study, path: Path, pool: Pool, solver: Solver) -> Records:
     """The records, with the missing points computed."""
     from swtstudy.archive.attributes import versions
     from swtstudy.archive.parts import PartsWriter, parts_folder
@@ -165,12 +154,9 @@ def _compute(
     writer = PartsWriter(parts_folder(path))
     now = datetime.now(UTC).isoformat(timespec="seconds")
     own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
+    todo = [chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, asked)]
     collector = Collector(work.records, own, writer, work.todo, path.stem)
-    weight = collector.pace.chunk_weight
-    todo = (
-        chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, weight, asked)
-    )
-    with collector, workers as pool:
+    with collector:
         solve(todo, study.rtol, solver, collector.add, pool)
     return collector.records
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import AbstractContextManager, ExitStack, nullcontext
+from contextlib import AbstractContextManager, ExitStack
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.runner.chunk import Solver, solve_points
-from swtstudy.runner.engine import Pool
+from swtstudy.points.chunk import Solver, solve_points
+from swtstudy.runner.engine import ThreadPool
 from swtstudy.runner.job import Job, Stopped
-from swtstudy.runner.workers import LocalPool
 from swtstudy.study.definition import Study, read_studies
 from swtstudy.study.shipped import shipped_folder
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
@@ -26,9 +25,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Stopped", "run", "run_and_draw", "run_several", "run_suite"]
 
-#: Seconds of work that one process does alone: worker processes take as long to start.
-_SMALL_SECONDS = 1.0
-
 #: Receives the study, the path and the content of an archive as soon as it is written.
 Finished = Callable[[Study, Path, "xr.Dataset"], None]
 
@@ -38,16 +34,17 @@ def run(
     path: str | PathLike[str],
     *,
     workers: int = 2,
+    processes: bool = False,
     client: Client | None = None,
     retry_failed: bool = False,
     solver: Solver = solve_points,
 ) -> xr.Dataset:
     """Compute a study and write its archive to ``path``.
 
-    Every finished chunk is saved beside the archive at once. A run that was killed continues where it was,
-    and points that an archive at ``path`` already has are not computed again. Results for points that are no
-    longer in the study are kept in a folder beside the archive, ``figure3.nc.kept``, and used again by a
-    study that has them.
+    What is finished is saved beside the archive within a second, or within a hundredth of the time of a long
+    run. A run that was killed continues where it was, and points that an archive at ``path`` already has are
+    not computed again. Results for points that are no longer in the study are kept in a folder beside the
+    archive, ``figure3.nc.kept``, and used again by a study that has them.
 
     Parameters
     ----------
@@ -56,13 +53,16 @@ def run(
     path
         Path of the netCDF archive, which may exist.
     workers
-        Number of local worker processes; a study that takes less than about a second is computed without any.
+        Number of threads that compute, or of processes.
+    processes
+        Whether processes compute instead of threads. They take seconds to start, and a point that kills its
+        process then fails alone.
     client
         Client of a dask.distributed cluster, to be used instead of local workers.
     retry_failed
         Whether to recompute points that failed before.
     solver
-        Solves a batch of points; a function that worker processes can import.
+        Solves a batch of points, several batches at a time; processes must be able to import it.
 
     Returns
     -------
@@ -93,6 +93,7 @@ def run(
         [(study, Path(path))],
         lambda study, path, dataset: found.append(dataset),
         workers=workers,
+        processes=processes,
         client=client,
         retry_failed=retry_failed,
         solver=solver,
@@ -186,15 +187,15 @@ def run_several(
     finished: Finished,
     *,
     workers: int = 2,
+    processes: bool = False,
     client: Client | None = None,
     retry_failed: bool = False,
     solver: Solver = solve_points,
 ) -> None:
     """Compute studies with the same workers, and write their archives.
 
-    While the workers compute a study, the archive of the one before is written in another thread: netCDF is
-    not thread-safe, but computing only writes parts. An error in one study ends all; what is computed of the
-    others is saved.
+    While the workers compute a study, the archive of the one before is written in another thread. An error in
+    one study ends all; what is computed of the others is saved.
 
     Parameters
     ----------
@@ -202,14 +203,14 @@ def run_several(
         Studies and the paths of their archives.
     finished
         Called with every archive, one after the other, not always in this thread.
-    workers, client, retry_failed, solver
+    workers, processes, client, retry_failed, solver
         As for `run`.
     """
     if not isinstance(workers, int) or workers < 1:
-        raise StudyError([Mistake("workers", literal(workers), "a number of processes, from 1 on")])
+        raise StudyError([Mistake("workers", literal(workers), "a number of workers, from 1 on")])
     with ExitStack() as held:
         background = held.enter_context(ThreadPoolExecutor(1))
-        local = held.enter_context(LocalPool(workers))
+        pool = held.enter_context(_pool(workers, processes, client))
         before: Job | None = None
         for study, path in studies:
             try:
@@ -221,24 +222,25 @@ def run_several(
             held.callback(job.__exit__)
             writing = None if before is None else background.submit(_finish, before, finished)
             try:
-                pool = _pool(job, local, client)
-                if before is None:
-                    background.submit(_prepare_archives)
                 job.compute(pool, solver)
             finally:
                 _wait(writing, before)
             before = job
-        # Workers exit while the last archive is written.
-        background.submit(local.close)
         if before is not None:
             _finish(before, finished)
 
 
-def _prepare_archives() -> None:
-    """Import what archives need while the workers compute, after what hands them their work."""
-    import dask.local  # noqa: F401
+def _pool(workers: int, processes: bool, client: Client | None) -> AbstractContextManager[Any]:
+    """The workers of a run."""
+    if client is not None:
+        from swtstudy.runner.cluster import ClusterPool
 
-    import swtstudy.archive.archive  # noqa: F401
+        return ClusterPool(client)
+    if processes:
+        from swtstudy.runner.workers import LocalPool
+
+        return LocalPool(workers)
+    return ThreadPool(workers)
 
 
 def _finish(job: Job, finished: Finished) -> None:
@@ -253,14 +255,3 @@ def _wait(writing: Future[None] | None, job: Job | None) -> None:
     if writing is not None and job is not None:
         with job.reporting():
             writing.result()
-
-
-def _pool(job: Job, local: LocalPool, client: Client | None) -> AbstractContextManager[Pool | None]:
-    """The workers for a study; none if this process alone is faster."""
-    if client is not None:
-        from swtstudy.runner.cluster import ClusterPool
-
-        return ClusterPool(client)
-    alone = local.size() < 2 or (not local.started and job.seconds < _SMALL_SECONDS)
-    # Not with the first task: workers import while this process does.
-    return nullcontext(None if alone else local.start() if job.work.todo else local)

@@ -1,4 +1,4 @@
-"""Local worker processes: one BLAS thread each, memory that they keep, independent of the calling script."""
+"""Local worker processes: one BLAS thread each, independent of the calling script."""
 
 from __future__ import annotations
 
@@ -16,13 +16,10 @@ from typing import Any
 
 #: Two workers with two BLAS threads each would fight for two cores.
 THREADS = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-#: Bytes up to which glibc keeps memory that is free, and up to which arrays are taken from that: by itself it
-#: gives large arrays back to the system each time, which costs a tenth of the time of small batches.
-MEMORY = {"MALLOC_TRIM_THRESHOLD_": str(256 * 2**20), "MALLOC_MMAP_THRESHOLD_": str(32 * 2**20)}
 
 
 class LocalPool:
-    """Worker processes on this machine, inside a with block; the `Pool` of a run without a cluster.
+    """Worker processes on this machine, inside a with block; see `swtstudy.runner.engine.Pool`.
 
     They start with the first task, or when they are told to.
 
@@ -127,9 +124,9 @@ def _clean_start() -> Iterator[None]:
     Spawned processes import the calling script before any initializer can run: without
     ``if __name__ == "__main__"`` that script would start its run again in every worker.
     """
-    before = {name: os.environ.get(name) for name in (*MEMORY, *THREADS)}
+    before = {name: os.environ.get(name) for name in THREADS}
     main = sys.modules["__main__"]
-    os.environ.update({name: value for name, value in MEMORY.items() if name not in os.environ} | THREADS)
+    os.environ.update(THREADS)
     sys.modules["__main__"] = types.ModuleType("__main__")
     try:
         yield

@@ -5,17 +5,18 @@ That is estimated from the timing of a few of its points.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.points import BoolArray, IndexArray
-from swtstudy.points.canonical import SHARED_COLUMNS, Table, group_rows
+from swtstudy.mechanics.points import BoolArray
+from swtstudy.points.canonical import Table, group_rows
+from swtstudy.points.chunk import Asked, Solver, chunks, solve_chunk
 from swtstudy.points.records import MISSING, Records, look_up, matching
-from swtstudy.points.unique import UniquePoints, block_ends, unique_points, wanted, weights
-from swtstudy.runner.chunk import ONLY_S, Asked, Chunk, Solver, solve_chunk
+from swtstudy.points.unique import UniquePoints, kinds, unique_points, wanted
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -75,9 +76,8 @@ class Workload:
             (missing, self.wanted, None),
             (lacking.any(axis=1), lacking, self.records.solution),
         ):
-            for one in np.unique(of[some], axis=0) if of.size else [of[0]] * bool(some.any()):
-                names = tuple(name for name, lacks in zip(self.quantities, one, strict=True) if lacks)
-                yield some & (of == one).all(axis=1), Asked(names, known)
+            for mask, names in kinds(np.asarray(some), self.quantities, of):
+                yield mask, Asked(names, known)
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Workload:
@@ -129,70 +129,52 @@ def _unusable(table: Table, known: Records, rtol: float) -> tuple[int, int]:
     return int(outdated.sum()), int(coarse.sum())
 
 
-#: How many kinds of points (profile and frequency ratio) are timed at most, and seconds that all of it may
-#: take: a plan is quick. A point that takes longer is timed alone.
-_TIMED_KINDS, _BUDGET = 4, 1.5
+#: Seconds that timing points may take, since a plan is quick, and chunks that are timed at most: one point of
+#: each, and if that is quick the others. A point that takes longer is timed alone.
+_BUDGET, _TIMED = 2.0, 16
 #: A loop of more vertices is timed by one with some of its own, no more than so many.
 _VERTICES = 200
 
 
-def estimate(
-    points: UniquePoints,
-    missing: BoolArray,
-    rtol: float,
-    solver: Solver,
-    timed: Callable[[Records], None] = lambda found: None,
-    asked: Asked = ONLY_S,
-) -> float:
-    """Computing time of the missing points of a table in seconds, from the timing of a few blocks.
+def estimate(work: Workload, rtol: float, solver: Solver) -> tuple[float, int]:
+    """Computing time of what is left in seconds, and how many points have been timed to estimate it.
 
-    Parameters
-    ----------
-    points
-        The points of the study.
-    missing
-        Shape (len(points.table),): the points to be solved.
-    rtol, solver
-        As in `run`.
-    timed
-        Called with the records of each block that was timed.
-    asked
-        What is asked of the points.
+    Chunks are timed at even distances of the list of all, which is sorted by the length of their cycles; each
+    stands for its neighbours.
     """
-    table, rows = points.table, np.flatnonzero(missing)
-    if not len(rows):
-        return 0.0
-    _, kind = group_rows(table[[*SHARED_COLUMNS]][rows])
-    kinds, sizes = np.unique(kind, return_counts=True)
-    largest = kinds[np.argsort(-sizes, kind="stable")][:_TIMED_KINDS]
-    ends, weight = block_ends(table), weights(table)
-    lean, growth = _thinned(points)
-    spent, total, work = 0.0, 0.0, 0
-    for index, each in enumerate(largest):
-        middle = rows[kind == each][(kind == each).sum() // 2]
-        block = int(np.searchsorted(ends, middle, "right"))
-        begin = int(ends[block - 1]) if block else 0
-        inside = (begin + np.flatnonzero(missing[begin : ends[block]]))[: asked.block]
-        if index == 0:
-            # Warm-up call: the first one imports modules and fills tables.
-            result = solve_chunk(Chunk.of(lean, [inside[:1]], asked), rtol, solver)
-            spent = result.seconds
-        elif spent > _BUDGET:
-            break
-        if index or spent <= _BUDGET:
-            share = (_BUDGET - spent) / (len(largest) - index)
-            result, seconds = _timed(lean, inside, asked, rtol, solver, share)
-            spent += seconds
-        timed(result)
-        total += growth.get(int(table["load"][middle]), 1.0) * result.seconds / len(result) * sizes[each]
-        work += int(weight[rows[kind == each]].sum())
-    others = int(weight[rows].sum()) - work
-    return float(total + total / work * others)
+    lean, growth = _thinned(work.points)
+    todo = [chunk for wanted, asked in work.tasks() for chunk in chunks(lean, wanted, asked)]
+    if not todo:
+        return 0.0, 0
+    if sum(map(len, todo)) > 1:
+        solve_chunk(todo[-1].at(slice(1)), rtol, solver)  # imports, and compiles
+    ends = np.linspace(0, len(todo), min(_TIMED, len(todo)) + 1).astype(int)
+    begin, seconds = time.perf_counter(), 0.0
+    timed = counted = left = 0
+    # The middle one first, then its neighbours: if time is up, those that are timed stand for all.
+    order = np.argsort(np.abs(np.arange(len(ends) - 1) - (len(ends) - 1) // 2), kind="stable")
+    for number in order.tolist():
+        own = todo[ends[number] : ends[number + 1]]
+        count = sum(map(len, own))
+        spent = time.perf_counter() - begin
+        if timed and spent > _BUDGET:
+            left += count
+            continue
+        middle = own[len(own) // 2]
+        each = growth.get(int(middle.table["load"][0]), 1.0)
+        one = solve_chunk(middle.at(slice(1)), rtol, solver).seconds
+        timed += 1
+        if len(middle) > 1 and len(middle) * one < (_BUDGET - spent) / len(order):
+            one = solve_chunk(middle, rtol, solver).seconds / len(middle)
+            timed += len(middle) - 1
+        seconds += each * one * count
+        counted += count
+    return seconds * (1.0 + left / counted), timed
 
 
 def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[int, float]]:
     """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
-    from swtstudy.mechanics.load.load_path import LoadPath
+    from swtstudy.loads.load_path import LoadPath
 
     lean, growth = dict(points.definitions), {}
     for code, loop in points.definitions.items():
@@ -203,17 +185,3 @@ def _thinned(points: UniquePoints) -> tuple[UniquePoints, dict[int, float]]:
             many, few = (len(each.vertices) for each in (loop, thin))
             growth[code] = many * np.log(many) / (few * np.log(few))
     return replace(points, definitions=lean), growth
-
-
-def _timed(
-    points: UniquePoints, inside: IndexArray, asked: Asked, rtol: float, solver: Solver, share: float
-) -> tuple[Records, float]:
-    """The result of as many points of a block as take some share of the time, and the time of all tries."""
-    count, spent = 1, 0.0
-    while True:
-        result = solve_chunk(Chunk.of(points, [inside[:count]], asked), rtol, solver)
-        spent += result.seconds
-        # Four at a time take some twice as long as one.
-        if count >= len(inside) or spent + 2.0 * result.seconds > share:
-            return result, spent
-        count = min(4 * count, len(inside))

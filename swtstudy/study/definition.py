@@ -117,7 +117,8 @@ class Study:
                 allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
             raise StudyError([Mistake("", "no such file", allowed, source)]) from None
         except (OSError, ValueError) as error:
-            raise StudyError([Mistake("", reason_of(error), _READABLE, source)]) from None
+            found = "an archive" if Path(path).suffix == ".nc" else reason_of(error)
+            raise StudyError([Mistake("", found, _READABLE, source)]) from None
         return cls.from_text(text, source, file.parent)
 
     @classmethod

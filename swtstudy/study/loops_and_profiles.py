@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
-from swtstudy.mechanics.load.load_path import LoadPath
 from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.study.columns import read_as_given

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.load.load import Loop, checked_name
-from swtstudy.mechanics.load.load_path import LoadPath
-from swtstudy.mechanics.load.smooth import HIGHEST_ORDER
+from swtstudy.loads.load_path import LoadPath
+from swtstudy.loads.loop import Loop, checked_name
+from swtstudy.loads.smooth_path import HIGHEST_ORDER
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes

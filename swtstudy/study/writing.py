@@ -138,7 +138,7 @@ def as_html(study: Study) -> str:
     rows += [_row(grid, "of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
     return (
         f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
-        f"{escape(_cost(study))}{html_table(rows)}</div>"
+        f"swtstudy plan tells how long it takes{html_table(rows)}</div>"
     )
 
 
@@ -146,18 +146,6 @@ def _size(study: Study) -> str:
     axes = " × ".join(f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True))
     points = f"{study.grid.size} point{'s' * (study.grid.size != 1)}"
     return f"{points} = {axes}" if axes else points
-
-
-def _cost(study: Study) -> str:
-    """Estimated from the number of points and the lengths of their cycles; symmetry can only reduce it."""
-    from swtstudy.points.unique import duration, rough_seconds
-
-    ratios = [value.as_integer_ratio() for value in study.grid.values("frequency_ratio")]  # type: ignore[union-attr]
-    loads = study.grid.values("load")
-    loops = sum(load.cost for load in loads if isinstance(load, Definition)) / max(len(loads), 1)
-    weight = sum(p + q for p, q in ratios) / len(ratios) + loops
-    seconds = rough_seconds(study.grid.size * weight, study.grid.size, study.asked)
-    return f"very roughly {duration(seconds)} of one core (swtstudy plan times it)"
 
 
 def _row(

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.loads.loop import Loop
 from swtstudy.mechanics.indenter import check_shape, compact_shapes
-from swtstudy.mechanics.load.load import Loop
 from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.rules import AMPLITUDES, sizes_of

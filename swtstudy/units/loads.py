@@ -10,8 +10,8 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from swtstudy.mechanics.load.load import Loop
-from swtstudy.mechanics.load.load_path import LoadPath
+from swtstudy.loads.load_path import LoadPath
+from swtstudy.loads.loop import Loop
 from swtstudy.points.values import Value
 from swtstudy.units.labels import Units
 from swtstudy.units.rows import MEAN_LOADS
@@ -56,7 +56,7 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
 def ends_of_bulk(load: object) -> tuple[float, float]:
     """Least and largest value of what the amplitude of the bulk stress scales."""
     if isinstance(load, Loop):
-        return (0.0, 0.0) if load.bulk is None else load.bulk.ends
+        return load.bulk_ends or (0.0, 0.0)
     return -1.0, 1.0
 
 

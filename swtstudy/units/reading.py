@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from swtstudy.mechanics.load.load import Loop
+from swtstudy.loads.loop import Loop
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
 from swtstudy.points.shapes import check_shapes_given

@@ -1,6 +1,6 @@
 """Names that parameters take: the families of indenters, of revolution (eqs. 3–6) and plane, and criteria.
 
-Their formulas are in `swtstudy.mechanics.indenter` and `swtstudy.mechanics.planes.criterion`.
+Their formulas are in `swtstudy.mechanics.indenter` and `swtstudy.kernel.criterion`.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import io
 import os
 import re
@@ -10,7 +11,7 @@ import stat
 import tempfile
 import tomllib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -153,8 +154,9 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     temporary = Path(name)
     try:
         yield temporary
-        # mkstemp creates files that only their owner can read.
-        temporary.chmod(0o666 & ~_umask())
+        with suppress(OSError):  # a file system without modes
+            # mkstemp creates files that only their owner can read.
+            temporary.chmod(0o666 & ~_umask())
         _sync(temporary)
         os.replace(temporary, target)
     except OSError as error:
@@ -198,6 +200,10 @@ def _temporary(path: Path, folder: Path) -> tuple[int, str]:
     return tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder)
 
 
+#: What file systems say that cannot sync folders.
+_NO_FOLDERS = (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS)
+
+
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
@@ -205,10 +211,15 @@ def _umask() -> int:
 
 
 def _sync(path: Path) -> None:
-    if os.name == "nt" and path.is_dir():
+    is_folder = path.is_dir()
+    if os.name == "nt" and is_folder:
         return  # folders cannot be opened there
-    handle = os.open(path, os.O_RDONLY)
+    # Some file systems sync only what is open for writing, and none of them folders.
+    handle = os.open(path, os.O_RDONLY if is_folder else os.O_RDWR)
     try:
         os.fsync(handle)
+    except OSError as error:
+        if not (is_folder and error.errno in _NO_FOLDERS):
+            raise
     finally:
         os.close(handle)

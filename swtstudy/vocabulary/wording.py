@@ -242,3 +242,21 @@ def pi_words(multiple: Fraction) -> str:
 def _fraction(value: float, largest: int) -> Fraction | None:
     fraction = Fraction(value).limit_denominator(largest)
     return fraction if math.isclose(fraction, value, rel_tol=_TOLERANCE) else None
+
+
+def duration(seconds: float) -> str:
+    """Seconds as people say them.
+
+    Examples
+    --------
+    >>> duration(0.5), duration(75), duration(7500)
+    ('0.5 s', '1 min 15 s', '2 h 5 min')
+    """
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"

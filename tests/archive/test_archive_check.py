@@ -66,7 +66,7 @@ BAD_ATTRIBUTES = [
     ("figure", '{"x": "phase", "y": ["s/t"]}', "attribute figure: .*not a quantity"),
     ("figure", '{"x": "phase", "y": [], "kind": "lines"}', r"attribute figure: .*\(y: found an empty list"),
     ("figure", '{"x": "phase", "y": ["s"], "kind": ["lines"]}', "attribute figure"),
-    ("history", None, r"not an archive of swtstudy \(no history\)"),
+    ("history", None, r"changed by another program \(no history\)"),
     ("history", 3, "attribute history: found 3; allowed: a text"),
     ("title", [1, 2], "attribute title: found"),
     ("source", None, r"\(no source\)"),

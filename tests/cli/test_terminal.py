@@ -16,7 +16,6 @@ import swtstudy
 from swtstudy.cli import _SECTIONS, main
 from swtstudy.cli.points import WHY
 from swtstudy.cli.terminal import aligned, cut, fitted, of_markdown, wrapped
-from swtstudy.runner.collector import ProgressBar, line
 from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
 from swtstudy.vocabulary.mistakes import StudyError
@@ -79,7 +78,7 @@ def test_a_table_is_no_wider_than_the_terminal(columns: int) -> None:
     whole = {name: [value for line in found if line[0] == name for value in line[1:]] for name in parted[0]}
     assert whole == {name: list(values) for name, *values in zip(*parted, strict=True)}
     blocks = "\n".join(printed).split("\n\n")
-    assert len(blocks) == {40: 3, 60: 1}.get(columns, 1)
+    assert len(blocks) == {40: 2, 60: 1}.get(columns, 1)
 
 
 def test_room_is_used_to_the_last_letter() -> None:
@@ -169,29 +168,6 @@ def test_studies_are_listed_in_groups_each_once() -> None:
 def test_titles_are_cut_to_the_width(columns: int) -> None:
     assert all(len(cut(each, columns)) <= columns for each in lines_of("list"))
     assert cut("short", columns) == "short"
-
-
-@pytest.mark.parametrize("columns", [10, 30, 45, 60, 80, 200])
-@pytest.mark.parametrize("name", ["", "figure3", "a_very_long_name_of_a_study_of_somebody"])
-def test_a_line_of_progress_is_never_broken(columns: int, name: str) -> None:
-    said = "12345 of 20000 points (62 %), 1234/s, 6.2 s left"
-    shown = line(name, 0.62, said, columns)
-    assert len(shown) < columns
-    if columns > len(said) + 12:
-        assert shown.endswith(said)
-        assert shown.startswith(name[:6])
-
-
-def test_progress_is_shown_before_the_first_point(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("COLUMNS", "60")
-    terminal = Terminal()
-    progress = ProgressBar(10, terminal, name="figure3")
-    assert re.fullmatch(r"\rfigure3 .* 0 of 10 points\x1b\[K", terminal.getvalue())
-    progress.close()
-    assert terminal.getvalue().endswith("\n")
-    nothing = Terminal()
-    ProgressBar(0, nothing, name="figure3").close()
-    assert nothing.getvalue() == ""
 
 
 @pytest.fixture(scope="module")

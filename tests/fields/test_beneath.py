@@ -1,4 +1,4 @@
-"""The stress beneath the surface through `stress_field`: closed forms, the surface as a limit, sums of strips."""
+"""The stress beneath the surface through `stress_field`: closed forms, the surface as a limit, and strips."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def test_a_strip_in_partial_slip_is_a_sum_of_mcewens_fields() -> None:
 @pytest.mark.parametrize("depth", [1e-9, 1e-6])
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_surface_is_the_limit(scene: str, depth: float) -> None:
-    """Off the line, on it, within and outside of the contact: the stress moves by a root of the depth at most."""
+    """On the line and off it, inside and outside: the stress moves by a root of the depth at most."""
     rng = np.random.default_rng(5)
     angle, radius = rng.uniform(0.0, np.pi, 60), rng.uniform(0.02, 1.6, 60)
     angle[:20] = np.pi * (np.arange(20) % 2)

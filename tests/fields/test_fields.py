@@ -12,7 +12,6 @@ from scenes import each_profile, random_points
 from scipy.integrate import simpson
 
 import swtstudy
-from swtstudy.fields import stress
 from swtstudy.vocabulary.mistakes import StudyError
 
 
@@ -317,9 +316,8 @@ def swt_at(x, y, z, parameters):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
-def test_nonlocal_values_are_means_of_the_field(parameters, monkeypatch):
-    """Of swt_field, whose instants are aligned at every point, by quadratures of the test's own."""
-    monkeypatch.setattr(stress, "_STEPS_OF_SWT", 10)
+def test_nonlocal_values_are_means_of_the_field(parameters):
+    """Of swt_field, by quadratures of the test's own."""
     distance = 0.15
     found = swtstudy.solve(critical_distance=distance, **parameters)
     angle = np.radians(float(found.critical_angle))
@@ -387,3 +385,12 @@ def test_there_is_no_field_without_equilibrium(field):
     with pytest.raises(StudyError, match=r"^tangential_force_amplitude: found 1.2, at which the body slides"):
         field(*places, **forces)
     assert field(*places, **(forces | {"tangential_force_amplitude": 0.9})).sizes
+
+
+@pytest.mark.parametrize("amplitude", [0.1, 0.4, 0.7])
+def test_at_a_turn_of_the_load_the_slip_that_ends_there_is_shown(amplitude):
+    """Mindlin's slip zone under a constant normal load: largest where the displacement turns."""
+    turns = np.pi * np.array([0.5, 1.5])
+    slip = swtstudy.slip_map([0.0, 0.99], time=turns, normal_amplitude=0, tangential_amplitude=amplitude)
+    np.testing.assert_allclose(slip.slip_radius, np.sqrt(1.0 - amplitude), rtol=1e-9)
+    assert slip.state.values.tolist() == [[1, 2], [1, 3]]

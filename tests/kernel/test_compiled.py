@@ -83,7 +83,7 @@ def test_processes_and_threads_compile_once(tmp_path: Path, environment: dict[st
     assert {signatures for _, signatures, _ in found} == {1}
 
 
-@pytest.mark.parametrize("home", ["home", "none"])
+@pytest.mark.parametrize("home", ["home", pytest.param("none", marks=pytest.mark.slow)])
 def test_compiled_code_is_kept_where_one_can_write(
     tmp_path: Path, environment: dict[str, str], home: str
 ) -> None:
@@ -105,6 +105,7 @@ def test_compiled_code_is_kept_where_one_can_write(
         written.chmod(0o755)
 
 
+@pytest.mark.slow
 def test_without_any_place_it_compiles_each_time(tmp_path: Path, environment: dict[str, str]) -> None:
     (tmp_path / "none").touch()
     environment |= {"HOME": str(tmp_path / "none"), "NUMBA_CACHE_DIR": str(tmp_path / "none" / "cache")}
@@ -140,3 +141,28 @@ def test_folders_not_used_for_long_are_removed(tmp_path: Path, environment: dict
         os.utime(base / name, (time.time() - 86400 * days,) * 2)
     folder = Path(ended(start(tmp_path, environment))[2])
     assert {path.name for path in base.iterdir()} == {folder.name, "kernel-recent", "of-somebody"}
+
+
+READ_ONLY = """
+import sys
+from click.testing import CliRunner
+from swtstudy.cli import main
+for arguments in (["--help"], ["list"], ["validate", sys.argv[1]]):
+    answer = CliRunner().invoke(main, arguments)
+    assert answer.exit_code == 0, answer.output
+assert "numba" not in sys.modules
+print(answer.output)
+"""
+
+
+def test_a_study_is_checked_without_a_compiler(tmp_path: Path) -> None:
+    """Those with forces are told where friction does not carry them, before anything is solved."""
+    study = tmp_path / "forces.toml"
+    study.write_text(
+        'title = "forces"\n[fixed]\nnormal_force_amplitude = 0.4\nfrequency_ratio = "3/2"\n'
+        "[axes]\ntangential_force_amplitude = [0.3, 0.65]\nphase = [0.0, 1.0]\n"
+    )
+    run = [sys.executable, "-c", READ_ONLY, str(study)]
+    answer = subprocess.run(run, capture_output=True, text=True, check=False)
+    assert answer.returncode == 0, answer.stderr
+    assert "at 1 of 4 points: the tangential force is up to 1.01 times μ F_N" in answer.stdout

@@ -30,14 +30,28 @@ def solve_one(name: str = "paraboloid", **given: object) -> np.void:
     return solve_batch(name, **(arguments | given))[0]  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
-@pytest.mark.parametrize(("nu", "mu", "U"), [(0.3, 0.3, 5 / 6), (0.1, 0.8, 0.3), (0.45, 0.5, 0.6)])
-def test_constant_normal_load_is_cattaneo_mindlin(nu: float, mu: float, U: float, rtol: float) -> None:
+def cattaneo_mindlin(nu: float, mu: float, U: float) -> float:
+    """s at the edge of a paraboloid under a constant normal load."""
     theta = np.arcsin(np.sqrt(1.0 - U))
     one = (np.pi / 2 - theta) / 2 + np.sin(2 * theta) / 4
     other = (np.pi / 2 - theta) / 8 + np.sin(4 * theta) / 32
     x, y = 2 * mu * (one + nu * other), 2 * nu * mu * (one - other)
-    s = (4 / np.pi**2) * ((1 - 2 * nu) / 3 + x) * (x - nu * y) / (1 - nu**2)
+    return float((4 / np.pi**2) * ((1 - 2 * nu) / 3 + x) * (x - nu * y) / (1 - nu**2))
+
+
+@pytest.mark.parametrize("rtol", [1e-3, 1e-4, 1e-6])
+def test_next_to_nothing_slips(rtol: float) -> None:
+    nu, mu, U = 0.11823350538566824, 0.0014235323712547415, 1.740968841677401e-05
+    found = solve_one(
+        poisson_ratio=[nu], friction=[mu], normal_amplitude=[0.0], tangential_amplitude=[U], rtol=rtol
+    )
+    assert found["s"] == pytest.approx(cattaneo_mindlin(nu, mu, U), rel=1e-6)
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize(("nu", "mu", "U"), [(0.3, 0.3, 5 / 6), (0.1, 0.8, 0.3), (0.45, 0.5, 0.6)])
+def test_constant_normal_load_is_cattaneo_mindlin(nu: float, mu: float, U: float, rtol: float) -> None:
+    s = cattaneo_mindlin(nu, mu, U)
     found = solve_one(
         poisson_ratio=[nu], friction=[mu], normal_amplitude=[0.0], tangential_amplitude=[U], rtol=rtol
     )
@@ -83,34 +97,6 @@ def test_recorded_values(given: dict[str, object], s: float, rtol: float) -> Non
     found = solve_one(**given, rtol=rtol)
     digits = 0.5 * 10.0 ** -len(f"{s}".split(".")[1])
     assert abs(found["s"] - s) <= found["s_error"] + digits + 3e-5 * s
-
-
-@pytest.mark.parametrize(
-    ("name", "shape"),
-    [
-        ("rounded_punch", {"flat_radius": 0.5}),
-        ("truncated_paraboloid", {"flat_radius": 0.5}),
-        ("wavy_paraboloid", {"waviness_amplitude": 0.05, "wavelength": 5.0}),
-    ],
-)
-@pytest.mark.parametrize("forces", [False, True])
-def test_profiles_are_those_of_the_package(name: str, shape: dict[str, float], forces: bool) -> None:
-    amplitudes = {"normal": 0.5, "tangential": 0.3}
-    kind = "_force_amplitude" if forces else "_amplitude"
-    given = {key + kind: value for key, value in amplitudes.items()}
-    known = swtstudy.solve(profile=name, phase=2.0, friction=0.5, **given, **shape, rtol=1e-6)
-    found = solve_one(
-        name,
-        friction=[0.5],
-        phase=[2.0],
-        normal_amplitude=[0.5],
-        tangential_amplitude=[0.3],
-        shape={key: [value] for key, value in shape.items()},
-        control=(forces, forces),
-        rtol=1e-6,
-    )
-    assert found["s"] == pytest.approx(float(known.s), rel=3e-6)
-    assert found["critical_x"] == pytest.approx(float(known.critical_x), abs=1e-3)
 
 
 @pytest.mark.parametrize("phase", [0.0, 1.0, np.pi])

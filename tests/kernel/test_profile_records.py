@@ -1,4 +1,4 @@
-"""All profiles as data of the compiled kernel: depth, force, functionals, and s of recorded points."""
+"""All profiles as data of the compiled kernel: depth, force and functionals."""
 
 from collections.abc import Callable
 
@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 from scipy.special import j1, struve
-from truth import Point, points, verdict
 
 import swtstudy
 from swtstudy.kernel.batch import solve_batch
@@ -16,7 +15,6 @@ from swtstudy.kernel.profiles import FAMILIES, profile_record
 from swtstudy.kernel.surface import TABLE, hertz, running, strip_hertz, tabulate
 
 pytestmark = pytest.mark.xdist_group("kernel")
-SHAPES = ("flat_radius", "flat_half_width", "waviness_amplitude", "wavelength", "exponent")
 #: Amplitude h/δ0 and k of the waves below.
 H, K = 0.05, 2.0 * np.pi / (6.5 * np.sqrt(0.05))
 #: Depth in δ0, or line load in N_0, over ξ: (3) to (6) and those of plane contacts.
@@ -161,7 +159,7 @@ def test_a_fine_table_is_its_profile(geometry: str, b: float) -> None:
 
 
 def test_a_rough_table_says_what_is_left_out() -> None:
-    r = np.linspace(0.0, 2.0, 4001)
+    r = np.linspace(0.0, 2.0, 1501)
     noise = 1e-6 * np.random.default_rng(1).standard_normal(r.size)
     table = swtstudy.TabulatedProfile("rough", r, np.maximum(0.5 * r * r + noise * (r > 0.1), 0.0))
     record = profile_record(table, {}, False, 1.0, 1e-6)
@@ -177,51 +175,3 @@ def test_waves_too_short_to_follow_are_left_out() -> None:
     assert found["s"] == known["s"]
     slope = 2.0 * np.pi * np.sqrt(amplitude) / wavelength
     assert found["s_error"] - known["s_error"] == pytest.approx(4.0 * slope * known["s"], rel=1e-9)
-
-
-def test_a_wavy_cylinder_is_that_of_the_package() -> None:
-    shape = {"waviness_amplitude": 0.05, "wavelength": 6.5}
-    loads = {"normal_force_amplitude": 0.5, "tangential_force_amplitude": 0.3}
-    known = swtstudy.solve(profile="wavy_cylinder", phase=1.0, friction=0.5, **loads, **shape, rtol=1e-6)
-    own = [0.3], [0.5], [0.5], [0.3], [1], [1.0]
-    found = solve_batch(
-        "wavy_cylinder", *own, shape={k: [v] for k, v in shape.items()}, control=(True, True), rtol=1e-6
-    )
-    assert found["s"][0] == pytest.approx(float(known.s), rel=3e-6)
-
-
-@pytest.mark.parametrize("scene", ["power law", "cylinder", "power law cylinder", "rounded flat", "a table"])
-def test_recorded_points(scene: str) -> None:
-    """One in 25 of the recorded points without a bulk stress."""
-    groups: dict[bool, list[Point]] = {}
-    for point in points()[scene][::25]:
-        given = point.arguments
-        forces = ["normal_force_amplitude" in given, "tangential_force_amplitude" in given]
-        if point.kind == "value" and forces[0] == forces[1] and "load" not in given:
-            groups.setdefault(forces[0], []).append(point)
-    wrong = []
-    for in_force, several in groups.items():
-        kind = "_force_amplitude" if in_force else "_amplitude"
-        columns = [
-            [point.arguments.get(name, 0.0) for point in several]
-            for name in (
-                "poisson_ratio",
-                "friction",
-                f"normal{kind}",
-                f"tangential{kind}",
-                "frequency_ratio",
-                "phase",
-            )
-        ]
-        shape = {
-            name: [point.arguments[name] for point in several]
-            for name in SHAPES
-            if name in several[0].arguments
-        }
-        found = solve_batch(
-            several[0].arguments["profile"], *columns, shape=shape, control=(in_force, in_force)
-        )
-        for point, one in zip(several, found, strict=True):
-            if verdict(point, one["s"], one["s_error"]) != "right":
-                wrong.append(point.name)
-    assert wrong == []

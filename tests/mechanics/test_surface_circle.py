@@ -1,5 +1,8 @@
 """The surface off the line y = 0 from the line's building blocks."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from scenes import points
@@ -183,3 +186,14 @@ def test_a_loop_and_its_mirror_image_have_the_same_where_the_line_has_none():
     assert [float(each.s) for each in found] == [0.0, 0.0]
     assert float(found[0].s_surface) > 1e-4
     assert float(found[0].s_surface) == pytest.approx(float(found[1].s_surface), rel=1e-9)
+
+
+def test_the_first_circle_of_a_process_is_that_of_its_point():
+    """The first one compiles what circles need; the points at hand stay as they are."""
+    point, ratio, highest = CIRCLES[0]
+    lines = [f"point, ratio = {point!r}, {ratio!r}", "import swtstudy"]
+    lines += ["print(float(swtstudy.solve(**point, frequency_ratio=ratio).s_surface))"]
+    done = subprocess.run(
+        [sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, check=True
+    )
+    assert float(done.stdout) == pytest.approx(highest, rel=1e-4)

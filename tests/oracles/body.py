@@ -63,7 +63,7 @@ class Beneath:
     def _graded(self, largest: float, count: int) -> Array:
         """Radii from 0 to the largest, the closer the nearer they are to the place."""
         ends = np.arcsinh((np.array([0.0, largest]) - self.away) / self.depth)
-        radii = self.away + self.depth * np.sinh(np.linspace(*ends, count + 1))
+        radii = self.away + self.depth * np.sinh(np.linspace(ends[0], ends[1], count + 1))
         radii[[0, -1]] = 0.0, largest
         return radii
 

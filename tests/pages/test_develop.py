@@ -5,6 +5,7 @@ import importlib
 import operator
 import re
 import sys
+import threading
 from types import CodeType
 
 import pytest
@@ -64,10 +65,12 @@ def test_a_value_goes_the_ten_steps(tmp_path, monkeypatch) -> None:
 
     before = sys.getprofile()
     sys.setprofile(note)
+    threading.setprofile(note)  # where points are solved
     try:
         result = CliRunner().invoke(main, ["run", "two.toml"])
     finally:
         sys.setprofile(before)
+        threading.setprofile(None)  # type: ignore[arg-type]
     assert result.exit_code == 0, result.output
     assert done == STEPS
 

@@ -15,8 +15,8 @@ from solved import REGIMES
 
 from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
+from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.point import NEAREST, TEARS
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.paper.audit.point import TOLERANCE
 from swtstudy.points.validity import LIMITS
 from swtstudy.reports.values import LARGEST_TABLE
@@ -316,7 +316,7 @@ def checks() -> None:
         [float(line.split()[5])] for line in lines("million.txt") if line.startswith("1000000 ")
     )
     says("take {} GB; and the runner's", 1e-3 * megabytes)
-    says("of {} µs a point on 2 workers", *numbers("overhead.txt", "so 2 take {} µs of wall time"))
+    says("of {} µs a point", *numbers("overhead.txt", "the runner takes {} µs of processor time"))
 
 
 def statements() -> None:

@@ -9,13 +9,6 @@ import pytest
 from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
 from folders import ROOT, TESTS
 
-#: What may not be imported, although it is above: the planes know no contact, the contact knows no
-#: indenter, and the search over the body is a check of the line's.
-APART = {
-    "planes": {"load", "indenter", "control", "contact"},
-    "contact": {"indenter", "control"},
-    "body": {"line"},
-}
 ORACLE, STATEMENTS = "swtstudy.paper.reference", "swtstudy.paper.statements"
 
 
@@ -27,7 +20,6 @@ def test_a_file_imports_only_rooms_above(house: House, types: bool) -> None:
     assert len(imports) > 50
     order = house.rooms.index
     assert not [f"{own} imports {other}" for own, other, mine, its in imports if order(its) > order(mine)]
-    assert not [f"{own} imports {other}" for own, other, mine, its in imports if its in APART.get(mine, ())]
 
 
 def test_only_statements_of_the_paper_use_the_oracle() -> None:

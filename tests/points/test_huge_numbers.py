@@ -55,7 +55,7 @@ def test_loads_beside_which_the_mean_is_rounding(vertices: list[list[float]]) ->
     ):
         swtstudy.solve(load=loop)
     # Scaled, as by a unit, it is like any other.
-    bulk = {"bulk_stress_amplitude": 1e-10} if loop.bulk else {}
+    bulk = {"bulk_stress_amplitude": 1e-10} if loop.bulk_ends else {}
     small = swtstudy.solve(load=loop, normal_amplitude=1e-10, tangential_amplitude=1e-10, rtol=1e-2, **bulk)
     assert float(small.s_error) <= 1e-2 * float(small.s)
     rig: dict[str, Any] = {"young_modulus": 7e4, "poisson_ratio": 0.3, "radius": 50.0, "depth": 0.01}

@@ -31,7 +31,7 @@ from swtstudy.reports.page import _caption, page
 from swtstudy.reports.parts import derived, embedded, section
 from swtstudy.reports.sections import extrema_section, settings_section, sureness_section, tiles
 from swtstudy.reports.site import entry, write_reports
-from swtstudy.reports.values import about, place_html, symbol_html, table_of
+from swtstudy.reports.values import about, packed, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
@@ -575,3 +575,13 @@ def test_scripts_draw_every_point_of_a_sample(tmp_path: Path, without_points: No
     places = [float(each) for each in re.findall(r'<circle class="c\d" cx="([^"]+)"', shown)]
     assert len(places) == dataset.s.size
     assert np.ptp(places) > 200.0
+
+
+def test_words_in_the_table_run_in_no_spreadsheet():
+    dataset = swtstudy.solve(friction=[0.1, 0.2], rtol=1e-2)
+    table = dataset.swt.to_table().assign(load=["=HYPERLINK(1)", "-1"])
+    data = packed(table).partition("base64,")[2]
+    text = gzip.decompress(base64.b64decode(data)).decode()
+    assert "'=HYPERLINK(1)" in text
+    assert ",'-1" in text
+    assert ",=" not in text

@@ -68,7 +68,7 @@ def test_a_cluster_that_loses_a_worker_gives_what_one_process_gives(client, tmp_
             "import swtstudy.vocabulary.version as v; v.SOLVER_VERSION = 'other'",
             "has version other of the solver",
         ),
-        ("sys.modules['swtstudy.runner.chunk'] = None", "cannot solve anything .*swtstudy.runner.chunk"),
+        ("sys.modules['swtstudy.points.chunk'] = None", "cannot solve anything .*swtstudy.points.chunk"),
     ],
 )
 def test_workers_that_do_not_fit_are_refused_in_one_line(client, tmp_path, change, words):

@@ -220,8 +220,6 @@ def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
 
 def test_a_part_that_cannot_be_read_now_is_there_for_later(line, tmp_path, monkeypatch):
     path = tmp_path / "line.nc"
-    # One block a chunk: the pace is taken for very slow.
-    monkeypatch.setattr("swtstudy.runner.collector.Pace.chunk_weight", lambda self: 0.0)
     for _ in range(2):
         with pytest.raises(Stopped):
             run(line, path, solver=stand_in.Interrupting(96), workers=1)
@@ -252,9 +250,10 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
             raise OSError(28, "No space left on device")
         fsync(handle)
 
+    monkeypatch.setattr(collector, "PART_SECONDS", 0.05)
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match=r"No space left on device; \d+ of 400 distinct points are saved"):
-        run(line, path, solver=stand_in.smooth, workers=1)
+        run(line, path, solver=stand_in.slow, workers=1)
     monkeypatch.undo()
     counting = stand_in.Counting()
     same(run(line, path, solver=counting, workers=1), undisturbed)
@@ -296,18 +295,19 @@ def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
 
 
 @pytest.mark.parametrize(
-    ("largest", "words"),
+    ("seconds", "words"),
     [
-        pytest.param(  # enough for small parts
-            20_000, r"File too large; ([1-9]\d*) of 400 distinct points", marks=pytest.mark.slow
-        ),
-        (40_000, r"cannot write the archive \(.*\); (400) of 400 distinct points"),  # and for all parts
+        (0.1, r"cannot write the archive \(.*\); (400) of 400 distinct points"),
+        (60.0, r"File too large; (0) of 400 distinct points"),  # one part, of all points
     ],
 )
-def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, largest, words):
+def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, seconds, words):
     path = tmp_path / "line.nc"
-    limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, ({largest}, {largest}))\n"
-    done = subprocess.run(command_of(tmp_path, LINE, limit), timeout=60, capture_output=True, text=True)
+    before = (
+        "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))\n"
+        f"from swtstudy.runner import collector; collector.PART_SECONDS = {seconds}\n"
+    )
+    done = subprocess.run(command_of(tmp_path, LINE, before), timeout=60, capture_output=True, text=True)
     assert done.returncode == 2
     said = re.fullmatch(f"Error: {words} are saved beside .*; once that is fixed, .*\n", done.stderr)
     assert said

@@ -455,7 +455,14 @@ def test_bad_spacings_are_named(axis, key, allowed):
 def test_a_study_shows_what_it_is(small):
     assert repr(small) == "<Study 'A small study': 18 points = 2 normal_amplitude × 9 phase, rtol 0.001>"
     html = small._repr_html_()
-    for words in ("A small study", "18 points", "0.25, 0.888889", "(9 values)", "figure: hue", "of one core"):
+    for words in (
+        "A small study",
+        "18 points",
+        "0.25, 0.888889",
+        "(9 values)",
+        "figure: hue",
+        "swtstudy plan",
+    ):
         assert words in html
 
 
@@ -494,7 +501,7 @@ def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
     )
     html = study._repr_html_()
     assert html.startswith(
-        "<div><b>t</b><br>14 points = 7 phase × 2 frequency_ratio, rtol 0.0001; very roughly "
+        "<div><b>t</b><br>14 points = 7 phase × 2 frequency_ratio, rtol 0.0001; swtstudy plan tells "
     )
     assert html.endswith("</td></tr></table></div>")
     rows = re.findall(r"<tr><td>(.*?)</td><td><b>(.*?)</b></td><td>(.*?)</td><td>(.*?)</td></tr>", html)

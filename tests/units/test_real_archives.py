@@ -1,6 +1,7 @@
 """Studies in units of the user's own: runs that end early, go on and are extended."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from folders import TESTS
 from real import STUDY, plain
 
 from swtstudy import Study, open_results, run
@@ -59,7 +61,7 @@ class _StopsAfter:
         self.left = points
 
     def __call__(self, points, rtol):
-        from solved import solve_points
+        from swtstudy.mechanics import solve_points
 
         if self.left <= 0:
             raise KeyboardInterrupt
@@ -108,14 +110,17 @@ def test_the_contact_of_an_archive_is_checked(tmp_path):
 
 
 KILLED = """
-import os, signal, sys
+import os, signal, sys, time
 import swtstudy
-from solved import solve_points
+from swtstudy.mechanics import solve_points
+from swtstudy.runner import collector
 
+collector.PART_SECONDS = 0.0
 left = [2]
 
 def solver(points, rtol):
     if left[0] <= 0:
+        time.sleep(1.0)  # what is found before is saved by then
         os.kill(os.getpid(), signal.SIGKILL)
     left[0] -= len(points)
     return solve_points(points, rtol)
@@ -129,10 +134,18 @@ def test_a_killed_run_goes_on(tmp_path, solved):
     (tmp_path / "sphere.toml").write_text(HALF)
     path, solved = tmp_path / "sphere.nc", solved.isel(phase=[0])
     words = (KILLED, tmp_path / "sphere.toml", path)
-    done = subprocess.run([sys.executable, "-c", *map(str, words)], capture_output=True, check=False)
+    environment = os.environ | {"PYTHONPATH": str(TESTS)}
+    command = [sys.executable, "-c", *map(str, words)]
+    done = subprocess.run(command, capture_output=True, check=False, env=environment)
     assert done.returncode == -signal.SIGKILL, done.stderr
     assert not path.exists()
     found = run(Study.from_text(HALF), path, workers=1)
     assert "2 of 4 distinct points computed" in found.attrs["history"]
     for name in solved.data_vars:
         np.testing.assert_array_equal(found[name], solved[name], err_msg=name)
+
+
+def test_an_archive_without_the_radius_says_so(solved, tmp_path):
+    save(solved.drop_vars("radius"), tmp_path / "t.nc")
+    with pytest.raises(ValueError, match=r"t\.nc: radius: found nothing"):
+        open_results(tmp_path / "t.nc")

@@ -10,14 +10,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places, coarse_swt
+from swtstudy.kernel.field import (
+    MANY,
+    Opened,
+    criterion_at,
+    far_field_of,
+    largest_radius,
+    open_cycle,
+    passed_radii,
+)
 from swtstudy.mechanics.numerics.arrays import SAME
-from swtstudy.mechanics.planes.all_planes import CriticalPlane
-from swtstudy.mechanics.points import FloatArray
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.mechanics.solver import arguments_of
 
-#: How finely swt is searched for, and computed.
-SEARCH, VALUE = Fineness(3, 16, 2e-3), Fineness(5, 240, 1e-6)
+#: Relative tolerances of the first look, of climbs and of the value.
+LOOK, SEARCH, VALUE = 1e-2, 1e-3, 1e-5
+#: In a climb places below this share of the height are of no interest.
+LEFT_OUT = 0.9
+#: Where the bulk stress alone is as high as the body's maximum but for this share, it is the maximum.
+FAR = 1e-6
+#: Most radii of the first look at which edges and fronts turn.
+MOST_CUSPS = 40
 #: Places of the first look: radii besides the cusps, angles, and depths in the largest contact radius. Half
 #: of any of them: no change in four bodies, no faster.
 BETWEEN = 12
@@ -43,7 +56,7 @@ _ALONG_X = np.array([1.0, 0.0, 0.0])
 
 @dataclass(frozen=True)
 class BodyMaximum:
-    """Largest swt of the body.
+    """Largest swt of the body, or swt at one of its places.
 
     Attributes
     ----------
@@ -66,25 +79,25 @@ class _Search:
 
     Attributes
     ----------
-    scene
-        A batch of one point.
+    opened
+        The load cycle of one point.
     largest
         Largest contact radius of the cycle.
     ring
         Half the width of the ring around the edge of a flat face that is left out.
     """
 
-    scene: Scene
+    opened: Opened
     largest: float
     ring: float
 
 
-def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlane]:
+def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximum]:
     """Largest swt over the body, and swt over all planes at the surface line's critical point.
 
     Parameters
     ----------
-    scene
+    points
         A batch of one point.
     line_x
         Signed x of the surface line's maximum; NaN where there is none, or far from the contact.
@@ -94,56 +107,44 @@ def body_maximum(scene: Scene, line_x: float) -> tuple[BodyMaximum, CriticalPlan
     maximum, at_line
         The search starts from the highest places of a first look and from the line's own maximum.
     """
-    largest = float(scene.largest_radius[0])
-    far = _far_field(scene)
+    opened = open_cycle(**arguments_of(points))
+    largest, far = largest_radius(opened), far_field_of(opened)
     line_is_far = not np.isfinite(line_x)
     line_x = largest if line_is_far else line_x
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    flat = float(scene.profile.flat_radius[0])
-    search = _Search(scene, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
+    flat = float(opened.profile["flat_radius"])
+    search = _Search(opened, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
     place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
-    swt, normal = zip(*(_swt(scene, one, one[None], VALUE) for one in (place, own)), strict=True)
+    swt, normal = zip(*(_swt(opened, one[None], VALUE) for one in (place, own)), strict=True)
     best = int(swt[1][0] >= swt[0][0])
     position = np.array(_cartesian((place, own)[best]))
     found = BodyMaximum(float(swt[best][0]), position, normal[best][0])
-    if far > 0.0 and far >= (1.0 - SAME) * found.swt:
+    if far > 0.0 and far >= (1.0 - FAR) * found.swt:
         found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
-    at_line = (np.array(far), _ALONG_X) if line_is_far else (swt[1][0], normal[1][0])
-    return found, CriticalPlane(*at_line)
+    at_line = BodyMaximum(float(swt[1][0]), np.array(_cartesian(own)), normal[1][0])
+    if line_is_far:
+        at_line = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
+    return found, at_line
 
 
-def _far_field(scene: Scene) -> float:
-    """swt of the bulk stress alone, 0 without one."""
-    if scene.bulk is None:
-        return 0.0
-    far, _ = scene.bulk.far_field(scene.poisson_ratio, scene.criterion, scene.profile.plane)
-    return float(far[0])
-
-
-def _swt(
-    scene: Scene, centre: FloatArray, places: FloatArray, fineness: Fineness
-) -> tuple[FloatArray, FloatArray]:
-    """swt at places near a centre, (m,), and the normals of the critical planes, (m, 3)."""
-    own = _own(places)
-    swt, _, normal = LocalSwt(scene, float(centre[0]), own, fineness).swt(own, np.full(len(places), True))
+def _swt(opened: Opened, places: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
+    """swt at places r, θ, z, (m,), and the normals of the critical planes, (m, 3)."""
+    swt, _, normal = criterion_at(opened, np.stack(_cartesian(places), axis=1), tolerance)
     return swt, normal
-
-
-def _own(places: FloatArray) -> Places:
-    r, angle, depth = places.T
-    return Places(r, depth, angle)
 
 
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
-    scene, largest = search.scene, search.largest
-    radii, depths = _radii(scene, largest), largest * DEPTHS
-    if scene.bulk is not None:
+    opened, largest = search.opened, search.largest
+    radii, depths = _radii(opened, largest), largest * DEPTHS
+    if opened.load["bulk_range"].any():
         radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
-    angles = ANGLES[[0, -1]] if scene.profile.plane else ANGLES
+    angles = ANGLES[[0, -1]] if opened.profile["plane"] else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    swt = coarse_swt(scene, _own(grid), SEARCH)
+    highest = float(criterion_at(opened, np.stack(_cartesian(own[None]), axis=1), SEARCH)[0][0])
+    at = np.stack(_cartesian(grid), axis=1)
+    swt = criterion_at(opened, at, LOOK, PROMISING * highest, MANY)[0]
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
@@ -154,13 +155,10 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     return np.array(chosen[1:]).reshape(-1, 3)
 
 
-def _radii(scene: Scene, largest: float) -> FloatArray:
+def _radii(opened: Opened, largest: float) -> FloatArray:
     """Distances from the axis of the first look: ends of the memory's pieces and edges, and in between."""
-    cycle, profile = scene.cycle, scene.profile
-    start = cycle.memory.start[np.isfinite(cycle.memory.start)]
-    turns = np.maximum(np.concatenate([cycle.load.least_normal, cycle.load.largest_normal]), 0.0)
-    cusps = scene.coordinate.radius(np.unique(np.concatenate([start, turns]))[None])[0]
-    b = float(profile.flat_radius[0])
+    cusps = passed_radii(opened, MOST_CUSPS)
+    b = float(opened.profile["flat_radius"])
     between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
     return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
@@ -179,22 +177,20 @@ def _climb(search: _Search, places: FloatArray) -> FloatArray:
 def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[FloatArray, float]:
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    scene = search.scene
+    opened = search.opened
     # In the plane all is in the section.
-    steps = FIRST_STEPS * np.array([search.largest, 0.0 if scene.profile.plane else 1.0, search.largest])
-    height, local, width = 0.0, None, 1.0
+    across = 0.0 if opened.profile["plane"] else 1.0
+    steps = FIRST_STEPS * np.array([search.largest, across, search.largest])
+    height, width = 0.0, 1.0
     while width > LAST_WIDTH:
         trial = _off_ring(search, _folded(place + width * steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
-        own = _own(trial)
-        # While the steps shrink, the same parts of the cycle and planes matter.
-        local = local or LocalSwt(scene, float(place[0]), own, SEARCH)
-        swt, _, _ = local.swt(own, np.full(len(trial), False))
+        at = np.stack(_cartesian(trial), axis=1)
+        swt = criterion_at(opened, at, SEARCH, LEFT_OUT * height, MANY)[0]
         here, best = int(np.abs(trial - place).max(axis=1).argmin()), int(swt.argmax())
-        # Two histories may differ in which of two places is higher: a walk goes on while it is the highest.
         if swt[best] > (1.0 + GAIN) * max(swt[here], height):
-            place, width, local = trial[best], WALKING * width, None
+            place, width = trial[best], WALKING * width
         else:
             width *= SHRINKING
         height = max(height, float(swt[best]))
@@ -205,7 +201,7 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
 
 def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
     """Places moved away from the edge of a flat face."""
-    b, near = float(search.scene.profile.flat_radius[0]), search.ring
+    b, near = float(search.opened.profile["flat_radius"]), search.ring
     if b == 0.0:
         return places
     offset = places[..., 0] - b

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from swtstudy.kernel.field import MANY, SINGLE, Opened, criterion_at, open_cycle
 from swtstudy.mechanics.body.half_sphere import (
     ABSCISSAE,
     HalfDiscs,
@@ -27,10 +28,9 @@ from swtstudy.mechanics.body.half_sphere import (
     interpolation,
     nested,
 )
-from swtstudy.mechanics.body.local_swt import Fineness, LocalSwt, Places
 from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import FloatArray, IndexArray
-from swtstudy.mechanics.stress.scene import Scene
+from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Points
+from swtstudy.mechanics.solver import arguments_of
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Places in the half spheres at most, or four times as many where such a share of a mean is in doubt (none:
@@ -47,11 +47,26 @@ OF_SMALLER = 2e-4
 #: The least error claimed of values on lines, over the largest of them: where swt is a thousandth of that,
 #: many planes are alike.
 OF_LARGEST = 2e-5
-#: Every so many distances from the circle, and inclinations, of the first places, the outermost among them,
-#: show which part of the cycle matters; and places on lines, over the largest distance, its single ones too.
-SHOWN, SHOWN_ON_LINES = (2, 3), (0.1, 0.5, 2.0)
-#: How finely swt is searched for.
-FINENESS = Fineness(4, 40)
+#: Relative tolerance of values that are averaged, and of single ones, over that of the means.
+OF_MANY, OF_SINGLE = 0.3, 0.03
+#: Values below this share of those at ℓ/2 are not told as closely: they do not tell in a mean.
+FLOOR = 0.02
+#: Tolerance of what grew in stick.
+GROWTH = 1e-5
+
+
+class Places(NamedTuple):
+    """Radius, depth and angle about the axis of N places, each of shape (N,)."""
+
+    radius: FloatArray
+    depth: FloatArray
+    angle: FloatArray
+
+    def at(self, which: BoolArray) -> FloatArray:
+        """x, y and z of some of the places, shape (m, 3)."""
+        radius, depth, angle = (values[which] for values in self)
+        across = np.where(angle < np.pi, radius * np.sin(angle), 0.0)
+        return np.stack([radius * np.cos(angle), across, depth], axis=1)
 
 
 class Layout(NamedTuple):
@@ -106,27 +121,24 @@ class Around:
 
     Parameters
     ----------
-    scene
-        A batch of one point.
+    opened
+        The load cycle of its point.
     x
         Signed position of the critical point.
     into
         Shape (d, 2): unit vectors into the body (right, down).
     distance
         Shape (k,).
+    rtol
+        Relative accuracy asked for.
     """
 
-    def __init__(self, scene: Scene, x: float, into: FloatArray, distance: FloatArray) -> None:
-        self.scene, self.x, self.into, self.distance = scene, x, into, distance
+    def __init__(self, opened: Opened, x: float, into: FloatArray, distance: FloatArray, rtol: float) -> None:
+        self.opened, self.x, self.into, self.distance, self.rtol = opened, x, into, distance, rtol
         self.largest = float(distance.max())
         self.layout = layout = ONE if distance.size == 1 else SEVERAL
-        parts = HalfDiscs if scene.profile.plane else HalfSpheres
+        parts = HalfDiscs if opened.profile["plane"] else HalfSpheres
         self.spheres = parts(abs(x), self.largest, layout.power, layout.distances, layout.inclinations)
-        grid, (nth, mth) = self._turned(*self.spheres.grid(1)), SHOWN
-        some = (values.reshape(self.spheres.shape[:2])[::-nth, ::-mth].ravel() for values in grid)
-        lines = self._of_lines(self.largest * np.array(SHOWN_ON_LINES))
-        shown = Places(*(np.concatenate(parts) for parts in zip(some, lines, strict=True)))
-        self.local = LocalSwt(scene, abs(x), shown, FINENESS)
         #: swt, and what is missing of it, at the places; NaN where it is not known yet.
         self.grid = np.full((*self.spheres.shape, 2), np.nan)
         # The arcs' rule is exact for what another place would add to the largest sphere.
@@ -135,8 +147,9 @@ class Around:
         self.points = np.full((distance.size, len(into), 2), np.nan)
         self.lines = np.full((layout.on_line, len(into), 2), np.nan)
 
-    def means(self, rtol: float) -> tuple[Estimate, Estimate]:
-        """`in_spheres` and `on_lines`, with as many places as an accuracy asks for."""
+    def means(self) -> tuple[Estimate, Estimate]:
+        """`in_spheres` and `on_lines`, with as many places as the accuracy asks for."""
+        rtol = self.rtol
         while True:
             self._look()
             spheres, of_axes = self.in_spheres()
@@ -194,24 +207,22 @@ class Around:
 
     def _look(self) -> None:
         """swt where it is not known yet."""
+        self._fill(self.points, self._of_lines(0.5 * self.distance), OF_SINGLE, 0.0, SINGLE)
+        floor = FLOOR * float(self.points[..., 0].max())
         away = 2.0 * self.largest * nested(len(self.lines)) ** self.layout.line_power
-        on_lines = self._of_lines(np.concatenate([0.5 * self.distance, away]))
-        lines = np.concatenate([self.points, self.lines])
-        kinds = (
-            (self.grid, self._turned(*self.spheres.grid())),
-            (self.side, self.side_places),
-            (lines, on_lines),
-        )
-        unknown = [np.isnan(values[..., 0].ravel()) for values, _ in kinds]
-        places = (places.at(which) for which, (_, places) in zip(unknown, kinds, strict=True))
-        wanted = Places(*(np.concatenate(parts) for parts in zip(*places, strict=True)))
-        ends = np.cumsum([which.sum() for which in unknown])
-        single = np.zeros(ends[-1], dtype=bool)
-        single[ends[1] : ends[1] + np.isnan(self.points[..., 0]).sum()] = True
-        found = np.stack(self.local.swt(wanted, single)[:2], axis=-1)
-        for which, (values, _), new in zip(unknown, kinds, np.split(found, ends[:-1]), strict=True):
-            values.reshape(-1, 2)[which] = new
-        self.points, self.lines = np.split(lines, [len(self.points)])
+        self._fill(self.grid, self._turned(*self.spheres.grid()), OF_MANY, floor, MANY)
+        self._fill(self.side, self.side_places, OF_MANY, floor, MANY)
+        self._fill(self.lines, self._of_lines(away), OF_MANY, floor, MANY)
+
+    def _fill(
+        self, values: FloatArray, places: Places, share: float, floor: float, coarsest: np.int64
+    ) -> None:
+        """Write swt and what is missing of it where it is not known yet."""
+        flat = values.reshape(-1, 2)
+        unknown = np.isnan(flat[:, 0])
+        if unknown.any():
+            found = criterion_at(self.opened, places.at(unknown), share * self.rtol, floor, coarsest)
+            flat[unknown] = np.stack(found[:2], axis=1)
 
     def _turned(self, radius: FloatArray, depth: FloatArray, angle: FloatArray) -> Places:
         """Places at angles from the critical point."""
@@ -273,16 +284,16 @@ class NonlocalSwt:
 
 
 def nonlocal_swt(
-    scene: Scene, position: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = 1e-3
+    points: Points, position: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = 1e-3
 ) -> NonlocalSwt:
-    """swt over critical distances about one point each of n scenes.
+    """swt over critical distances about one place each of n points.
 
     Parameters
     ----------
-    scene
+    points
         n points.
     position, angle
-        Shape (n,): signed x of the points on the surface line, in a_H, and the angle between the normal of
+        Shape (n,): signed x of the places on the surface line, in a_H, and the angle between the normal of
         the worst plane there and the x axis, degrees; NaN where there is none.
     distance
         Shape (k,): ℓ > 0 in a_H.
@@ -295,9 +306,10 @@ def nonlocal_swt(
     groups = _groups(distance)
     for row in np.flatnonzero(np.isfinite(position)):
         into = _directions(float(angle[row]))
+        opened = open_cycle(GROWTH, **arguments_of(points.take(np.array([row]))))
         for group in groups:
-            around = Around(scene.take(np.array([row])), float(position[row]), into, distance[group])
-            of_spheres, of_lines = around.means(rtol)
+            around = Around(opened, float(position[row]), into, distance[group], rtol)
+            of_spheres, of_lines = around.means()
             volume[row, group], volume_error[row, group] = of_spheres.value, of_spheres.error
             point[row, group], line[row, group] = of_lines.value
             # A peak that is missed at one place does not average out.

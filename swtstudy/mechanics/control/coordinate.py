@@ -7,10 +7,6 @@ For a prescribed tangential displacement it is the depth. For a prescribed force
 every piece of the memory diagram do/dG = dT/dN, with N the normal force at the depth G over that at δ0 and T
 the tangential force over μ times that, and integrating τ over the springs by parts gives T = ∫ o′ dN. So the
 diagram of (N, T) is that of (δ, u) in another coordinate of the contact radius.
-
-The displacement that goes with a line load is known but for a constant share of it. A strip of half-width ξ
-moves by −(2/π) ln ξ for each unit of load per E*: over μ δ0 and μ P_0, P_0 being (π/4) E* δ0, that is −½ ln
-ξ. Far away the body moves with the load, too, which adds nothing to the work along a loop.
 """
 
 from __future__ import annotations
@@ -22,10 +18,10 @@ import numpy as np
 
 from swtstudy.mechanics.indenter import make_profile
 from swtstudy.mechanics.indenter.base import Profile
-from swtstudy.mechanics.indenter.plane import PlaneProfile
 from swtstudy.mechanics.indenter.profile_table import AnyProfile
 from swtstudy.mechanics.numerics.arrays import align
 from swtstudy.mechanics.points import FloatArray, Rows, Shape
+from swtstudy.vocabulary.parameters import Control
 
 
 @dataclass(frozen=True)
@@ -48,10 +44,6 @@ class Coordinate(Rows, ABC):
     def radius(self, coordinate: FloatArray) -> FloatArray:
         """Contact radius ξ/a_H: the inverse of `of`, shape (n, …)."""
 
-    @abstractmethod
-    def with_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """`of` and the profile's `weighted_slope` in one."""
-
 
 class DepthCoordinate(Coordinate):
     """The indentation depth G = g(ξ)/δ0, where displacements are prescribed."""
@@ -61,9 +53,6 @@ class DepthCoordinate(Coordinate):
 
     def radius(self, coordinate: FloatArray) -> FloatArray:
         return self.profile.radius(coordinate)
-
-    def with_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        return self.profile.depth_and_weighted_slope(radius)
 
 
 @dataclass(frozen=True)
@@ -83,10 +72,6 @@ class ForceCoordinate(Coordinate):
 
     def radius(self, coordinate: FloatArray) -> FloatArray:
         return self.profile.radius_of_half_load(coordinate * align(self.unit, coordinate))
-
-    def with_weighted_slope(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
-        half_load, slope = self.profile.half_load_and_weighted_slope(radius)
-        return half_load / align(self.unit, radius), slope
 
 
 def unit_half_load(name: AnyProfile, shape: Shape, count: int) -> FloatArray:
@@ -111,25 +96,8 @@ def profile_up_to_force(
     return make_profile(name, shape, depth), unit
 
 
-@dataclass(frozen=True)
-class StripDisplacement(Rows):
-    """∫ −½ ln ξ d(N/N_0) over n profiles: what in the plane stands beside the force as the other coordinate.
-
-    Attributes
-    ----------
-    profile
-        n profiles of one family.
-    """
-
-    profile: PlaneProfile
-
-    def of(self, radius: FloatArray) -> FloatArray:
-        """At half-widths ξ/a_H, shape (n, …)."""
-        load = self.profile.depth(radius)
-        logarithm = np.log(np.where(radius > 0.0, radius, 1.0))
-        return 0.5 * (self.profile.depth_over_radius(radius) - load * logarithm)
-
-    @staticmethod
-    def compliance(radius: FloatArray) -> FloatArray:
-        """Its derivative by N/N_0."""
-        return -0.5 * np.log(radius)
+def largest_depth(control: Control, name: AnyProfile, shape: Shape, largest_normal: FloatArray) -> FloatArray:
+    """Largest indentation depth over δ0 at the largest normal load, as it is prescribed; shape (n,)."""
+    if not control.normal_force:
+        return largest_normal
+    return profile_up_to_force(name, shape, largest_normal)[0].largest_depth

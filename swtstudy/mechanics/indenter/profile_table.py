@@ -258,5 +258,10 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         yield Mistake(f"{name}.height", "heights that fall from the axis", "heights with the other sign")
     elif not np.any(height > 0.0) or np.count_nonzero(height) < FEWEST - 2:
         yield Mistake(f"{name}.height", "a flat face alone", f"at least {FEWEST - 2} points beside it")
+    beside = np.flatnonzero(height)[:2]
+    if beside.size and beside[0] > 1 and (height[beside] < 0.0).any():
+        k = beside[height[beside] < 0.0][0]
+        found = f"{height[k]:g} at the radius {radius[k]:g}, below the flat face"
+        yield Mistake(f"{name}.height", found, "heights above the face: it is the lowest part of a profile")
     if not 0.0 <= plain_number(smoothing) < np.inf:
         yield Mistake(f"{name}.smoothing", literal(smoothing), "a number ≥ 0")

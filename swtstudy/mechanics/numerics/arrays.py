@@ -50,31 +50,6 @@ def pick(values: NDArray[T], index: IndexArray) -> NDArray[T]:
     return gather(values, index[..., None])[..., 0]
 
 
-def count_below(values: FloatArray, row: IndexArray, level: FloatArray) -> IndexArray:
-    """Count the values in a row that are below each level.
-
-    Parameters
-    ----------
-    values
-        Shape (…, k), each row ascending.
-    row
-        Shape (m,) or broadcast to it: rows of the flattened leading axes.
-    level
-        Shape (m,).
-    """
-    count, k = np.zeros(level.shape, dtype=np.intp), values.shape[-1]
-    if k <= SHORT:
-        # One column after the other: sums of short rows are slow.
-        for column in values.reshape(-1, k).T:
-            count += column.take(row) < level
-        return count
-    flat, place = np.ascontiguousarray(values).reshape(-1), row * k - 1
-    for step in 1 << np.arange(k.bit_length())[::-1]:
-        more = np.minimum(count + step, k)
-        count = np.where(flat.take(place + more) < level, more, count)
-    return count
-
-
 def packed(keep: BoolArray, *arrays: NDArray[T]) -> tuple[NDArray[T], ...]:
     """The kept entries of each row, moved to its front; shorter rows repeat their first kept entry.
 
@@ -133,53 +108,6 @@ class RowTable:
         return np.asarray(row + 0.5 * np.clip(share, 0.0, 1.0))
 
 
-def filled_rows(row: IndexArray, values: FloatArray, count: int, fill: float) -> FloatArray:
-    """Ragged rows as one array: ``values`` of shape (m,) go to their rows, the rest is ``fill``."""
-    sizes = np.bincount(row, minlength=count)
-    filled = np.full((count, max(int(sizes.max(initial=0)), 1)), fill)
-    order = np.argsort(row, kind="stable")
-    filled[row[order], place_in_row(row[order])] = values[order]
-    return filled
-
-
-def place_in_row(row: IndexArray) -> IndexArray:
-    """Count the entries of the same row that stand before each, shape (m,), of entries listed row by row."""
-    return np.arange(row.size) - np.searchsorted(row, row)
-
-
-def largest_of_rows(row: IndexArray, values: FloatArray) -> FloatArray:
-    """The largest of the values ≥ 0, (m,), of each row, (n,), 0 where it has none."""
-    largest = np.zeros(row.max(initial=-1) + 1)
-    np.maximum.at(largest, row, values)
-    return largest
-
-
-def highest_of_rows(row: IndexArray, values: FloatArray) -> IndexArray:
-    """Indices of the largest of the values, (m,), of each row that has any; of equal ones the first."""
-    order = np.lexsort((-values, row))
-    return order[np.unique(row[order], return_index=True)[1]]
-
-
-def as_rows(row: IndexArray, rows: IndexArray) -> tuple[IndexArray, BoolArray]:
-    """Where the entries of some rows are among those of all, which are listed row by row.
-
-    Parameters
-    ----------
-    row
-        Shape (m,): the row of each entry, ascending.
-    rows
-        Shape (n,): rows with at least one entry.
-
-    Returns
-    -------
-    index, real
-        Shape (n, k): numbers of the entries, of which shorter rows repeat the last; and which are no repeats.
-    """
-    start, end = (np.searchsorted(row, rows, side)[:, None] for side in ("left", "right"))
-    index = start + np.arange(int((end - start).max(initial=0)))
-    return np.minimum(index, end - 1), index < end
-
-
 def align(values: NDArray[T], like: NDArray[Any]) -> NDArray[T]:
     """Append axes to ``values`` so that it broadcasts against ``like``, whose leading axes it shares."""
     return values.reshape(values.shape + (1,) * (like.ndim - values.ndim))
@@ -210,16 +138,6 @@ def distinct(values: FloatArray) -> tuple[FloatArray, IndexArray]:
 def between(low: FloatArray, high: FloatArray, angle: FloatArray) -> FloatArray:
     """Places between ``low`` (α = 0) and ``high`` (α = π) at the angle α."""
     return low + (high - low) * (0.5 - 0.5 * np.cos(angle))
-
-
-def with_neighbours(chosen: BoolArray) -> BoolArray:
-    """The chosen places of a closed row, along the last axis, and those beside them."""
-    return np.asarray(chosen | np.roll(chosen, 1, axis=-1) | np.roll(chosen, -1, axis=-1))
-
-
-def layer_share(thickness: FloatArray, length: FloatArray) -> FloatArray:
-    """Share of the angle α of `between` that a thin layer at an end takes: α² grows like the distance."""
-    return np.asarray(2.0 / np.pi * np.sqrt(thickness / length))
 
 
 def polynomial_in(coefficients: FloatArray, piece: IndexArray, t: FloatArray) -> FloatArray:

@@ -10,7 +10,6 @@ import numpy as np
 from swtstudy.mechanics import solve_points
 from swtstudy.mechanics.body.body_maximum import body_maximum
 from swtstudy.mechanics.points import REGIMES, FloatArray
-from swtstudy.mechanics.stress.scene import scene_of
 from swtstudy.paper.audit.dense import dense_maximum
 from swtstudy.points.canonical import ROW, Definitions, points_from
 
@@ -102,5 +101,5 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
         return AuditedPoint(*solved, np.nan, np.nan, np.full(3, np.nan), np.full(3, np.nan))
     # The field handles gross slip and the 0/0 of a vanishing contact: NumPy's warnings would only alarm.
     with np.errstate(all="ignore"):
-        body, at_line = body_maximum(scene_of(points), x)
+        body, at_line = body_maximum(points, x)
     return AuditedPoint(*solved, float(at_line.swt), body.swt, body.position, body.normal)

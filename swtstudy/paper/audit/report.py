@@ -13,7 +13,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
-from swtstudy.mechanics.line.surface_circle import SAFE_POISSON_RATIO
 from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray
 from swtstudy.paper.audit.point import TOLERANCE, VERDICTS, AuditedPoint
 from swtstudy.points.canonical import (
@@ -276,6 +275,8 @@ def _shares(title: str, groups: list[tuple[str, BoolArray]], dataset: xr.Dataset
 
 def _bulk_groups(dataset: xr.Dataset) -> list[tuple[str, BoolArray]]:
     """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
+    from swtstudy.kernel.circle import SAFE_POISSON_RATIO  # with the compiler, which takes half a second
+
     mean, ν = dataset["bulk_stress_mean"].values, dataset["poisson_ratio"].values
     edge = (dataset["profile"].values == "truncated_paraboloid") & (
         dataset["regime"].values == REGIMES.index("gross_slip")

@@ -1,1 +1,0 @@
-"""Loads of the two bodies: their two components over the cycle."""

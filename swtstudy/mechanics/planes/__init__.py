@@ -1,1 +1,0 @@
-"""From stress histories to swt over planes: it knows no contact."""

@@ -1,1 +1,0 @@
-"""Stress on the surface and beneath it, by superposition over the memory diagram."""

@@ -1,0 +1,160 @@
+"""File systems that lack modes, locks or the sync of folders; and what others put beside an archive."""
+
+import errno
+import os
+import stat
+import subprocess
+import sys
+
+import netCDF4
+import numpy as np
+import pytest
+import stand_in
+
+from swtstudy import Study, open_results, run
+
+fcntl = pytest.importorskip("fcntl")
+STUDY = Study.from_text('title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.25]\n')
+LARGER = Study.from_text('title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.25, 0.5]\n')
+
+
+def refused(number):
+    def refuse(*_, **__):
+        raise OSError(number, os.strerror(number))
+
+    return refuse
+
+
+def twice(path):
+    """A run, a second one that finds nothing to do, and one of a grown study."""
+    for study in (STUDY, STUDY, LARGER):
+        assert np.isfinite(run(study, path, solver=stand_in.smooth).s).all()
+    assert sorted(each.name for each in path.parent.iterdir()) == [path.name]
+
+
+def test_a_file_system_without_modes(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "chmod", refused(errno.EPERM))
+    twice(tmp_path / "t.nc")
+
+
+def test_a_file_system_that_cannot_sync_folders(tmp_path, monkeypatch):
+    fsync = os.fsync
+
+    def sync(handle):
+        if stat.S_ISDIR(os.fstat(handle).st_mode):
+            raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
+        fsync(handle)
+
+    monkeypatch.setattr(os, "fsync", sync)
+    twice(tmp_path / "t.nc")
+
+
+@pytest.mark.parametrize("number", [errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP])
+def test_a_file_system_without_locks_is_told(tmp_path, monkeypatch, caplog, number):
+    monkeypatch.setattr(fcntl, "flock", refused(number))
+    twice(tmp_path / "t.nc")
+    assert "a file system without locks; run t.nc once at a time" in caplog.text
+
+
+def test_a_disk_that_refuses_a_lock_says_what_to_do(tmp_path, monkeypatch):
+    monkeypatch.setattr(fcntl, "flock", refused(errno.EIO))
+    with pytest.raises(OSError, match=r"cannot lock .*t\.nc \(.*\); choose another folder"):
+        run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
+
+
+def test_a_lock_that_is_a_link_is_left_alone(tmp_path):
+    (tmp_path / "precious").write_text("precious")
+    (tmp_path / "t.nc.parts").mkdir()
+    (tmp_path / "t.nc.parts" / "lock").symlink_to(tmp_path / "precious")
+    with pytest.raises(OSError, match=r"lock is no file of ours \(.*\); remove it"):
+        run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
+    assert (tmp_path / "precious").read_text() == "precious"
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder"])
+def test_what_is_no_part_is_left_out(tmp_path, kind):
+    folder = tmp_path / "t.nc.parts"
+    folder.mkdir()
+    part = folder / "000001.npz"
+    if kind == "pipe":
+        os.mkfifo(part)
+    elif kind == "device":
+        part.symlink_to("/dev/zero")
+    else:
+        part.mkdir()
+    for study in (STUDY, LARGER):
+        assert np.isfinite(run(study, tmp_path / "t.nc", solver=stand_in.smooth).s).all()
+    assert os.path.lexists(part)
+
+
+def test_a_lock_that_is_a_pipe_is_refused(tmp_path):
+    (tmp_path / "t.nc.parts").mkdir()
+    os.mkfifo(tmp_path / "t.nc.parts" / "lock")
+    with pytest.raises(OSError, match="lock is no file of ours"):
+        run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
+
+
+def test_a_file_that_claims_more_than_it_holds_is_not_read(tmp_path):
+    path = tmp_path / "t.nc"
+    run(STUDY, path, solver=stand_in.smooth)
+    with netCDF4.Dataset(path, "a") as file:
+        file.createDimension("endless", 4_000_000_000)
+        file.createVariable("crafted", "f8", ("endless",), chunksizes=(1000,))
+    with pytest.raises(ValueError, match=r"claims to hold 3.2e\+10 bytes"):
+        open_results(path)
+
+
+def test_an_archive_that_another_program_has_changed_says_so(tmp_path):
+    path = tmp_path / "t.nc"
+    run(STUDY, path, solver=stand_in.smooth)
+    open_results(path).drop_vars("status").to_netcdf(path)
+    with pytest.raises(ValueError, match=r"t\.nc: an archive changed by another program \(no status"):
+        open_results(path)
+
+
+def command(*words, **options):
+    """What a command prints in a process of its own, and its exit code."""
+    whole = [sys.executable, "-m", "swtstudy", *map(str, words)]
+    return subprocess.run(whole, capture_output=True, timeout=300, check=False, **options)
+
+
+def test_archives_and_studies_are_told_apart(tmp_path):
+    run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
+    (tmp_path / "t.toml").write_text('title = "t"\n')
+    found = command("info", tmp_path / "t.toml")
+    assert b"t.toml: a study, not an archive; swtstudy run" in found.stderr
+    assert found.returncode == 2
+    found = command("sensitivity", tmp_path / "t.nc")
+    assert b"t.nc: found an archive; allowed: a readable study file (TOML)" in found.stderr
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "cp437"])
+@pytest.mark.parametrize(
+    "words", [("--help",), ("list",), ("schema",), ("solve", "--help"), ("validate", "figure3")]
+)
+def test_consoles_without_greek_letters(words, encoding):
+    found = command(*words, env=os.environ | {"PYTHONIOENCODING": encoding})
+    assert (found.returncode, found.stderr) == (0, b"")
+
+
+def test_a_title_cannot_command_the_terminal(tmp_path):
+    (tmp_path / "t.toml").write_text('title = "\\u001b[31mred"\n')
+    run(Study.from_toml(tmp_path / "t.toml"), tmp_path / "t.nc", solver=stand_in.smooth)
+    assert b"\x1b" not in command("info", tmp_path / "t.nc").stdout
+    assert b"\x1b" not in command("plan", tmp_path / "t.toml", "--results", tmp_path).stdout
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")
+def test_a_closed_output_is_no_error():
+    closed = f'exec "{sys.executable}" -m swtstudy list >&-'
+    assert subprocess.run(closed, shell=True, timeout=300, stderr=subprocess.PIPE).stderr == b""
+
+
+def test_heights_below_a_flat_face_are_named(tmp_path):
+    rows = [(r / 10, max(r / 10 - 0.4, 0.0) ** 2) for r in range(30)]
+    rows[5] = 0.5, -0.1
+    (tmp_path / "worn.csv").write_text("radius,height\n" + "".join(f"{r},{h}\n" for r, h in rows))
+    text = 'title = "t"\n[fixed]\nprofile = "worn"\n[profiles.worn]\nfile = "worn.csv"\n'
+    (tmp_path / "t.toml").write_text(text)
+    with pytest.raises(ValueError, match=r"t\.toml: profiles\.worn: found -0\.1 at the radius 0\.5, below"):
+        Study.from_toml(tmp_path / "t.toml")
