@@ -7,6 +7,7 @@ from threading import local
 
 import numpy as np
 
+from swtstudy.kernel.body import body_workspace
 from swtstudy.kernel.circle import circles, search_circles
 from swtstudy.kernel.compiled import new_record, new_records, once
 from swtstudy.kernel.control import prescribe
@@ -18,6 +19,7 @@ from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
+from swtstudy.kernel.shifted_circle import search_shifted_circles
 from swtstudy.kernel.work import CONJUGATE, MARGIN, OF_CYCLE, cycles_of, margins_of
 
 #: Points of one compiled call: their loads and profiles take some 10 MB.
@@ -147,6 +149,9 @@ def solve_batch(*points, **given):
         if parts[-1]["circle"].any():
             warm_up_circles()
             search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
+            if (parts[-1]["circle"] * parts[-1]["shift"]).any():
+                places = _of_this_thread("body", body_workspace)
+                search_shifted_circles(*places, *_workspace(), profiles, which, loads, asks, parts[-1])
             _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, RESULT)
 
@@ -242,9 +247,9 @@ def cycle_batch(with_ratio, *points, **given):
     U = _of_this_thread("conjugate", partial(new_record, CONJUGATE))
     cycle, growth = _workspace()[:2]
     parts = []
-    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
+    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
         parts.append(new_records(len(which), OF_CYCLE))
-        cycles_of(cycle, growth, U, profiles, which, loads, np.bool_(with_ratio), parts[-1])
+        cycles_of(cycle, growth, U, profiles, which, loads, asks, np.bool_(with_ratio), parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, OF_CYCLE)
 
@@ -263,9 +268,9 @@ def margins_batch(*points, **given):
         Shape (n,) of `swtstudy.kernel.work.MARGIN`.
     """
     parts = []
-    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE):
+    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE):
         parts.append(new_records(len(which), MARGIN))
-        margins_of(_workspace()[0], profiles, which, loads, parts[-1])
+        margins_of(_workspace()[0], profiles, which, loads, asks, parts[-1])
     return _joined(parts, MARGIN)
 
 

@@ -378,9 +378,12 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
 
 @jit
 def search_circles(D, G, S, C, R, _, H, W, K, profiles, which, loads, asks, found):
-    """Write the largest values on the circles of points, where the line may not be enough."""
+    """Write the largest values on the circles of points, where the line may not be enough.
+
+    Not where the stick zone is shifted (`swtstudy.kernel.shifted_circle`).
+    """
     for i in range(which.shape[0]):
-        if found[i].circle:
+        if found[i].circle and found[i].shift == 0.0:
             profile, load = profiles[which[i]], loads[i]
             top = surface_value(D, G, S, C, R, H, W, K, profile, load, asks[i], found[i])
             found[i].s_surface, found[i].overflow = top, C.overflow

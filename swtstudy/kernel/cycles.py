@@ -25,8 +25,9 @@ from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, refine, sampl
 from swtstudy.kernel.line import cusps, ends_group, resolve
 from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks, vertex
-from swtstudy.kernel.point import FINEST_GROWTH, shift_of, tension_share
+from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 
 #: Powers of the criterion of which the sum is made largest.
 POWERS = np.array([1.0, 2.0, 4.0, 8.0])
@@ -413,7 +414,7 @@ def count_point(C, R, S, H, W, K, N, P, L, Q, x, angle, out):
         if N.largest > 0.0:
             keep_cycles(N, out)
     elif not C.overflow:
-        C.shift, largest = shift_of(C, L, P, Q), place_of(P, C.largest)
+        C.shift, largest = shift_of(L, P, Q, C.event, C.events), place_of(P, C.largest)
         count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest)
         set_largest(N)
         if N.largest > 0.0:

@@ -5,7 +5,7 @@ it has a root cusp in time. So a stretch has up to three parts at x. Each part h
 points of a variable in which root cusps at its ends are smooth; its series dies out exponentially.
 """
 
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTE
 from swtstudy.kernel.growth import places_at, solved_places
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import coordinate_at, force_at
+from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
 
 MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
@@ -81,26 +82,23 @@ SPACED = _spaced()
 
 @jit
 def centre(P, H, s):
-    """Centre of the stick zone of size s, towards x: it reaches the edge at most."""
-    if H.shift == 0.0:
-        return 0.0
-    room = max(H.reach - s, 0.0)
-    return min(max(H.shift * (H.load - coordinate_at(P, s)), -room), room)
+    """Centre of the stick zone of size s, towards x."""
+    return centre_of(P, H.shift, H.load, H.reach, s)
 
 
 @jit
-def find_passing(H, P):
-    """Note the stick zone that ends at x: the smaller ones do not reach it."""
+def find_passing(H, P, x, y):
+    """Note the stick zone that ends at (x, y): the smaller ones do not reach it."""
     H.front_G, H.front_X = H.G, H.X
-    if H.shift == 0.0:
+    if H.shift == 0.0 or H.G < 0.0:
         return
     low, high = 0.0, H.reach
-    if H.x >= high:
+    if hypot(x, y) >= high:
         H.front_G = np.inf
         return
     for _ in range(60):
         s = 0.5 * (low + high)
-        if abs(H.x - centre(P, H, s)) > s:
+        if hypot(x - centre(P, H, s), y) > s:
             low = s
         else:
             high = s
@@ -416,7 +414,7 @@ def begin_history(H, C, R, P, K, place, largest, side):
     H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
     H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
     H.shift, H.load, H.reach = side * C.shift, C.largest, largest
-    find_passing(H, P)
+    find_passing(H, P, H.x, 0.0)
     integrate_pieces(H, C, R, P, K, largest)
 
 

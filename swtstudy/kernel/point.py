@@ -8,13 +8,13 @@ from swtstudy.kernel.circle import at_singular_edge, needs_circle
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
-from swtstudy.kernel.events import stick_limit
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
 from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.surface import TABLE
 
 #: Rounding of dv/dn: no table is finer.
@@ -37,7 +37,7 @@ RESULT = np.dtype(
         ("s_error", "f8"),
         ("critical_x", "f8"),
         ("critical_angle", "f8"),  # degrees
-        ("shift", "f8"),  # of the stick zone that is left in the cycle, in a_H
+        ("shift", "f8"),  # of the stick zone, see `swtstudy.kernel.shift`
         ("regime", "i8"),
         ("positions", "i8"),
         ("instants", "i8"),
@@ -107,25 +107,6 @@ def is_idle(C, L, P, Q):
 
 
 @jit
-def shift_of(C, L, P, Q):
-    """By how much the stick zone is shifted by the strain of the bulk stress, in the coordinate of its front.
-
-    In the stick zone both surfaces keep their relative strain. The strain of a change of the bulk stress is
-    balanced by tractions, of which the part that makes the stick zone is off centre (Nowell and Hills 1987).
-    With B in proportion to the tangential load, a front that has moved inwards by Δ in the coordinate of the
-    diagram has its centre at shift · Δ. That is exact for the cylinder under a constant normal load while the
-    stick zone stays within the contact, and nearly so for the paraboloid. Returns 0 elsewhere.
-    """
-    if L.bulk_slope == 0.0 or Q.pulled == 0.0 or Q.friction == 0.0 or not P.is_hertz or C.gross_slip:
-        return 0.0
-    stiffness = 4.0 if P.plane else (1.0 + Q.poisson_ratio) * (4.0 - 3.0 * Q.poisson_ratio)
-    shift = 2.0 * Q.pulled * L.bulk_slope / (Q.friction * stiffness)
-    stick = max(stick_limit(L, C.event, C.events), 0.0)
-    room = place_of(P, C.largest) - place_of(P, stick)
-    return shift if abs(shift) * (C.largest - stick) <= room * (1.0 + 1e-9) else 0.0
-
-
-@jit
 def tension_share(C, Q, tension):
     """Tension over the largest stress that slip can make, μ times the pressure; 1 without friction."""
     return tension / (Q.friction * sqrt(C.largest)) if Q.friction > 0.0 else 1.0
@@ -164,8 +145,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
     if out.regime == NOT_FINITE or C.overflow:
         return
-    C.shift = shift_of(C, L, P, Q)
-    out.shift = C.shift * (C.largest - max(stick_limit(L, C.event, C.events), 0.0)) if C.shift != 0.0 else 0.0
+    C.shift = out.shift = shift_of(L, P, Q, C.event, C.events)
     out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(L, P, Q)
     if is_idle(C, L, P, Q):
         return

@@ -14,8 +14,9 @@ from swtstudy.kernel.course import STATE, write_parts, write_springs, write_stat
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
-from swtstudy.kernel.point import shift_of, workspace
+from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.solver import arguments_of
@@ -56,7 +57,7 @@ class LoadCycle:
         load = loads[0].copy()
         solve_cycle(cycle, load)
         if not cycle.no_equilibrium:
-            cycle.shift = shift_of(cycle, load, profiles[0], asks[0])
+            cycle.shift = shift_of(load, profiles[0], asks[0], cycle.event, cycle.events)
             lay_out(growth, cycle, profiles[0], load, GROWTH)
             tabulate_other(conjugate, profiles[0])
             tabulate_answer(conjugate, cycle, growth, profiles[0])
