@@ -20,10 +20,10 @@ from swtstudy.mechanics.solver import arguments_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
-from swtstudy.vocabulary.choices import family_of
+from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS, Control
+from swtstudy.vocabulary.parameters import PAIRS, SHIFT, STRAIN_SHARE, Control
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -60,7 +60,8 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         control=control,
         path=course if isinstance(course, Loop) else None,
         criterion=str(grid.fixed["criterion"]),
-        **{name: number(name) for name in NUMBERS},
+        **{name: number(name) for name in NUMBERS if name != STRAIN_SHARE},
+        bulk_strain_share=number(STRAIN_SHARE) * (grid.fixed[SHIFT] == MOVED),
     )
 
 

@@ -16,7 +16,7 @@ from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
-from swtstudy.kernel.shift import shift_of
+from swtstudy.kernel.shift import centre_of, shift_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
 from swtstudy.mechanics.points import FloatArray, Points
 from swtstudy.mechanics.solver import arguments_of
@@ -84,6 +84,26 @@ class LoadCycle:
             float(radius_of(profile, place_of(profile, value))) for value in self.load.normal_range
         )
         return float(stick), least if self.load.normal_range[0] > 0.0 else 0.0, largest
+
+    @property
+    def moved(self) -> bool:
+        """True if a bulk stress moves the stick zone."""
+        return bool(self.memory[0].shift != 0.0)
+
+    @property
+    def stick_zone(self) -> tuple[float, float]:
+        """Ends x/a_H of the permanent stick zone, NaN where there is none."""
+        radius = self.radii[0]
+        off = self.centre(self.place(np.array([radius])))[0]
+        return off - radius, off + radius
+
+    def centre(self, place: FloatArray) -> FloatArray:
+        """Centres x/a_H of stick zones of sizes s, (n,): off the axis where a bulk stress moves them."""
+        cycle = self.memory[0]
+        if not self.moved:
+            return np.zeros(len(place))
+        own = self.profile, cycle.shift, cycle.largest, self.largest
+        return np.array([centre_of(*own, float(s)) for s in place])
 
     @property
     def oscillations(self) -> int:

@@ -90,6 +90,7 @@ WITHOUT_S = ("not_finite", "no_equilibrium")
 _UNLESS_GIVEN = {
     "walker_exponent": 0.5,
     "normal_sensitivity": 0.0,
+    "bulk_strain_share": 1.0,
     **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
 }
 #: Arrays of shape (0,) are not given.
@@ -123,6 +124,8 @@ class Points(Rows):
         Shape (n,), of the criteria of shear; 0 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
         Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; 0 unless given.
+    bulk_strain_share
+        Shape (n,), as there; 1 unless given, and 0 where the stick zone is not to be shifted.
     """
 
     profile: AnyProfile
@@ -142,6 +145,7 @@ class Points(Rows):
     bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
     bulk_stress_mean: FloatArray = field(default_factory=_not_given)
     bulk_stress_phase: FloatArray = field(default_factory=_not_given)
+    bulk_strain_share: FloatArray = field(default_factory=_not_given)
 
     def __post_init__(self) -> None:
         for name, value in _UNLESS_GIVEN.items():
