@@ -146,7 +146,7 @@ def _seen(points: Points) -> Margins:
 def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray) -> BoolArray:
     """Points whose bulk stress follows the tangential load in proportion at a constant normal load, (n,)."""
     rests = (points.normal_amplitude == 0.0) | (np.ptp(normal, axis=1) == 0.0)
-    across, along = tangential - tangential[:, :1], bulk - bulk[:, :1]
+    across, along = np.broadcast_arrays(tangential - tangential[:, :1], bulk - bulk[:, :1])
     square = (across * across).sum(axis=1)
     slope = np.divide((across * along).sum(axis=1), square, out=np.zeros_like(square), where=square > 0.0)
     off = np.abs(along - slope[:, None] * across).max(axis=1)

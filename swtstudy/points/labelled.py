@@ -90,7 +90,7 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "long_name": "shift over slip zone",
         "comment": "shift of the stick zone by the strain of the bulk stress over the width of the slip "
         "zone, however large: where stick_zone is in_place, s leaves it out and is too low at the edge in "
-        "tension, it should be up to 6 % at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as "
+        "tension, it should be up to 6 % at 0.1, 24 % at 0.5 and 38 % at 1 higher for Q >= 0.2 mu P; NaN as "
         "the shift, without a permanent stick zone",
         "units": "1",
         "symbol": r"e/(a - c)",

@@ -21,8 +21,9 @@ KNOWN_LIVES = 1e2, 1e7
 #: Positions nearer to a sharp tip than this, in a_H, are the innermost ones, or next to them.
 BESIDE_TIP = 10.0 * INNERMOST
 #: By how much s of a cylinder and, approximately, of a sphere is too low with the stick zone in place, by
-#: `bulk_shift_ratio`: at constant P, Q = 0.2 μP and a bulk stress in phase without mean; less at larger Q.
-BULK_SHIFT_ERRORS = {0.1: (0.054, 0.058), 0.5: (0.21, 0.24), 1.0: (0.32, 0.39)}
+#: `bulk_shift_ratio`: at constant P, Q = 0.2 μP, ν = 0.3 and a bulk stress in phase without mean; less at
+#: larger Q (results/stick_zone_shift.md).
+BULK_SHIFT_ERRORS = {0.1: (0.054, 0.057), 0.5: (0.21, 0.24), 1.0: (0.32, 0.38)}
 #: Where the stick zone is in s, as flags of ``stick_zone``.
 IN_PLACE, APPROXIMATE = 0, 2
 #: Rounding of a ratio that is 1.

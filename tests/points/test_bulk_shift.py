@@ -200,7 +200,7 @@ def test_results_say_where_the_stick_zone_is() -> None:
     given = {"normal_force_amplitude": [0.0, 0.1], "tangential_force_amplitude": 0.5}
     given |= {"profile": ["cylinder", "paraboloid"], "bulk_stress_amplitude": 0.1, "rtol": 1e-2}
     found = swtstudy.solve(**given)
-    assert found.swt.words("stick_zone").values.T.tolist() == [
+    assert found.swt.words("stick_zone").values.tolist() == [
         ["moved", "moved_approximately"],
         ["in_place", "in_place"],
     ]
@@ -211,7 +211,7 @@ def test_results_say_where_the_stick_zone_is() -> None:
     assert " at 1 of 4 points: the rise of the stress at the edge in tension is right within 4 %" in inside
     out = {"bulk_stress_phase": [0.0, 1.0], "tangential_force_amplitude": 0.5, "bulk_stress_amplitude": 0.1}
     assert swtstudy.solve(rtol=1e-2, **CYLINDER, **out).stick_zone.values.tolist() == [1, 0]
-    still = swtstudy.solve(rtol=1e-2, **given, stick_zone_shift="none")
+    still = swtstudy.solve(**given, stick_zone_shift="none")
     assert (still.stick_zone == 0).all()
     assert "stick_zone" not in swtstudy.solve(rtol=1e-2, bulk_stress_mean=0.1)
 
@@ -233,7 +233,7 @@ def test_with_the_stick_zone_in_place_results_say_on_which_side_s_is() -> None:
     (line,) = validity_lines(found)
     assert "at 1 of 2 points" in line
     assert line.endswith(
-        "; s is too low at the edge in tension, it should be up to 6 % at 0.1, 24 % at 0.5, 39 % at 1 higher "
+        "; s is too low at the edge in tension, it should be up to 6 % at 0.1, 24 % at 0.5, 38 % at 1 higher "
         "for Q ≥ 0.2 μP"
     )
     assert "too low" in found.bulk_shift_ratio.comment
