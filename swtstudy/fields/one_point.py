@@ -45,8 +45,14 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     profile = grid.fixed["profile"]
     ratio = Fraction(str(grid.fixed["frequency_ratio"]))
 
+    moves = grid.fixed[SHIFT] == MOVED
+    # A bulk stress of the other body matters by the stick zone alone.
+    is_there = moves or as_number(grid.fixed[STRAIN_SHARE]) > 0.0
+
     def number(name: str) -> np.ndarray:
-        return np.array([as_number(grid.fixed[grid.control.given_for(name)])])
+        value = as_number(grid.fixed[grid.control.given_for(name)])
+        left_out = name.startswith("bulk_stress") and not is_there
+        return np.array([0.0 if left_out else value])
 
     course, control = grid.fixed["load"], grid.control
     if not number("normal_amplitude").any():
@@ -61,7 +67,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         path=course if isinstance(course, Loop) else None,
         criterion=str(grid.fixed["criterion"]),
         **{name: number(name) for name in NUMBERS if name != STRAIN_SHARE},
-        bulk_strain_share=number(STRAIN_SHARE) * (grid.fixed[SHIFT] == MOVED),
+        bulk_strain_share=number(STRAIN_SHARE) * moves,
     )
 
 

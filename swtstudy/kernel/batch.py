@@ -14,7 +14,7 @@ from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
-from swtstudy.kernel.loads import load_of
+from swtstudy.kernel.loads import leave_bulk_out, load_of
 from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
@@ -76,7 +76,8 @@ def chunks(
         Shape (n,); 1/2 and 0 if None.
     pulled
         Shape (n,): strain of the body with the bulk stress over the mean of both, which shifts the stick
-        zone; 0 where it is not to be shifted; 1 if None, for bodies of equal moduli.
+        zone; 0 where it is not to be shifted; 1 if None, for bodies of equal moduli. Negative in the other
+        body, whose stress is without the bulk stress.
     rtol
         Relative accuracy asked of s.
     reach
@@ -105,6 +106,8 @@ def chunks(
             ratio = Fraction(1 if frequency_ratio is None else frequency_ratio[i])
             own = normal_amplitude[i], tangential_amplitude[i], angle[i], ratio
             loads[j] = load_of(loop, *own, *(each[i] for each in bulk))
+            if strain[i] < 0.0:
+                leave_bulk_out(loads[j])
             own = criterion, exponent[i], sensitivity[i], strain[i]
             asks[j] = ask(poisson_ratio[i], friction[i], rtol, *own)
             keys.append(tuple((key, float(values[i])) for key, values in (shape or {}).items()))

@@ -139,6 +139,13 @@ def polygon(normal, tangential, bulk=None, every=False):
     return load
 
 
+def leave_bulk_out(load):
+    """Take the bulk stress of the other body out of a load: it moves the stick zone, no more."""
+    load["bulk_moves"], load["bulk_turns"], load["bulk_range"] = 0, 0, 0.0
+    for name in ("rest", "cosine", "sine", "vertex"):
+        load[name][BULK] = 0.0
+
+
 def _slope(tangential, bulk):
     """Factor by which the bulk stress follows the tangential load, 0 where it does not; of their changes."""
     size = np.abs(tangential).max(initial=0.0)

@@ -139,7 +139,9 @@ def _seen(points: Points) -> Margins:
         own, coordinate = _in_diagram(points.take(rows), normal[rows], largest[rows])
         found.write(rows, _of_diagram(points.take(rows), own, tangential[rows], smooth, coordinate))
     width = found.largest_radius - found.stick_radius
-    found.moved[:] = follows & (found.bulk_shift * points.bulk_strain_share <= width * (1.0 + ROUNDING))
+    found.moved[:] = follows & (
+        found.bulk_shift * np.abs(points.bulk_strain_share) <= width * (1.0 + ROUNDING)
+    )
     return found
 
 

@@ -146,6 +146,11 @@ def _make_shifts_canonical(table: Table, shift: NDArray) -> None:
     shifted = (shift == code_of(MOVED, SHIFT)) & (table["bulk_stress_amplitude"] != 0.0)
     shifted &= (table["friction"] > 0.0) & ~(harmonic & (table["normal_amplitude"] != 0.0))
     shifted &= np.isin(table["profile"], [code_of(name) for name in PLAIN_OF.values()])
+    # The other body has the shift alone.
+    other = table[STRAIN_SHARE] < 0.0
+    table["bulk_stress_mean"][other] = 0.0
+    for name in ("bulk_stress_amplitude", "bulk_stress_phase"):
+        table[name][other & ~shifted] = 0.0
     table[STRAIN_SHARE][~shifted] = 0.0
 
 

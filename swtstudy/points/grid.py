@@ -162,7 +162,10 @@ class Grid:
 
     @property
     def strain_shares(self) -> FloatArray:
-        """Strain of each point's body over the mean of both bodies, under equal tractions; shape (size,)."""
+        """Strain of the body with the bulk stress over the mean of both, under equal tractions; (size,).
+
+        Negative at points of the other body.
+        """
         return np.broadcast_to(self.columns(0, self.size)[STRAIN_SHARE], self.size)
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:

@@ -307,7 +307,7 @@ def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[st
     radius, stick, shift, ratio, slide, moved = every[:, points.index]
     width = radius - stick  # of the slip zone
     if "bulk_shift" in names:
-        shift = shift * grid.strain_shares
+        shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
             "stick_zone": zones(moved, grid),

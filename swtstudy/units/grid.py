@@ -168,12 +168,7 @@ class PhysicalGrid(ContactDetails, Grid):
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
             found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
-        carries = self.bodies == self.bulk_stress_body
-        return found | {
-            name: values.where(carries, 0.0)
-            for name, values in found.items()
-            if PARAMETERS[name].part == "bulk" and self.values("body")
-        }
+        return found
 
     @property
     def _sensitivity_scale(self) -> xr.DataArray:
@@ -262,12 +257,10 @@ class PhysicalGrid(ContactDetails, Grid):
 
     @property
     def _strain_share(self) -> xr.DataArray:
-        """The same over the dimensions that it depends on."""
-
-        def of(body: int) -> xr.DataArray:
-            return self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
-
-        return of(0).where(self.bodies == 0, of(1))
+        """The same over the dimensions that it depends on: that of the body with the bulk stress."""
+        body = self.bulk_stress_body
+        share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
+        return share.where(self.bodies == body, -share) if self.values("body") else share
 
     def _of_points(self, over: xr.DataArray) -> FloatArray:
         """Values over some of the dimensions for each point, shape (size,)."""

@@ -170,10 +170,12 @@ PARAMETERS: dict[str, Parameter] = {
             "κB",
             "strain of the body with the bulk stress over the mean of both bodies, under equal tractions",
             1.0,
+            lower=-2.0,
             upper=2.0,
             part="bulk",
             optional=True,
-            note="real contacts have it from their moduli",
+            note="real contacts have it from their moduli; negative in the other body, which the bulk stress "
+            "reaches by the stick zone alone",
         ),
         Parameter(
             SHIFT,

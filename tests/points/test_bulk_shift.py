@@ -251,13 +251,27 @@ def test_the_body_that_is_pulled_moves_the_stick_zone_by_its_own_strain() -> Non
     }
     for body in (1, 2):
         contact = swtstudy.physical(**two, bulk_stress_amplitude=15.0, bulk_stress_body=body)
-        found = contact.solve(rtol=1e-6).sel(body=body)
+        both = contact.solve(rtol=1e-6)
+        found, other = both.sel(body=body), both.sel(body=3 - body)
         strains = np.array([(1.0 - ν * ν) / e for e, ν in zip((70e3, 80e3), (0.33, 0.3), strict=True)])
         e = 15.0 / (2.0 * 0.5 * contact.stress_scale) * strains[body - 1] / strains.mean()
         bulk = 15.0 / contact.stress_scale
         exact = (at_the_edge(0.5, 0.5, e / 0.5) + bulk) ** 2
         assert float(found.s) == pytest.approx(float(exact), rel=1e-5)
-        assert float(swtstudy.solve(rtol=1e-6, **contact.parameters(body)).s) == float(found.s)
+        # The other body has the tractions, not the stress; they pull it at the same edge when they turn.
+        assert float(other.s) == pytest.approx(float(at_the_edge(0.5, 0.5, e / 0.5)) ** 2, rel=1e-5)
+        assert float(other.critical_x) == pytest.approx(-float(found.critical_x))
+        assert both.stick_zone.values.tolist() == [1, 1]
+        for number, one in ((body, found), (3 - body, other)):
+            assert float(swtstudy.solve(rtol=1e-6, **contact.parameters(number)).s) == float(one.s)
+        still = swtstudy.physical(
+            **two, bulk_stress_amplitude=15.0, bulk_stress_body=body, stick_zone_shift="none"
+        )
+        plain = swtstudy.physical(**two).solve(rtol=1e-6, quantities=["stick_left"])
+        assert float(still.solve(rtol=1e-6).s.sel(body=3 - body)) == float(plain.s.sel(body=3 - body))
+        field = still.swt_field(-contact.contact_radius, 0.0, 0.0, body=3 - body)
+        bare = swtstudy.physical(**two).swt_field(-contact.contact_radius, 0.0, 0.0, body=3 - body)
+        assert float(field.SWT) == float(bare.SWT)
 
 
 def test_archives_tell_what_was_used_and_studies_choose() -> None:
