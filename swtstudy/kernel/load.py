@@ -4,8 +4,8 @@ The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the 
 displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
 (`swtstudy.kernel.contact`). If one of both is a displacement and the other one a force, the harmonics are
 those of the prescribed normal load, and n is what it is in the kind of the tangential load, a function of
-the profile. A bulk stress B may go with them, which moves the stick zone (`swtstudy.kernel.shift`). Time runs over [0, period):
-2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
+the profile. A bulk stress B may go with them, which moves the stick zone (`swtstudy.kernel.shift`). Time runs
+over [0, period): 2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
 """
 
 from math import cos, sin, sqrt
