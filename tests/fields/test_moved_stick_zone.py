@@ -146,3 +146,13 @@ def test_a_maximum_off_the_line_is_seen() -> None:
     field = swtstudy.swt_field(xr.DataArray(x, dims="a"), xr.DataArray(y, dims="a"), 0.0, **given)
     assert float(found.s_surface) >= 0.999 * float(field.s_local.max())
     assert float(found.s_surface) <= 1.02 * max(float(field.s_local.max()), float(found.s))
+
+
+def test_a_figure_says_where_the_stick_zone_is() -> None:
+    words = {}
+    for shift in ("moved", "none"):
+        figure = swtstudy.inspect(profile="cylinder", **MOVED, stick_zone_shift=shift)
+        words[shift] = " ".join(each.get_text() for each in figure.texts)
+        words[shift] += figure.get_suptitle()
+    assert "stick zone moved" in words["moved"]
+    assert "stick zone in place" in words["none"]
