@@ -28,7 +28,7 @@ from swtstudy.vocabulary.quantities import Request, item_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.points import FloatArray, IntArray
+    from swtstudy.vocabulary.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True)

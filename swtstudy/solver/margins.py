@@ -17,25 +17,20 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.mechanics.control.coordinate import (
-    Coordinate,
-    DepthCoordinate,
-    ForceCoordinate,
-    largest_depth,
-    profile_up_to_force,
-    unit_half_load,
-)
-from swtstudy.mechanics.indenter import make_profile, roughness
-from swtstudy.mechanics.points import FloatArray, IndexArray, Points, Rows
+from swtstudy.profiles.at_rest import AtRest
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import Columns, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 
 #: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
 #: are off by some 1e-6 of an amplitude. And values of a load that are held at a time.
 SAMPLES, AT_ONCE = 96, 2_000_000
+#: Places of a profile between which depths and forces are interpolated, and the last of them over √δ0.
+PLACES = 4001
 
 
 @dataclass(frozen=True)
-class Margins(Rows):
+class Margins(Columns):
     """Margins of n points, each of shape (n,).
 
     Attributes
@@ -66,7 +61,7 @@ class Margins(Rows):
         """Margins of points of one profile family and control."""
         # Compiled: whoever only reads a study does without.
         from swtstudy.kernel.batch import margins_batch
-        from swtstudy.mechanics.solver import arguments_of
+        from swtstudy.solver.solve import arguments_of
 
         found = margins_batch(**arguments_of(points))
         radius, stick, ratio, slide = (
@@ -80,9 +75,9 @@ class Margins(Rows):
         found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
         for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
             alike = np.flatnonzero((points.p == p) & (points.q == q))
-            parts = -(-alike.size * _motion(points.take(alike[:1]))[0].shape[1] // AT_ONCE)
+            parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
             for rows in np.array_split(alike, parts):
-                found.write(rows, _seen(points.take(rows)))
+                found[rows] = _seen(points[rows])
         return found
 
 
@@ -125,54 +120,59 @@ def _seen(points: Points) -> Margins:
     normal, tangential, smooth = _motion(points)
     normal = 1.0 + points.normal_amplitude[:, None] * normal
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
-    found = Margins(*np.full((len(fields(Margins)), len(points)), np.nan))
     largest = _largest(normal, smooth)
-    for rows in _of_one_roughness(points, largest):
-        own, coordinate = _in_diagram(points.take(rows), normal[rows], largest[rows])
-        found.write(rows, _of_diagram(points.take(rows), own, tangential[rows], smooth, coordinate))
-    return found
-
-
-def _of_one_roughness(points: Points, largest: FloatArray) -> Iterator[IndexArray]:
-    """Rows of points whose profiles have tables of one fineness, up to the largest normal loads."""
-    level = roughness(
-        points.profile, points.shape, largest_depth(points.control, points.profile, points.shape, largest)
-    )
-    for each in np.unique(level):
-        yield np.flatnonzero(level == each)
-
-
-def _in_diagram(points: Points, normal: FloatArray, largest: FloatArray) -> tuple[FloatArray, Coordinate]:
-    """The normal load, (n, T), in the coordinate of the tangential one, and that coordinate."""
-    control, name, shape = points.control, points.profile, points.shape
-    if control.normal_force or is_plane(name):
-        profile, unit = profile_up_to_force(name, shape, largest)
-    else:
-        profile, unit = make_profile(name, shape, largest), unit_half_load(name, shape, len(points))
-    force, depth = ForceCoordinate(profile, unit), DepthCoordinate(profile)
-    if profile.plane or not control.mixed:
-        return normal, force if profile.plane or control.tangential_force else depth
-    given, own = (force, depth) if control.normal_force else (depth, force)
-    return np.where(normal > 0.0, own.of(given.radius(np.maximum(normal, 0.0))), normal), own
-
-
-def _of_diagram(
-    points: Points, normal: FloatArray, tangential: FloatArray, smooth: bool, coordinate: Coordinate
-) -> Margins:
-    """Margins from both loads in the diagram, (n, T), and its coordinate."""
+    control, plane = points.control, is_plane(points.profile)
+    if control.mixed and not plane:
+        for rows in _of_one_shape(points):
+            own = float(largest[rows].max())
+            scale = _other_coordinate(points[rows[:1]], own)
+            normal[rows], largest[rows] = (
+                np.where(values > 0.0, np.interp(np.maximum(values, 0.0), *scale), values)
+                for values in (normal[rows], largest[rows])
+            )
     highest, lowest = _largest(tangential - normal, smooth), -_largest(-tangential - normal, smooth)
     stick = 0.5 * (lowest - highest)
-    ends = np.maximum(np.stack([stick, _largest(normal, smooth)], axis=1), 0.0)
-    stick_radius, largest = coordinate.radius(ends).T
-    stick_radius = np.where(stick >= 0.0, stick_radius, np.nan)
-    unknown = np.full(len(points), np.nan)
-    if not points.control.tangential_force:
+    ends = np.maximum(np.stack([stick, largest], axis=1), 0.0)
+    at_rest = AtRest(points.profile, points.shape)
+    radius = _radii(at_rest, ends, control.tangential_force and not plane)
+    stick_radius = np.where(stick >= 0.0, radius[:, 0], np.nan)
+    shift, unknown = bulk_shift(points), np.full(len(points), np.nan)
+    if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
-        return Margins(largest, stick_radius, bulk_shift(points), unknown, slide)
+        return Margins(radius[:, 1], stick_radius, shift, unknown, slide)
     size, load = np.abs(tangential), np.maximum(normal, 0.0)
     with np.errstate(divide="ignore"):
         ratio = np.divide(size, load, out=np.zeros_like(load), where=size > 0.0)
-    return Margins(largest, stick_radius, bulk_shift(points), _largest(ratio, smooth), unknown)
+    return Margins(radius[:, 1], stick_radius, shift, _largest(ratio, smooth), unknown)
+
+
+def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArray:
+    """Radii of n profiles, or one, at depths, or forces over that at δ0; shape (n, m)."""
+    alike = len(at_rest.flat_radius) == 1
+    own = coordinate.reshape(1, -1) if alike else coordinate
+    found = at_rest.radius_at(own * at_rest.unit()) if in_force else at_rest.radius(own)
+    return found.reshape(coordinate.shape)
+
+
+def _of_one_shape(points: Points) -> Iterator[IndexArray]:
+    """Rows of points whose profiles have one shape."""
+    if not points.shape:
+        yield np.arange(len(points))
+        return
+    shapes = np.stack(list(points.shape.values()), axis=1)
+    for number in range((which := np.unique(shapes, axis=0, return_inverse=True)[1].reshape(-1)).max() + 1):
+        yield np.flatnonzero(which == number)
+
+
+def _other_coordinate(point: Points, largest: float) -> tuple[FloatArray, FloatArray]:
+    """Normal loads as they are prescribed and in the kind of the tangential one, up to the largest."""
+    at_rest, given = AtRest(point.profile, point.shape), np.array([[max(largest, 1.0)]])
+    edge = float(_radii(at_rest, given, point.control.normal_force)[0, 0])
+    b = float(at_rest.flat_radius[0, 0])
+    s = np.sqrt((edge - b) * (edge + b)) * np.linspace(0.0, 1.0, PLACES)
+    depth, half_load = (each[0] for each in at_rest.rise(s[None]))
+    force = half_load / at_rest.unit()[0, 0]
+    return (force, depth) if point.control.normal_force else (depth, force)
 
 
 def bulk_shift(points: Points) -> FloatArray:

@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.indenter.plane import MEAN_LOAD
-from swtstudy.mechanics.indenter.slope_fit import SlopePieces, exact_load_slope, exact_slope, resolved, spline
-from swtstudy.mechanics.points import FloatArray, IndexArray
+from swtstudy.profiles.families import MEAN_LOAD
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
 
 if TYPE_CHECKING:
-    from scipy.interpolate import PPoly
+    from scipy.interpolate import CubicSpline, PPoly
 
 #: How small and large a table may be, in any unit: the seventh power of that is a number still.
 SMALLEST, LARGEST = 1e-20, 1e20
@@ -27,12 +26,10 @@ MOST = 10_000
 LEAST_STEP = 1e-12
 #: Fewest points of a table, and relative slope −g′ that is rounding or fit.
 FEWEST, NEGATIVE = 8, 1e-6
-#: Radii at which compactness is looked at, and of the first guess of the contact radius.
+#: Radii at which compactness is looked at, and between which the slope is interpolated.
 RADII = 4001
-#: Radii of that at a force: Newton's method takes one step from there.
-RADII_BY_LOAD = 20_001
-#: A piece shorter than this share of the contact is a landmark of the search, of which there are so many.
-SHORT_PIECE, MOST_LANDMARKS = 1.0 / 24.0, 32
+#: Numbers that are worked on at once.
+_SLAB = 2_000_000
 
 
 class TabulatedProfile(Definition):
@@ -115,13 +112,6 @@ class TabulatedProfile(Definition):
         """The spline f, from the edge of the face."""
         return spline(self.radius, self.height, self.smoothing)
 
-    @cached_property
-    def pieces(self) -> SlopePieces:
-        """g′ by pieces, or N′ in the plane."""
-        coarse = spline(_every_other(self.radius), _every_other(self.height), self.smoothing)
-        slope_of = exact_load_slope if self.plane else exact_slope
-        return SlopePieces.of(self.fit, resolved(self.fit, coarse, slope_of), slope_of)
-
     @property
     def deviation(self) -> float:
         """The largest distance of the fit from the heights."""
@@ -129,33 +119,63 @@ class TabulatedProfile(Definition):
         missed = np.where(on_curve, self.fit(self.radius), 0.0) - self.height
         return float(np.abs(missed).max())
 
-    @cached_property
-    def guesses(self) -> tuple[FloatArray, FloatArray]:
-        """√g, nearly straight, and w = √(ξ² − b²), each of shape (k,)."""
-        end = self.pieces.start[-1]
-        w = np.linspace(0.0, 2.0 * end, RADII)
-        depth = self.pieces.value(self.pieces.depth, w, self.pieces.piece(w))
-        return np.sqrt(np.maximum.accumulate(np.maximum(depth, 0.0))), w
+    @property
+    def flat_radius(self) -> float:
+        """Radius b of the face."""
+        return float(self.fit.x[0])
 
-    @cached_property
-    def guesses_by_load(self) -> tuple[FloatArray, FloatArray]:
-        """The cubic root of half of the normal force, nearly straight, and w, each of shape (k,)."""
-        w = np.linspace(0.0, 2.0 * self.pieces.start[-1], RADII_BY_LOAD)
-        half_load = self.pieces.value(self.pieces.half_load, w, self.pieces.piece(w))
-        return np.cbrt(np.maximum.accumulate(np.maximum(half_load, 0.0))), w
+    @property
+    def end(self) -> float:
+        """s = √(ξ² − b²) at the end of the table; beyond, dG/ds goes on in proportion to s."""
+        b, last = self.flat_radius, float(self.fit.x[-1])
+        return float(np.sqrt((last - b) * (last + b)))
 
-    @cached_property
-    def landmarks(self) -> FloatArray:
-        """Radii, shape (k,), where g′ turns within a small part of the contact."""
-        start = self.pieces.start
-        short = start[:-1][np.diff(start) < SHORT_PIECE * start[-1]]
-        return np.hypot(short[:: max(-(-short.size // MOST_LANDMARKS), 1)], self.pieces.flat_radius)
+    def jumps(self) -> FloatArray:
+        """Jumps of f′ at the knots in powers of r, shape (3, m), from 0 within the face on."""
+        c3, c2, c1 = self.fit.c[:3]
+        knots = self.fit.x[:-1]
+        powers = [c1 - 2.0 * c2 * knots + 3.0 * c3 * knots**2, 2.0 * c2 - 6.0 * c3 * knots, 3.0 * c3]
+        return np.ascontiguousarray(np.diff(np.stack(powers), axis=1, prepend=0.0))
+
+    def slope_jumps(self) -> FloatArray:
+        """The same of (r f′)′, of which g′ is made, or in the plane of f″, (2, m), for N′."""
+        return self.jumps()[1:] * [[1.0], [2.0]] if self.plane else self.jumps() * [[1.0], [2.0], [3.0]]
+
+    def slope(self, radius: FloatArray) -> FloatArray:
+        """g′ = ∫ (r f′)′ dr/√(ξ² − r²), or N′ = ξ ∫ f″ dx/√(ξ² − x²), at radii ξ within the table."""
+        found = _abel(self.fit.x[:-1], self.slope_jumps(), radius)
+        return radius * found if self.plane else found
+
+    def density(self, s: FloatArray) -> FloatArray:
+        """dG/ds at s, between `RADII` places by cubics."""
+        inside = np.minimum(s, self.end)
+        return np.asarray(self._density(inside) * np.maximum(s / self.end, 1.0))
+
+    def rise(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """G, which is ξ ∫ f′ dr/√(ξ² − r²) or N, and ∫ ξ dG, which is ∫ r² f′ dr/√(ξ² − r²) or N, at s.
+
+        N = ∫ x f′ dx/√(ξ² − x²) is over E*, in a length.
+        """
+        b, end, knots, jumps = self.flat_radius, self.end, self.fit.x[:-1], self.jumps()
+        radius = np.hypot(np.minimum(s, end), b)
+        depth = _abel(knots, jumps, radius, 1) if self.plane else radius * _abel(knots, jumps, radius)
+        half_load = depth if self.plane else _abel(knots, jumps, radius, 2)
+        beyond = np.maximum(s - end, 0.0)
+        if not beyond.any():
+            return depth, half_load
+        # There the slope over the radius is constant.
+        rate = float(self._density(end)) / end
+        depth = depth + 0.5 * rate * beyond * (end + s)
+        if self.plane:
+            return depth, depth
+        return depth, half_load + rate / 3.0 * (np.hypot(s, b) ** 3 - np.hypot(np.minimum(s, end), b) ** 3)
 
     @cached_property
     def deepest(self) -> float:
         """The depth, or N/N_0, up to which there is a full disc or strip of contact within the table."""
-        falls, g = self._falls, self._sampled[2]
-        return float(g[falls[0]] if falls.size else g[-1]) / (MEAN_LOAD if self.plane else 1.0)
+        falls = self._falls
+        s = self._sampled[0][falls[0] if falls.size else -1]
+        return float(self.rise(np.array([s]))[0][0]) / (MEAN_LOAD if self.plane else 1.0)
 
     def refused_at(self, depth: float) -> str | None:
         """Why there is no full disc of contact up to a depth, and the radius of it; or None.
@@ -167,7 +187,7 @@ class TabulatedProfile(Definition):
         disc, at, slope, place = "disc", "depth", "g′", "radius"
         if self.plane:
             disc, at, slope, place = "strip", "load 4P/(πE*) =", "N′", "half-width"
-        radius, falls = self._sampled[0], self._falls
+        radius, falls = np.hypot(self._sampled[0], self.flat_radius), self._falls
         if falls.size:
             return (
                 f"{self.name} has no full {disc} of contact at the {at} {depth:g}: {slope} < 0 at the "
@@ -186,17 +206,22 @@ class TabulatedProfile(Definition):
         return f"its smoothing is {self.smoothing:g}: more takes noise away, less leaves its shape as it is"
 
     @cached_property
-    def _sampled(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Radii up to the table's end, g′ and g there."""
-        pieces = self.pieces
-        w = np.linspace(0.0, pieces.start[-1], RADII)
-        place = pieces.piece(w)
-        slope, depth = (pieces.value(c, w, place) for c in (pieces.slope, pieces.depth))
-        return np.hypot(w, pieces.flat_radius), slope, depth
+    def _sampled(self) -> tuple[FloatArray, FloatArray]:
+        """Places s up to the table's end, and the slope there."""
+        s = np.linspace(0.0, self.end, RADII)
+        return s, self.slope(np.hypot(s, self.flat_radius))
+
+    @cached_property
+    def _density(self) -> CubicSpline:
+        """dG/ds between the same places."""
+        from scipy.interpolate import CubicSpline
+
+        s, slope = self._sampled
+        return CubicSpline(s, slope * s / np.maximum(np.hypot(s, self.flat_radius), LEAST_STEP * self.end))
 
     @property
     def _falls(self) -> IndexArray:
-        """Where of these radii g falls."""
+        """Where of these places the slope is negative."""
         slope = self._sampled[1]
         return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())
 
@@ -220,8 +245,74 @@ def _frozen(values: ArrayLike) -> FloatArray:
     return array
 
 
-def _every_other(values: FloatArray) -> FloatArray:
-    return np.append(values[:-1:2], values[-1])
+def spline(radius: FloatArray, height: FloatArray, smoothing: float) -> PPoly:
+    """f from where it rises first, with no slope there, and 0 there.
+
+    Parameters
+    ----------
+    radius, height
+        Shape (k,), ascending from 0; heights of 0 at the begin are a flat face.
+    smoothing
+        Root mean square of what it may miss of the heights; 0 to miss none.
+    """
+    # As long to import as all else, and few need it.
+    from scipy.interpolate import CubicSpline, PPoly, make_smoothing_spline
+    from scipy.optimize import brentq
+
+    face = int(np.argmax(height != 0.0)) - 1
+    r, f = radius[face:].copy(), height[face:]
+    if face > 0:
+        # Behind a face f rises like a square: where that would begin.
+        rise = np.sqrt(f[1:3])
+        r[0] = np.clip(r[1] - rise[0] * (r[2] - r[1]) / (rise[1] - rise[0]), r[0], r[1] - 0.1 * (r[1] - r[0]))
+    if smoothing == 0.0:
+        return CubicSpline(r, f, bc_type=((1, 0.0), "not-a-knot"))
+    # Even in r: that makes the slope vanish at the begin.
+    both = np.concatenate([2.0 * r[0] - r[:0:-1], r]), np.concatenate([f[:0:-1], f])
+
+    def smooth(logarithm: float) -> PPoly:
+        return PPoly.from_spline(make_smoothing_spline(*both, lam=10.0**logarithm))
+
+    def excess(logarithm: float) -> float:
+        missed = smooth(logarithm)(r) - f
+        return float(np.sqrt(np.mean(missed**2))) - smoothing
+
+    lowest, highest = -18.0, 6.0
+    if excess(lowest) >= 0.0:
+        found = smooth(lowest)
+    elif excess(highest) <= 0.0:
+        found = smooth(highest)
+    else:
+        found = smooth(brentq(excess, lowest, highest, xtol=1e-6))
+    first = int(np.searchsorted(found.x, r[0], "right")) - 1
+    part = PPoly(found.c[:, first:].copy(), found.x[first:])
+    part.c[-1] -= part.c[-1, 0]
+    return part
+
+
+def _abel(knots: FloatArray, jumps: FloatArray, radius: FloatArray, power: int = 0) -> FloatArray:
+    """∫ rᵖ h dr/√(ξ² − r²) from 0 to radii ξ, of a function h of pieces of polynomials.
+
+    Parameters
+    ----------
+    knots, jumps
+        Shape (m,) and (k, m): where they begin, and jumps of their coefficients of r⁰, r¹, … there.
+    radius, power
+        ξ, of any shape, and p.
+    """
+    flat, found = radius.ravel(), np.empty(radius.size)
+    step = max(_SLAB // len(knots), 1)
+    for begin in range(0, flat.size, step):
+        xi = flat[begin : begin + step, None]
+        ratio = np.minimum(knots / np.maximum(xi, SMALLEST), 1.0)
+        root = np.sqrt((1.0 - ratio) * (1.0 + ratio))
+        # ∫ cosᵐ: each from the one before the last.
+        integrals = [np.arccos(ratio), root]
+        for m in range(2, power + len(jumps)):
+            integrals.append((root * ratio ** (m - 1) + (m - 1) * integrals[m - 2]) / m)
+        parts = (xi[:, 0] ** (power + k) * (integrals[power + k] @ row) for k, row in enumerate(jumps))
+        found[begin : begin + step] = sum(parts)
+    return found.reshape(radius.shape)
 
 
 def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: object) -> Iterator[Mistake]:

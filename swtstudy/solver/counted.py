@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from swtstudy.kernel.batch import count_batch
-from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.points import Points, Solution
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Cycles whose SWT differ by less than this, relative, are equal.

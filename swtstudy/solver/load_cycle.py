@@ -17,8 +17,9 @@ from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Series of what grew in stick, relative to dv/dn: to rounding.
 GROWTH = 1e-11

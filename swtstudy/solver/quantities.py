@@ -13,12 +13,12 @@ import numpy as np
 
 from swtstudy.kernel.batch import cycle_batch, maxima_batch
 from swtstudy.kernel.field import largest_radius, open_cycle
-from swtstudy.mechanics.body.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
-from swtstudy.mechanics.body.von_mises import largest_von_mises
-from swtstudy.mechanics.counted import FewCycles
-from swtstudy.mechanics.numerics.arrays import align
-from swtstudy.mechanics.points import FloatArray, Points, Solution
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.counted import FewCycles
+from swtstudy.solver.nonlocal_swt import OF_VALUE, NonlocalSwt, nonlocal_swt
+from swtstudy.solver.points import Points, Solution
+from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.von_mises import largest_von_mises
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.quantities import (
     COUNTED,
     COUNTS,
@@ -65,9 +65,9 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Non
     if not rows.size:
         return found
     limits = np.maximum(_least(found)[rows], 0.0), solution.s[rows]
-    others = maxima_batch(*limits, **arguments_of(points.take(rows)), rtol=CANDIDATE_TOLERANCE)
+    others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=CANDIDATE_TOLERANCE)
     for row, maxima in zip(rows, others, strict=True):
-        one, tried = points.take(np.array([row])), [float(position[row])]
+        one, tried = points[[row]], [float(position[row])]
         near = SAME_MAXIMUM * largest_radius(open_cycle(**arguments_of(one)))
         for x, double_angle, swt in zip(*maxima, strict=True):
             if swt <= _least(found)[row] or np.abs(np.array(tried) - x).min() <= near:
@@ -150,7 +150,7 @@ def _nonlocal(points: Points, solution: Solution, distances: Sequence[float]) ->
     for kind in KINDS:
         for name, own in ((kind, solution.s), (f"{kind}_error", solution.s_error)):
             means = getattr(made, name)
-            means[rows] = align(own[rows], means)
+            means[rows] = own[rows].reshape(-1, *(1,) * (means.ndim - 1))
     found: dict[str, FloatArray] = {}
     for row in NONLOCAL.values():
         for variable, function in zip(row.variables, (row.function, error_of(row.function)), strict=False):

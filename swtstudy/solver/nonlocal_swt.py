@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swtstudy.kernel.field import MANY, SINGLE, Opened, criterion_at, open_cycle
-from swtstudy.mechanics.body.half_sphere import (
+from swtstudy.solver.half_sphere import (
     ABSCISSAE,
     HalfDiscs,
     HalfSpheres,
@@ -28,13 +28,13 @@ from swtstudy.mechanics.body.half_sphere import (
     interpolation,
     nested,
 )
-from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, Points
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Places in the half spheres at most, or four times as many where such a share of a mean is in doubt (none:
-#: 6e-3 off at a point of tests/mechanics/test_nonlocal.py); and on a line.
+#: 6e-3 off at a point of tests/solver/test_nonlocal.py); and on a line.
 MOST, IN_DOUBT, LINE_MOST = 1000, 1e-2, 80
 #: The error claimed of a mean over a half sphere, over its changes without every other place and over what
 #: values are off there; of a mean over a line, over the latter; over the value itself (planes, cells). Of
@@ -111,7 +111,7 @@ class Estimate(NamedTuple):
 
     def allowed(self, rtol: float) -> FloatArray:
         """The error that places may make: half of all, or more if instants make less."""
-        size = np.maximum((rtol - OF_VALUE) * np.abs(self.value), TINY)
+        size = np.maximum((rtol - OF_VALUE) * np.abs(self.value), 1e-300)
         of_instants = self.error - self.of_places - OF_VALUE * np.abs(self.value)
         return np.maximum(size - of_instants, 0.5 * size)
 
@@ -306,7 +306,7 @@ def nonlocal_swt(
     groups = _groups(distance)
     for row in np.flatnonzero(np.isfinite(position)):
         into = _directions(float(angle[row]))
-        opened = open_cycle(GROWTH, **arguments_of(points.take(np.array([row]))))
+        opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
         for group in groups:
             around = Around(opened, float(position[row]), into, distance[group], rtol)
             of_spheres, of_lines = around.means()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.kernel.batch import solve_batch
-from swtstudy.mechanics.points import Points, Solution
+from swtstudy.solver.points import Points, Solution
 
 
 def solve_points(points: Points, rtol: float = 1e-4) -> Solution:

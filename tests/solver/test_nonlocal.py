@@ -10,9 +10,9 @@ from solved import solve_points
 
 from swtstudy import TabulatedProfile
 from swtstudy.kernel.field import MANY, criterion_at, open_cycle
-from swtstudy.mechanics.body import nonlocal_swt
-from swtstudy.mechanics.body.half_sphere import HalfSpheres, nested
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver import nonlocal_swt
+from swtstudy.solver.half_sphere import HalfSpheres, nested
+from swtstudy.solver.solve import arguments_of
 
 
 def opened(batch):

@@ -10,13 +10,11 @@ from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
 from scenes import PLANE_NAMES, plane_points
-from scipy.interpolate import PPoly
 from solved import solve_points
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
-from swtstudy.mechanics.indenter import PROFILES, Profile, check_shape, make_profile
-from swtstudy.mechanics.indenter.slope_fit import exact_load_slope
+from swtstudy.profiles.at_rest import AtRest, check_shape
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.parameters import Control
 
@@ -26,8 +24,8 @@ MEAN = 0.25 * np.pi
 every_strip = pytest.mark.parametrize("strip", STRIPS, ids=str)
 
 
-def profile_of(strip: Strip, load: float = 1.8) -> Profile:
-    return make_profile(strip.profile, {k: np.array([v]) for k, v in strip.shape.items()}, np.array([load]))
+def profile_of(strip: Strip) -> AtRest:
+    return AtRest(strip.profile, strip.shape)
 
 
 def solved(**given: Any) -> Any:
@@ -38,7 +36,7 @@ def solved(**given: Any) -> Any:
 def test_each_plane_family_has_an_oracle_and_says_that_it_is_one() -> None:
     assert {strip.profile for strip in STRIPS} == {*PLANE_NAMES}
     for name, family in FAMILIES.items():
-        assert PROFILES[name].plane == (family.geometry == PLANE)
+        assert AtRest(name, dict.fromkeys(family.shape, 2.5)).plane == (family.geometry == PLANE)
 
 
 @every_strip
@@ -49,43 +47,23 @@ def test_loads_and_slopes(strip: Strip) -> None:
     load = np.array([strip.load(xi) for xi in radius])
     np.testing.assert_allclose(profile.depth(radius[None])[0], load / MEAN, rtol=1e-9, atol=1e-13)
     np.testing.assert_allclose(profile.half_load(radius[None])[0], 0.5 * load, rtol=1e-9, atol=1e-13)
-    np.testing.assert_allclose(profile.slope_integral(radius[None])[0], load, rtol=1e-9, atol=1e-13)
     rise = np.sqrt((radius - strip.flat) * (radius + strip.flat))
     slope = np.array([strip.slope(xi) for xi in radius])
-    np.testing.assert_allclose(profile.weighted_slope(radius[None])[0], slope * rise, rtol=1e-9)
-    both = profile.half_load_and_weighted_slope(radius[None])
-    apart = profile.half_load(radius[None]), profile.weighted_slope(radius[None])
-    np.testing.assert_allclose(both, apart, rtol=1e-15)
-    for given, inverse in ((profile.depth, profile.radius), (profile.half_load, profile.radius_of_half_load)):
+    np.testing.assert_allclose(MEAN * profile.density(rise[None])[0], slope * rise / radius, rtol=1e-9)
+    for given, inverse in ((profile.depth, profile.radius), (profile.half_load, profile.radius_at)):
         found = inverse(given(radius[None]))[0]
         np.testing.assert_allclose(np.sqrt((found - strip.flat) * (found + strip.flat)), rise, rtol=2e-7)
 
 
 @every_strip
-def test_load_over_half_width(strip: Strip) -> None:
-    """Its slope is that of what it integrates."""
+def test_pressure(strip: Strip) -> None:
     profile = profile_of(strip)
-    radius = np.maximum(strip.flat, 0.05) * np.array([[1.1, 1.5, 2.0]]) + 0.1
-    step = 1e-5
-    rise = profile.depth_over_radius(radius + step) - profile.depth_over_radius(radius - step)
-    np.testing.assert_allclose(rise / (2.0 * step), profile.depth(radius) / radius, rtol=1e-7)
-    assert profile.depth_over_radius(np.array([[strip.flat]]))[0, 0] == pytest.approx(0.0, abs=1e-15)
-
-
-@every_strip
-def test_integrals(strip: Strip) -> None:
-    profile = profile_of(strip)
-    b, widest = strip.flat, float(profile.radius(np.array([[1.8]]))[0, 0])
-    for x in b + (widest - b) * np.array([-0.5, 0.05, 0.4, 0.9, 1.0, 1.3]):
-        if x <= 0.0:
-            continue
-        radius = b + (widest - b) * np.array([0.02, 0.3, 0.8, 1.0])
-        primitives = profile.primitives(np.array([[x]]), 11.0)
-        found = primitives.inner(radius[None, None]), primitives.outer(radius[None, None])
-        assert [part.shape for part in found] == [(1, 1, 1, 4)] * 2
-        expected = [[one(x, xi) for xi in radius] for one in (strip.inner, strip.outer)]
-        np.testing.assert_allclose([part[0, 0, 0] for part in found], expected, rtol=1e-8, atol=1e-9)
-        np.testing.assert_array_equal(primitives.pressure(radius[None, None]), found[1][0])
+    b, widest = strip.flat, profile.radius(np.array([[1.8]]))
+    share = np.array([-0.5, 0.05, 0.4, 0.9]) if b else np.array([0.05, 0.4, 0.9])
+    x = b + (widest[0] - b) * share
+    x = x[x > 0.0]
+    expected = [strip.outer(each, float(widest[0, 0])) / np.pi for each in x]
+    np.testing.assert_allclose(profile.pressure(x[None], widest)[0], expected, rtol=1e-8, atol=1e-9)
 
 
 @pytest.mark.parametrize("b", [0.0, 0.5])
@@ -93,14 +71,12 @@ def test_integrals(strip: Strip) -> None:
 def test_a_table_is_what_it_is_a_table_of(b: float, count: int) -> None:
     x = np.linspace(0.0, 2.0, count)
     table = TabulatedProfile("mine", x, 0.5 * np.maximum(x - b, 0.0) ** 2, geometry="plane")
-    own = make_profile(table, {}, np.array([1.7]))
-    exact = make_profile("rounded_flat", {"flat_half_width": np.array([b])}, np.array([1.7]))
-    radius, position = b + np.linspace(0.05, 1.2, 30)[None], np.linspace(0.07, 1.5, 23)[None]
-    for name in ("depth", "weighted_slope", "depth_over_radius", "half_load"):
+    own, exact = AtRest(table), AtRest("rounded_flat", {"flat_half_width": b})
+    radius = b + np.linspace(0.05, 1.2, 30)[None]
+    for name in ("depth", "half_load"):
         np.testing.assert_allclose(getattr(own, name)(radius), getattr(exact, name)(radius), atol=2e-7)
-    for name in ("inner", "outer"):
-        found, expected = (getattr(one.primitives(position, 9.0), name)(radius[None]) for one in (own, exact))
-        np.testing.assert_allclose(found, expected, atol=2e-7)
+    edge = np.array([[1.5]])
+    np.testing.assert_allclose(own.pressure(radius, edge), exact.pressure(radius, edge), atol=1e-5)
     given = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3, "phase": 1.0, "rtol": 1e-5}
     s, closed = (
         float(swtstudy.solve(**given, **shape).s)
@@ -125,10 +101,14 @@ def test_a_table_says_how_far_it_goes() -> None:
 
 
 def test_slope_of_a_cubic() -> None:
-    """f = x³: N′ = ξ ∫ 6x dx/√(ξ² − x²) = 6 ξ²."""
-    cubic = PPoly(np.array([[1.0, 1.0], [0.0, 1.5], [0.0, 0.75], [0.0, 0.125]]), np.array([0.0, 0.5, 2.0]))
+    """f = x³: N′ = ξ ∫ 6x dx/√(ξ² − x²) = 6 ξ², and N = 2 ξ³; also beyond the table, where N′/ξ stays."""
+    x = np.linspace(0.0, 2.0, 9)
+    cubic = TabulatedProfile("cubic", x, x**3, geometry="plane")
     radius = np.array([0.3, 0.5, 0.9, 1.7])
-    np.testing.assert_allclose(exact_load_slope(cubic, radius), 6.0 * radius**2, rtol=1e-13)
+    np.testing.assert_allclose(cubic.slope(radius), 6.0 * radius**2, rtol=1e-12)
+    np.testing.assert_allclose(cubic.rise(radius)[0], 2.0 * radius**3, rtol=1e-12)
+    beyond = 16.0 + 6.0 * 2.0 * 0.5 * (3.0**2 - 2.0**2)
+    np.testing.assert_allclose(cubic.rise(np.array([3.0]))[0], beyond, rtol=1e-9)
 
 
 @pytest.mark.parametrize("gamma", [0.3, 0.5, 0.8])

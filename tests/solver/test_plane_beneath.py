@@ -10,8 +10,8 @@ from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from solved import solve_points
 
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
+from swtstudy.paper.audit.body_maximum import body_maximum
+from swtstudy.solver.nonlocal_swt import nonlocal_swt
 
 Array = NDArray[np.float64]
 NU = 0.3

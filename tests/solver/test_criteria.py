@@ -11,6 +11,7 @@ import pytest
 from body import history_at, swt_at
 from click.testing import CliRunner
 from numpy.typing import NDArray
+from oracles.circle import hemisphere
 from scenes import plane_points, points, random_points, take
 from solved import Points, Solution, solve_points
 
@@ -20,8 +21,7 @@ from swtstudy.cli import main
 from swtstudy.fields.history import smallest_sphere
 from swtstudy.fields.one_point import read_point
 from swtstudy.figures.draw import draw
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.numerics.arrays import hemisphere
+from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.points.grid import complete
 from swtstudy.reports.parts import section
 from swtstudy.solving import solve_grid

@@ -1,90 +1,21 @@
-"""A batch of parameter points and their solution, as plain arrays; the base of all that consists of rows."""
+"""Points of parameters and their solution, as named arrays."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from copy import copy
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.vocabulary.arrays import Columns, FloatArray, IntArray, Shape
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
     from swtstudy.loads.loop import Loop
-    from swtstudy.mechanics.indenter.profile_table import AnyProfile
-
-
-class Rows:
-    """Arrays, other rows, and both by name, with common leading axes; all else the rows have in common.
-
-    The arguments of the constructor are attributes: the fields of a dataclass; other classes name them in
-    ``__match_args__``.
-    """
-
-    __match_args__: ClassVar[tuple[str, ...]]
-
-    def take(self, index: Any, /) -> Self:
-        """The rows at an index of NumPy's of the leading axes, repetitions allowed."""
-        return self._made(_taken(getattr(self, name), index) for name in self.__match_args__)
-
-    def _with_rows_of(self, names: Sequence[str], index: Any) -> Self:
-        """A copy that has the rows at an index of these attributes; all others are shared."""
-        taken = copy(self)
-        for name in names:
-            setattr(taken, name, _taken(getattr(self, name), index))
-        return taken
-
-    @classmethod
-    def joined(cls, several: Sequence[Self]) -> Self:
-        """The rows of several, one after another; what is no rows is that of the first."""
-        return cls._made(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__)
-
-    def write(self, index: Any, rows: Self) -> None:
-        """Write other rows at an index of NumPy's, in place; they consist of arrays alone."""
-        for name in self.__match_args__:
-            getattr(self, name)[index] = getattr(rows, name)
-
-    @classmethod
-    def _made(cls, values: Any) -> Self:
-        make: Any = cls
-        return make(*values)
-
-
-def _taken(value: Any, index: Any) -> Any:
-    if isinstance(value, np.ndarray):
-        return value[index]
-    if isinstance(value, dict):
-        return {name: _taken(each, index) for name, each in value.items()}
-    return value.take(index) if isinstance(value, Rows) else value
-
-
-def _joined(several: list[Any]) -> Any:
-    first = several[0]
-    if isinstance(first, dict):
-        return {name: _joined([each[name] for each in several]) for name in first}
-    if isinstance(first, Rows):
-        return first.joined(several)
-    return np.concatenate(several) if isinstance(first, np.ndarray) else first
-
-
-FloatArray = NDArray[np.float64]
-#: One number for all, or one for each.
-Floats = FloatArray | float
-IntArray = NDArray[np.int64]
-BoolArray = NDArray[np.bool_]
-#: Numbers of rows, columns and the like.
-IndexArray = NDArray[np.intp]
-#: Shape parameters of n profiles of a family, by name.
-Shape = dict[str, FloatArray]
-
-#: Regimes of the contact over the stationary cycle, in the order of their flag values.
-REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
-#: Those in which s is no finite number.
-WITHOUT_S = ("not_finite", "no_equilibrium")
+    from swtstudy.profiles.table import AnyProfile
 
 #: What points have unless it is given.
 _UNLESS_GIVEN = {
@@ -97,7 +28,7 @@ _not_given = partial(np.empty, 0)
 
 
 @dataclass(frozen=True)
-class Points(Rows):
+class Points(Columns):
     """A batch of n parameter points that share one profile family and control (eq. 20).
 
     Attributes
@@ -153,7 +84,7 @@ class Points(Rows):
 
 
 @dataclass(frozen=True)
-class Solution(Rows):
+class Solution(Columns):
     """The solution of a batch of points, each array of shape (n,).
 
     Attributes

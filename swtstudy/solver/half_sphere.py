@@ -13,10 +13,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray, Floats
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Distances and inclinations at which the change along the arcs is seen.
 SIDE = 4
@@ -146,7 +147,7 @@ class HalfSpheres:
     def _radius(self, distance: FloatArray, inclination: FloatArray) -> FloatArray:
         return np.maximum(self.centre + distance * np.cos(inclination), 0.0)
 
-    def _arc(self, distance: FloatArray, radius: FloatArray, size: Floats) -> FloatArray:
+    def _arc(self, distance: FloatArray, radius: FloatArray, size: Any) -> FloatArray:
         """Half of the angle of an arc within a sphere."""
         chord = np.sqrt((size - distance) * (size + distance))
         across = np.maximum(2.0 * np.sqrt(self.centre * radius), 1e-150)

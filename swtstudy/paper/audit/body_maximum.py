@@ -19,14 +19,16 @@ from swtstudy.kernel.field import (
     open_cycle,
     passed_radii,
 )
-from swtstudy.mechanics.numerics.arrays import SAME
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Relative tolerances of the first look, of climbs and of the value.
 LOOK, SEARCH, VALUE = 1e-2, 1e-3, 1e-5
 #: In a climb places below this share of the height are of no interest.
 LEFT_OUT = 0.9
+#: What is nearer than this, relative or in rad, is the same.
+ROUNDING = 1e-9
 #: Where the bulk stress alone is as high as the body's maximum but for this share, it is the maximum.
 FAR = 1e-6
 #: Most radii of the first look at which edges and fronts turn.
@@ -169,7 +171,7 @@ def _climb(search: _Search, places: FloatArray) -> FloatArray:
     best, highest = places[0], 0.0
     for place in places:
         summit, height = _climb_from(search, place, highest)
-        if height > (1.0 + SAME) * highest:
+        if height > (1.0 + ROUNDING) * highest:
             best, highest = summit, height
     return best
 
@@ -220,5 +222,5 @@ def _folded(places: FloatArray) -> FloatArray:
 def _cartesian(places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     r, angle, z = np.moveaxis(places, -1, 0)
     # sin π is not 0 in floating point: keep the line y = 0 a line.
-    y = np.where(np.sin(angle) < SAME, 0.0, r * np.sin(angle))
+    y = np.where(np.sin(angle) < ROUNDING, 0.0, r * np.sin(angle))
     return r * np.cos(angle), y, z

@@ -11,8 +11,9 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.kernel.field import Opened, largest_radius, open_cycle, passed_radii, von_mises_at
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Tolerance of what grew in stick.
 GROWTH = 1e-4
@@ -20,7 +21,7 @@ GROWTH = 1e-4
 #: of the contact only a bulk stress is left.
 RADII, DEPTHS, ANGLES = np.linspace(0.0, 1.2, 9), np.array([0.0, 0.05, 0.15, 0.3, 0.5, 0.8]), 5
 #: Distances from the edge of a wide face and depths beneath, over the width of the ring beside it. Without:
-#: 30 % low beneath a face 500 times as wide (tests/mechanics/test_von_mises.py).
+#: 30 % low beneath a face 500 times as wide (tests/solver/test_von_mises.py).
 BESIDE_FACE, BENEATH_EDGE = np.linspace(-2.0, 1.2, 9), np.array([0.0, 0.05, 0.15, 0.3, 0.5, 0.8, 1.5, 3.0])
 #: Most radii of the surface that edges and fronts pass at which is looked.
 MOST_PASSED = 48
@@ -38,7 +39,7 @@ def largest_von_mises(points: Points) -> FloatArray:
     """
     found = np.full(len(points), np.nan)
     for k in range(len(points)):
-        opened = open_cycle(GROWTH, **arguments_of(points.take(np.array([k]))))
+        opened = open_cycle(GROWTH, **arguments_of(points[[k]]))
         if opened is not None:
             found[k] = _of_one(opened)
     return found
