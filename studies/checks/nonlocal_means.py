@@ -25,10 +25,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.kernel.field import criterion_at, open_cycle
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import nonlocal_swt
-from swtstudy.mechanics.indenter import TabulatedProfile
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.solver import nonlocal_swt
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of, solve_points
 
 FloatArray = NDArray[np.float64]
 

@@ -12,13 +12,15 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, BoolArray, Solution
 from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.values import index_at
+from swtstudy.solver.points import Solution
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
+from swtstudy.vocabulary.arrays import BoolArray
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     SMALLEST_STORED_RTOL,

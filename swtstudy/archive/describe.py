@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_failures, read_runs
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.records import COMPUTED, STATES, made_by
 from swtstudy.points.requested import CONTACT, has_units, request_of
@@ -19,6 +18,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import listed, number_words, numbers_words, unit_words, value_words

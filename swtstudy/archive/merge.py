@@ -14,7 +14,6 @@ from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.records import COMPUTED, MISSING, Records, completed, join, look_up, made_by, matching
@@ -24,6 +23,7 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 from swtstudy.units.reading import read_contact
+from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, Request

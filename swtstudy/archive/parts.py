@@ -24,9 +24,9 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy.archive.paths import ArchiveError, refuse_link
-from swtstudy.mechanics.points import Solution
 from swtstudy.points.canonical import NAMES, ROW, group_rows
 from swtstudy.points.records import Records, Run, join
+from swtstudy.solver.points import Solution
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 

@@ -10,7 +10,6 @@ import xarray as xr
 
 from swtstudy.archive.attributes import defined_in, read_failures, read_runs
 from swtstudy.archive.paths import ArchiveError
-from swtstudy.mechanics.points import Solution
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import arrays_of
 from swtstudy.points.reading import given_twice
@@ -19,6 +18,7 @@ from swtstudy.points.requested import CONTACT, columns_from, has_units, request_
 from swtstudy.points.shapes import shapes_needed
 from swtstudy.points.unique import columns_back, unique_points
 from swtstudy.points.values import NamedValues, Value, read_value
+from swtstudy.solver.points import Solution
 from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact

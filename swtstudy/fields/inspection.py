@@ -21,9 +21,9 @@ from swtstudy.fields.cycle_curves import (
 )
 from swtstudy.fields.one_point import labelled_time, read_cycle, turns_of
 from swtstudy.fields.stress import slip_map
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solving import solve
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.criteria import CRITERIA
 
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.

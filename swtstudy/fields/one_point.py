@@ -13,13 +13,14 @@ import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
 from swtstudy.loads.loop import Loop
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.margins import Margins
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.solver import arguments_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.margins import Margins
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal

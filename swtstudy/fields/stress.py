@@ -23,8 +23,8 @@ from swtstudy.fields.one_point import (
 )
 from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_at, stress_at
 from swtstudy.kernel.punch import COMPONENTS
-from swtstudy.mechanics.numerics.arrays import SAME
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.criteria import CRITERIA
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
@@ -144,7 +144,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     flat = np.stack([place.values.ravel() for place in places], axis=1)
     swt, _, normal = criterion_at(opened, flat, _OF_FIELD)
     # n and −n are one plane: the first component that is not 0 is positive.
-    first = np.take_along_axis(normal, (np.abs(normal) > SAME).argmax(axis=1)[:, None], axis=1)
+    first = np.take_along_axis(normal, (np.abs(normal) > 1e-9).argmax(axis=1)[:, None], axis=1)
     normal = normal * np.where(first < 0.0, -1.0, 1.0) + 0.0
     criterion = CRITERIA[points.criterion]
     dims, shape = places[0].dims, places[0].shape

@@ -27,7 +27,7 @@ from swtstudy.figures.force_panels import (
 from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.style import DASHES, stroke
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT, SYMBOLS
 from swtstudy.vocabulary.criteria import NORMAL_STRAIN, SHEAR_STRESS
 

@@ -25,10 +25,10 @@ from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.points.values import read_value
 from swtstudy.solving import solve
-from swtstudy.vocabulary.choices import FAMILIES
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import FAMILIES, REGIMES
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
 from swtstudy.vocabulary.wording import axis_words
 

@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 
 from swtstudy.figures.style import COLOURS, DASHES, stroke
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: A component below this fraction of the largest one is 0 but for rounding.
 _ROUNDING = 1e-9

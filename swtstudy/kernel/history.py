@@ -108,6 +108,8 @@ def find_passing(H, P, x, y):
 @jit
 def functionals(P, K, s, H):
     """T1, T3, B, V of the profile up to s, about the centre of the stick zone of this size."""
+    if P.is_hertz and H.shift == 0.0:
+        return strip_hertz(s, H.x) if P.plane else hertz(s, H.x)
     if P.is_hertz:
         x = H.x - centre(P, H, s)
         t1, t3, b, v = strip_hertz(s, abs(x)) if P.plane else hertz(s, abs(x))

@@ -16,6 +16,7 @@ from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.surface import TABLE
+from swtstudy.vocabulary.choices import REGIMES
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
@@ -29,8 +30,8 @@ NEAREST = 1e-9
 TEARS = 0.995
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
 SAME = 1e-7
-#: Regimes of the contact over the stationary cycle, in the order of their flag values.
-STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(6)
+#: The regimes by number.
+STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(len(REGIMES))
 RESULT = np.dtype(
     [
         ("s", "f8"),

@@ -18,7 +18,8 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, SHIFT, STRAIN_SHARE, Control
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
+    from swtstudy.solver.points import Points
+    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -237,7 +238,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
         What the user has defined, by its code.
     """
     from swtstudy.loads.loop import Loop
-    from swtstudy.mechanics.points import Points
+    from swtstudy.solver.points import Points
 
     profile = value_of(table["profile"][0], definitions)
     course = value_of(table["load"][0], definitions, "load")

@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES, WITHOUT_S, BoolArray, IntArray, Points, Solution
 from swtstudy.points.canonical import COST, Definitions, Table, alike, points_from
 from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
 from swtstudy.points.unique import UniquePoints
+from swtstudy.solver.points import Points, Solution
+from swtstudy.vocabulary.arrays import BoolArray, IntArray
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
 
 #: Solves points to a relative accuracy.
@@ -47,7 +49,7 @@ class Asked:
 
     def at(self, rows: IntArray | slice) -> Asked:
         """Return the values asked of the points at the given rows."""
-        return self if self.known is None else Asked(self.quantities, self.known.take(rows))
+        return self if self.known is None else Asked(self.quantities, self.known[rows])
 
 
 #: s alone.
@@ -106,10 +108,10 @@ def given_up(chunk: Chunk, rtol: float, message: str) -> Records:
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
-    """The solver of the mechanics, imported where it runs."""
-    from swtstudy import mechanics
+    """The solver, imported where it runs."""
+    from swtstudy.solver import solve
 
-    return mechanics.solve_points(points, rtol)
+    return solve.solve_points(points, rtol)
 
 
 def _of_run(chunk: Chunk, records: Records, rtol: float, seconds: float) -> Records:
@@ -158,7 +160,7 @@ def values_of(chunk: Chunk, rtol: float, solver: Solver) -> Records:
         found = Records.of(chunk.table, solution, COMPUTED)
         if not asked.quantities:
             return found
-        from swtstudy.mechanics.quantities import quantities_of
+        from swtstudy.solver.quantities import quantities_of
 
         return replace(found, quantities=quantities_of(points, asked.quantities, solution))
 

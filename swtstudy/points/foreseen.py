@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.grid import Grid
 from swtstudy.points.labelled import label, margins
 from swtstudy.points.unique import unique_points
+from swtstudy.vocabulary.choices import REGIMES
 
 #: Larger grids are not looked at: a point takes some 30 µs.
 MOST_POINTS = 100_000

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.loads.loop import Loop
-    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
+    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.

@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray, Solution
 from swtstudy.points import requested
 from swtstudy.points.canonical import alike, points_from
 from swtstudy.points.grid import SAMPLE, Grid
@@ -20,7 +19,9 @@ from swtstudy.points.records import STATES, Records
 from swtstudy.points.unique import UniquePoints, columns_at
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, is_plane, with_values_of
+from swtstudy.solver.points import Solution
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
+from swtstudy.vocabulary.choices import BENEATH, MEANING, REGIMES, SWT, WORDS, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTROLS, SHIFT
@@ -209,7 +210,7 @@ def label_records(
     grid: Grid, points: UniquePoints, records: Records, asked: Request, of_runs: bool = True
 ) -> xr.Dataset:
     """The Dataset of a grid whose distinct points have these records; ``of_runs`` with status and run."""
-    arrays = arrays_of(records.solution.take(points.index), points.mirrored) | margins(points, grid)
+    arrays = arrays_of(records.solution[points.index], points.mirrored) | margins(points, grid)
     if of_runs:
         arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
     return label(grid, arrays, asked, columns_at(grid, asked, points, records.quantity))
@@ -292,7 +293,7 @@ def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[st
     ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
     known without a compiler, to 1e-5.
     """
-    from swtstudy.mechanics.margins import Margins
+    from swtstudy.solver.margins import Margins
 
     names = grid.margins
     if not names:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray, Rows, Solution
 from swtstudy.points.canonical import ROW, Table, group_rows
+from swtstudy.solver.points import Solution
+from swtstudy.vocabulary.arrays import BoolArray, Columns, FloatArray, IntArray
 from swtstudy.vocabulary.quantities import columns_of
 
 #: States of a point, in the order of their flag values.
@@ -59,7 +60,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Records(Rows):
+class Records(Columns):
     """Results of n canonical points; of those that are taken all runs are kept.
 
     Attributes
@@ -124,7 +125,7 @@ class Records(Rows):
     def fill(self, rows: IntArray, part: Records) -> Records:
         """Fill in other records at `rows`, in place; returned are these records with the runs of both."""
         runs, index = _with_runs(self.runs, part.runs)
-        self.solution.write(rows, part.solution)
+        self.solution[rows] = part.solution
         for name in {**self.quantities, **part.quantities}:
             values = self.quantities.setdefault(name, np.full(len(self), np.nan))
             values[rows] = part.quantities.get(name, np.nan)
@@ -241,7 +242,7 @@ def look_up(table: Table, records: Records, candidates: BoolArray) -> IntArray:
 def matching(table: Table, records: Records, candidates: BoolArray) -> Records:
     """Records of the rows of a table: what `look_up` finds for each, "missing" for the others."""
     found = look_up(table, records, candidates)
-    return Records.missing(table).fill(np.flatnonzero(found >= 0), records.take(found[found >= 0]))
+    return Records.missing(table).fill(np.flatnonzero(found >= 0), records[found[found >= 0]])
 
 
 def completed(chosen: Records, others: Records) -> Records:

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.points.canonical import ROW, Definitions, Table, canonical_cycles, group_rows
 from swtstudy.points.grid import Grid
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.quantities import (
     NONLOCAL,
     STICK_ENDS,

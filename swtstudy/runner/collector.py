@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.mechanics.points import IntArray
 from swtstudy.points.records import MISSING, Records, Run, join
 from swtstudy.runner.engine import WorkerError
+from swtstudy.vocabulary.arrays import IntArray
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -80,7 +80,7 @@ class Collector:
             words = f"a worker has version {own.solver_version} of the solver"
             raise WorkerError(f"{words}, this machine {SOLVER_VERSION}")
         with self._lock:
-            there = self.records.take(rows)
+            there = self.records[rows]
             if (there.status == MISSING).all():
                 run = replace(self._run, seconds=own.seconds, quantities=own.quantities)
                 part = replace(found, runs=(run,))

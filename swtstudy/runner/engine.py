@@ -8,9 +8,9 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
-from swtstudy.mechanics.points import IntArray
 from swtstudy.points.chunk import Chunk, Solver, given_up, solve_chunk
 from swtstudy.points.records import Records
+from swtstudy.vocabulary.arrays import IntArray
 
 #: Receives every result as soon as it arrives.
 Deliver = Callable[[IntArray, Records], None]

@@ -12,12 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.chunk import Asked, Solver, chunks, solve_chunk
 from swtstudy.points.records import MISSING, Records, look_up, matching
 from swtstudy.points.unique import UniquePoints, kinds, unique_points, wanted
 from swtstudy.study.definition import Study
+from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 
@@ -104,11 +104,11 @@ def dropped_records(table: Table, known: Records, used: Records, quantities: tup
     more = [not {*run.quantities} <= {*quantities} for run in known.runs]
     elsewhere |= np.array([*more, False])[known.run]
     elsewhere &= known.status != MISSING
-    dropped = known.take(elsewhere)
+    dropped = known[elsewhere]
     # A kill may have left a record in two places.
     _, group = group_rows(dropped.table)
     _, first = np.unique(group * len(known.runs) + dropped.run, return_index=True)
-    dropped = dropped.take(first).trimmed()
+    dropped = dropped[first].trimmed()
     counted = used.trimmed().runs
     same = [replace(run, quantities=()) for run in counted]
     runs = tuple(

@@ -28,7 +28,7 @@ from swtstudy.vocabulary.quantities import Request, item_of
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.points import FloatArray, IntArray
+    from swtstudy.vocabulary.arrays import FloatArray, IntArray
 
 
 @dataclass(frozen=True)
@@ -168,6 +168,9 @@ class PhysicalGrid(ContactDetails, Grid):
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
             found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
+        if self.values("body"):
+            carries = self.bodies == self.bulk_stress_body
+            found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
     @property
@@ -213,6 +216,9 @@ class PhysicalGrid(ContactDetails, Grid):
                 dim = self.dimension(self._source(name))
                 codes = self._codes[name]
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
+        if self.values("body"):
+            carries = self.bodies == self.bulk_stress_body
+            found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:

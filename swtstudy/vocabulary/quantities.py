@@ -41,8 +41,8 @@ class Quantity:
         What it is exactly, in one line.
     function
         Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
-        `swtstudy.mechanics.body.von_mises`, or of the attribute of
-        `swtstudy.mechanics.body.nonlocal_swt.NonlocalSwt` or `swtstudy.mechanics.counted.FewCycles`, that
+        `swtstudy.solver.von_mises`, or of the attribute of
+        `swtstudy.solver.nonlocal_swt.NonlocalSwt` or `swtstudy.solver.counted.FewCycles`, that
         has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.

@@ -17,7 +17,7 @@ from swtstudy.archive.merge import merge
 from swtstudy.archive.netcdf import save
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
-from swtstudy.mechanics import quantities
+from swtstudy.solver import quantities
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
 

@@ -24,7 +24,7 @@ from swtstudy.archive.merge import GapsError, merge
 from swtstudy.archive.netcdf import save
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.cli import main
-from swtstudy.mechanics import quantities
+from swtstudy.solver import quantities
 from swtstudy.vocabulary.quantities import Request
 
 
