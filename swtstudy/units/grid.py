@@ -216,9 +216,6 @@ class PhysicalGrid(ContactDetails, Grid):
                 dim = self.dimension(self._source(name))
                 codes = self._codes[name]
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
-        if self.values("body"):
-            carries = self.bodies == self.bulk_stress_body
-            found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
