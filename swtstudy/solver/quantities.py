@@ -24,6 +24,7 @@ from swtstudy.vocabulary.quantities import (
     COUNTS,
     NAMED,
     NONLOCAL,
+    STICK_ENDS,
     YIELD,
     Request,
     columns_in,
@@ -33,7 +34,7 @@ from swtstudy.vocabulary.quantities import (
 )
 
 #: Quantities of the cycle, by their names in `swtstudy.kernel.work.OF_CYCLE`.
-OF_CYCLE = ("work", "stick_radius", "contact_radius", "force_ratio")
+OF_CYCLE = ("work", "stick_radius", *STICK_ENDS, "contact_radius", "force_ratio")
 #: What each place may be the worst of.
 KINDS = ("volume", "point", "line")
 
