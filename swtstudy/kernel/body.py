@@ -37,7 +37,7 @@ from swtstudy.kernel.history import (
     split,
 )
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, locate, unresolved
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, unresolved
 from swtstudy.kernel.profile import coordinate_at
 
 #: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
@@ -234,10 +234,7 @@ def value_on_plane(S, H, W, G, Q):
     """H of the best plane with the maxima between the instants."""
     follow_plane(S, H, W, G, Q)
     find_peaks(H, W, Q, 1.0, 0.0)
-    for which in range(3):
-        locate(H, W, Q, which, 1.0, 0.0)
-    swing = W.at_peak[SWING, 0] - W.at_peak[MINUS_SWING, 0]
-    return lifted(Q, W.at_peak[STRESS, 0], swing, G.noise)
+    return lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING], G.noise)
 
 
 @jit

@@ -26,7 +26,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.line import ROUNDS
 from swtstudy.kernel.load import has_bulk
-from swtstudy.kernel.planes import BETWEEN, above, find_peaks, locate, unresolved
+from swtstudy.kernel.planes import BETWEEN, above, find_peaks, unresolved
 from swtstudy.kernel.profile import place_of
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md), unless a bulk stress or another
@@ -195,7 +195,7 @@ def settle(D, G, S, H, W, C, P, K, L, Q, angle):
                 doubled += 1
         for which in range(3):
             z = W.part[which]
-            add_peak(D, z, locate(H, W, Q, which, 1.0, 0.0))
+            add_peak(D, z, W.place[which])
             is_high = before > (1.0 - Q.line) * D.best and D.sure[z] == 0 and W.double[z] == 0
             if is_high and H.intervals[z] < FINEST and may_be_refined(H, C, z):
                 W.double[z], D.sure[z] = 1, 1

@@ -16,7 +16,7 @@ from math import cos, isnan, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.chebyshev import FINEST, LOBATTO
+from swtstudy.kernel.chebyshev import FINEST, LOBATTO, vertex
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field, lifted, sensitivities, swing_weights, value_of
@@ -24,7 +24,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, refine, sample_cycle
 from swtstudy.kernel.line import cusps, ends_group, resolve
 from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks, vertex
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
 from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
 

@@ -19,7 +19,7 @@ import numpy as np
 from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import MAX_STRETCHES, STICK
+from swtstudy.kernel.contact import MAX_STRETCHES, NONE, STICK
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.load import distinct, has_bulk
@@ -139,7 +139,7 @@ def ask(
         0.45 * rtol,
         0.25 * rtol,
         0.1 * rtol,
-        0.5 * rtol,
+        0.1 * rtol,
     )
     record["near"], record["trust"], record["safety"] = near, trust, safety
     record["surprise"], record["memory"], record["narrow"] = surprise, memory, narrow
@@ -470,17 +470,48 @@ def begin_search(S, H, W, C, R, P, K, L, Q):
 def search_line(S, H, W, C, R, P, K, L, Q):
     """Find the largest swt on the line; returns by how much a higher one may be hidden."""
     smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
-    gap = 0.0
     while True:
-        k = FIRST
-        for i in range(m):
-            if S.bound[i] > S.bound[k]:
-                k = i
-        gap, limit = S.bound[k] - S.best, S.best * (1.0 + Q.line)
-        if gap <= Q.line * S.best or m + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
-            break
+        k, limit = highest_bound(S, m), S.best * (1.0 + Q.line)
+        if S.bound[k] <= limit:
+            share_curvature(S, m)
+            k = highest_bound(S, m)
+        if S.bound[k] <= limit or m + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
+            return max(S.bound[k] - S.best, 0.0)
         m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
-    return max(gap, 0.0)
+
+
+@jit
+def highest_bound(S, m):
+    """The interval of m with the highest bound."""
+    highest = FIRST
+    for k in range(m):
+        if S.bound[k] > S.bound[highest]:
+            highest = k
+    return highest
+
+
+@jit
+def share_curvature(S, m):
+    """Give the two intervals of a piece that meet at the best place the curvature through their three values.
+
+    A narrow interval shows a curvature that the wide one beside it has not met.
+    """
+    left, right, side = NONE, NONE, 0 if S.sign > 0.0 else 1
+    for k in range(m):
+        if S.cusps[k, 1] == 0 and S.piece[k, 0] < S.place < S.piece[k, 1]:
+            if position(S, k, S.ends[k, 1]) == S.place:
+                left = k
+            elif position(S, k, S.ends[k, 0]) == S.place:
+                right = k
+    if left == NONE or right == NONE:
+        return
+    before, after = S.ends[left, 1] - S.ends[left, 0], S.ends[right, 1] - S.ends[right, 0]
+    rise, fall = S.best - S.at_ends[left, 0, side], S.best - S.at_ends[right, 1, side]
+    curvature = 2.0 * (rise / before + fall / after) / (before + after)
+    S.drop[left, side] = max(S.drop[left, side], curvature * before * before)
+    S.drop[right, side] = max(S.drop[right, side], curvature * after * after)
+    set_bound(S, left)
+    set_bound(S, right)
 
 
 @jit
