@@ -17,10 +17,9 @@ import numpy as np
 
 from swtstudy import swt_of_history
 from swtstudy.kernel import batch
-from swtstudy.kernel.beneath import stretch_of
 from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.field import instants_of, open_cycle, stress_at
-from swtstudy.kernel.growth import solved_places
+from swtstudy.kernel.growth import find_stretch, solved_places
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import arguments_of, solve_points
 
@@ -71,7 +70,7 @@ def table_1(instants):
 def jumps(opened, instant):
     """Radii and slope jumps of the pressure and of the tangential load at an instant."""
     C, _, P, L, _, _ = opened
-    k, t, sign = stretch_of(C, L, instant)
+    k, t, sign = find_stretch(C, L, instant)
     edge, front = solved_places(C, P, L, k, t)
     slope, radius, piece = float(C["push"][k]), edge, int(C["piece"][k])
     found, outer = [(False, edge, 1.0)], 0.0

@@ -77,7 +77,7 @@ class Points:
     def __len__(self) -> int:
         return len(self.phase)
 
-    def take(self, index: ArrayLike) -> Self:
+    def __getitem__(self, index: ArrayLike) -> Self:
         """The points at an index, repetitions allowed."""
         index = np.asarray(index)
         columns = {name: value[index] for name, value in vars(self).items() if isinstance(value, np.ndarray)}

@@ -217,8 +217,9 @@ def maxima_batch(least, s, *points, **given):
     Returns
     -------
     list
-        For each point arrays of x, 2θ in rad and the value at its maxima, descending; of a mirrored load
-        those at x > 0 alone.
+        For each point arrays of x, 2θ in rad and the value at its maxima, descending, and of the x of the
+        places on both sides between which each is the highest, (m, 2); of a mirrored load those at x > 0
+        alone.
     """
     found, M = [], _of_this_thread("maxima", maxima)
     for rows, profiles, which, loads, asks in chunks(*points, **given):
@@ -228,7 +229,7 @@ def maxima_batch(least, s, *points, **given):
             find_maxima_of(*_workspace(), M, profiles, which, loads, asks, np.int64(i), float(limit))
             _refuse_overflow(M["overflow"])
             order = np.argsort(-M["value"][: M["maxima"]], kind="stable")
-            found.append(tuple(M[name][order] for name in ("x", "angle", "value")))
+            found.append(tuple(M[name][order] for name in ("x", "angle", "value", "between")))
     return found
 
 

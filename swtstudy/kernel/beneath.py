@@ -21,7 +21,7 @@ import numpy as np
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
 from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN
-from swtstudy.kernel.growth import solved_places
+from swtstudy.kernel.growth import find_stretch, solved_places
 from swtstudy.kernel.load import bulk_at, load_at
 from swtstudy.kernel.profile import MEAN_LOAD, place_of, radius_of
 from swtstudy.kernel.punch import (
@@ -381,24 +381,6 @@ def stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, other):
 
 
 @jit
-def stretch_of(C, L, t):
-    """The stretch that holds an instant, the instant in it, and -1 if it is that half a cycle before."""
-    begin, sign = C.time[0, 0], 1.0
-    t = begin + (t - begin) % L.period
-    if L.mirrored and t >= begin + 0.5 * L.period:
-        t -= 0.5 * L.period
-        sign = -1.0
-    first, last = FIRST, C.stretches
-    while last - first > 1:
-        middle = (first + last) >> 1
-        if t < C.time[middle, 0]:
-            last = middle
-        else:
-            first = middle
-    return first, min(t, C.time[first, 1]), sign
-
-
-@jit
 def with_bulk(P, bulk, nu, out):
     """Add the bulk stress along x, of plane strain in a plane contact."""
     out[0] += bulk
@@ -412,7 +394,7 @@ def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
     m = time.shape[0]
     stretch, sign, state, bulk = np.empty(m, np.int64), np.empty(m), np.empty((m, 2)), np.empty(m)
     for i in range(m):
-        k, t, sign[i] = stretch_of(C, L, time[i])
+        k, t, sign[i] = find_stretch(C, L, time[i])
         stretch[i], bulk[i] = k, bulk_at(L, t)
         state[i, 0], state[i, 1] = solved_places(C, P, L, k, t)
     for p in range(places.shape[0]):

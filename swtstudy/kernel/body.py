@@ -78,7 +78,7 @@ def body_workspace():
 
 
 @jit
-def sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m, mirrored, nu, mu):
+def sample_instant(S, B, C, P, L, k, t, edge, front, sign, m, mirrored, nu, mu):
     """Write instant m of the history, and where asked what it is half a cycle later."""
     out = S.out
     stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, S.other)
@@ -115,7 +115,7 @@ def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, both):
             edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
         else:
             edge, front = places_at(C, P, L, k, t, H.weight)
-        sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
+        sample_instant(S, B, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
     H.first[z], H.intervals[z] = m, intervals
     H.instants = m + intervals + 1
 
@@ -131,9 +131,9 @@ def sample_ends(S, B, H, C, P, L, k, nu, mu):
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
         m -= 1
     else:
-        sample_instant(S, B, H, C, P, L, k, C.time[k, 0], edge, front, 1.0, m, mirrored, nu, mu)
+        sample_instant(S, B, C, P, L, k, C.time[k, 0], edge, front, 1.0, m, mirrored, nu, mu)
     t = C.time[k, 1]
-    sample_instant(S, B, H, C, P, L, k, t, edge_end, front_end, 1.0, m + 1, mirrored, nu, mu)
+    sample_instant(S, B, C, P, L, k, t, edge_end, front_end, 1.0, m + 1, mirrored, nu, mu)
     H.first[z], H.intervals[z], H.instants = m, 1, m + 2
 
 
@@ -360,7 +360,7 @@ def largest_at_places(
 
 
 @jit
-def von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values):
+def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
     """Write the largest von Mises stress of the cycle at places, (n, 3)."""
     for i in range(places.shape[0]):
         x, y, z = places[i, 0], places[i, 1], places[i, 2]

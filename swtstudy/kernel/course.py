@@ -4,8 +4,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import OPEN, offset, piece_at
-from swtstudy.kernel.events import SAME_INSTANT
-from swtstudy.kernel.growth import coordinates_at
+from swtstudy.kernel.growth import coordinates_at, find_stretch
 from swtstudy.kernel.history import begin_history, split, stress
 from swtstudy.kernel.line import ASKED, evaluate
 from swtstudy.kernel.load import bulk_at, load_at
@@ -27,28 +26,6 @@ STATE = np.dtype(
         ("answer", "f8"),
     ]
 )
-
-
-@jit
-def find_stretch(C, L, t):
-    """The stretch of an instant in [0, period], the instant within it, and the sign of the tangential load.
-
-    Where two stretches meet it is the earlier one.
-    """
-    last, sign = C.stretches - 1, 1.0
-    if t <= C.time[0, 0] + SAME_INSTANT * L.period:
-        t += L.period
-    if t > C.time[last, 1] and L.mirrored:
-        t -= 0.5 * L.period
-        sign = -1.0
-    low, high = 0, last
-    while low < high:
-        middle = (low + high) // 2
-        if C.time[middle, 1] >= t - SAME_INSTANT * L.period:
-            high = middle
-        else:
-            low = middle + 1
-    return low, min(max(t, C.time[low, 0]), C.time[low, 1]), sign
 
 
 @jit

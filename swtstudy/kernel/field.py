@@ -18,6 +18,7 @@ from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS
+from swtstudy.kernel.mean import MAX_DISTANCES, cells, means_at
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of, shift_of
 
@@ -160,13 +161,47 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
     return values, missing, normals
 
 
+def means_about(opened, x, double_angle, distance, rtol):
+    """Means of the criterion about a place of the surface line.
+
+    Parameters
+    ----------
+    opened
+        The load cycle.
+    x, double_angle
+        Signed x in a_H, and 2θ of the critical plane there in rad.
+    distance
+        Shape (k,): ℓ > 0 in a_H.
+    rtol
+        Relative accuracy asked for.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (5, k, 2), values and absolute errors: over half spheres, or half discs in the plane; at ℓ/2
+        straight down, and along the critical plane; over 0 … 2ℓ straight down, and along the plane.
+    """
+    C, R, P, L, Q, largest = opened
+    H, W, K = _workspace()[3:]
+    B, S, G = _of_this_thread("body", body_workspace)
+    M, found = _of_this_thread("cells", cells), np.empty((5, len(distance), 2))
+    for first in range(0, len(distance), MAX_DISTANCES):
+        some = np.ascontiguousarray(distance[first : first + MAX_DISTANCES])
+        part = np.empty((5, len(some), 2))
+        own = float(x), float(double_angle), some, largest, float(rtol), part
+        means_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
+        _refuse_overflow(np.isnan(part).any())
+        found[:, first : first + MAX_DISTANCES] = part
+    return found
+
+
 def von_mises_at(opened, places):
     """Largest von Mises stress of the cycle at places (n, 3), in E* δ0/a_H."""
     C, R, P, L, Q, largest = opened
     H, W, K = _workspace()[3:]
     B, S, _ = _of_this_thread("body", body_workspace)
     values = np.empty(len(places))
-    von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values)
+    von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values)
     _refuse_overflow(np.isnan(values).any())
     return values
 

@@ -38,7 +38,7 @@ MAXIMA = np.dtype(
         ("x", "f8", (MAX_MAXIMA,)),
         ("angle", "f8", (MAX_MAXIMA,)),  # 2θ
         ("value", "f8", (MAX_MAXIMA,)),
-        ("between", "f8", (MAX_MAXIMA, 2)),  # places s of its neighbours
+        ("between", "f8", (MAX_MAXIMA, 2)),  # places s of its neighbours, in the end x
         ("rank", "i8", (MAX_SEEN,)),  # positions in the order of their places
         ("overflow", "i8"),
     ]
@@ -158,7 +158,11 @@ def find_maxima(C, R, S, H, W, K, M, P, L, Q, limit):
     b = P.flat_radius
     for top in range(M.maxima):
         m = refine_top(S, M, H, W, C, R, P, K, L, Q, place_of(P, C.largest), top, m, limit)
-        M.x[top] = (1.0 - 2.0 * M.side[top]) * sqrt(b * b + M.place[top] * abs(M.place[top]))
+        sign = 1.0 - 2.0 * M.side[top]
+        M.x[top] = sign * sqrt(b * b + M.place[top] * abs(M.place[top]))
+        for end in range(2):
+            place = M.between[top, end]
+            M.between[top, end] = sign * sqrt(b * b + place * abs(place))
     M.overflow = max(M.overflow, C.overflow)
 
 

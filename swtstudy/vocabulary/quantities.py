@@ -42,7 +42,7 @@ class Quantity:
     function
         Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
         `swtstudy.solver.von_mises`, or of the attribute of
-        `swtstudy.solver.nonlocal_swt.NonlocalSwt` or `swtstudy.solver.counted.FewCycles`, that
+        `swtstudy.solver.means.Means` or `swtstudy.solver.counted.FewCycles`, that
         has it.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.

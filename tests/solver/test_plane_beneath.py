@@ -11,7 +11,7 @@ from solved import solve_points
 
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
 from swtstudy.paper.audit.body_maximum import body_maximum
-from swtstudy.solver.nonlocal_swt import nonlocal_swt
+from swtstudy.solver.means import means_at
 
 Array = NDArray[np.float64]
 NU = 0.3
@@ -58,7 +58,7 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
     found = solve_points(batch)
     x = float(found.critical_x[0])
     distance = np.array([0.02, 0.1])
-    means = nonlocal_swt(batch, found.critical_x, found.critical_angle, distance)
+    means = means_at(batch, found.critical_x, found.critical_angle, distance)
     node, weight = np.polynomial.legendre.leggauss(10)
     node, weight = 0.5 * (1.0 + node), 0.5 * weight
     for k, size in enumerate(distance):
