@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.progress import Progress
@@ -75,19 +76,19 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process."""
-    from swtstudy.points.chunk import Asked, chunks, solve_points, values_of
-    from swtstudy.points.labelled import label_records
-    from swtstudy.points.records import Records
-    from swtstudy.points.unique import kinds, unique_points, wanted
+    from swtstudy.points.chunk import chunks, fill
+    from swtstudy.points.found import Found
+    from swtstudy.points.labelled import label_found
 
-    points = unique_points(grid)
-    records = Records.missing(points.table)
-    with Progress(len(records)) as progress:
-        for some, items in kinds(np.ones(len(records), bool), *wanted(grid, asked, points)):
-            for chunk in chunks(points, some, Asked(items)):
-                records.fill(chunk.rows, values_of(chunk, rtol, solve_points))
-                progress.add(len(chunk))
-    dataset = label_records(grid, points, records, asked, of_runs=False)
+    points = Distinct.of(grid, asked)
+    found = Found.blank(points.rows)
+    with Progress(len(found)) as progress:
+        for chunk in chunks(points, np.ones(len(found), bool), asked):
+            part = Found.blank(chunk.rows)
+            fill(part, chunk, rtol)
+            found.put(chunk.places, part)
+            progress.add(len(chunk))
+    dataset = label_found(grid, points, found, asked, of_runs=False)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 

@@ -8,6 +8,7 @@ whose shape is plain, the phase and the control of a load that stands still).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,9 +17,11 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.choices import FAMILIES, PLAIN_OF, SWT, family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
+from swtstudy.vocabulary.quantities import NOTHING, Request
 
 if TYPE_CHECKING:
     from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray, Points
+    from swtstudy.points.grid import Grid
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -75,6 +78,11 @@ ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name i
 #: Canonical points, shape (n,) of `ROW`.
 Table = NDArray[np.void]
 
+#: More grid points than this need more memory than most machines have (about 0.3 kB each).
+LARGEST_GRID = 50_000_000
+#: Grid points that are made canonical at once.
+_SLAB = 100_000
+
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
 DIGITS = 12
 
@@ -111,16 +119,6 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     _make_profiles_canonical(table)
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     return table, _make_loads_canonical(table)
-
-
-def canonical_cycles(columns: Mapping[str, NDArray]) -> FloatArray:
-    """Number of load cycles of the canonical point in the common period 2πq/ω1 of each point, shape (n,).
-
-    The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times in
-    the common period. ``columns`` are those of `canonical_points`.
-    """
-    rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
-    return np.where(rests, columns["p"], 1.0)
 
 
 def _make_profiles_canonical(table: Table) -> None:
@@ -178,13 +176,55 @@ def _make_control_canonical(table: Table, normal_rests: BoolArray, tangential_re
     )
 
 
-def group_rows(table: Table) -> tuple[IntArray, IntArray]:
+@dataclass(frozen=True)
+class Distinct:
+    """The distinct points behind a grid, and the way back: what its values are computed, saved and found by.
+
+    Attributes
+    ----------
+    rows
+        Shape (m,) of `ROW`, in lexicographic order.
+    distances
+        Shape (m, k): the critical distances that are asked of each, in a_H.
+    index
+        Shape (grid.size,): the distinct point of every point of the grid.
+    mirrored
+        Shape (grid.size,): True where x is mirrored with respect to that point.
+    definitions
+        What the user has defined, by its code.
+    """
+
+    rows: Table
+    distances: FloatArray
+    index: IntArray
+    mirrored: BoolArray
+    definitions: Definitions
+
+    @classmethod
+    def of(cls, grid: Grid, asked: Request = NOTHING) -> Distinct:
+        """Those of a grid; a ValueError if it has more than `LARGEST_GRID` points."""
+        if grid.size > LARGEST_GRID:
+            found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
+            raise ValueError(f"{found}; swtstudy audit samples them")
+        rows, mirrored = np.empty(grid.size, ROW), np.empty(grid.size, bool)
+        # In slabs: the working memory for a point is several times that of its row.
+        for start in range(0, grid.size, _SLAB):
+            stop = min(start + _SLAB, grid.size)
+            rows[start:stop], mirrored[start:stop] = grid.canonical(start, stop)
+        distances = grid.distances(asked)
+        first, index = group_rows(rows, *(each for each in distances.T if np.ptp(each)))
+        return cls(rows[first], distances[first], index, mirrored, grid.definitions)
+
+
+def group_rows(table: Table, *more: FloatArray) -> tuple[IntArray, IntArray]:
     """The distinct rows of a table, in lexicographic order.
 
     Parameters
     ----------
     table
         Rows, without NaN, shape (n,): all columns of it are compared.
+    more
+        Further columns, each of shape (n,).
 
     Returns
     -------
@@ -195,16 +235,16 @@ def group_rows(table: Table) -> tuple[IntArray, IntArray]:
     """
     group = np.zeros(len(table), np.int64)
     first = np.zeros(min(len(table), 1), np.int64)
-    for name in table.dtype.names or ():
-        values, code = np.unique(table[name], return_inverse=True)
+    for column in (*(table[name] for name in table.dtype.names or ()), *more):
+        values, code = np.unique(column, return_inverse=True)
         # Column by column on integers: sorting whole rows takes ten times as long.
         _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)
     return first, group
 
 
-def alike(table: Table, *more: str) -> list[IndexArray]:
-    """Indices of the rows that share `SHARED_COLUMNS`, and more columns, one array for each kind."""
-    _, group = group_rows(table[[*SHARED_COLUMNS, *more]])
+def alike(table: Table, *more: FloatArray) -> list[IndexArray]:
+    """Indices of the rows that share `SHARED_COLUMNS`, and further columns, one array for each kind."""
+    _, group = group_rows(table[[*SHARED_COLUMNS]], *more)
     order = np.argsort(group, kind="stable")
     return np.split(order, np.cumsum(np.bincount(group))[:-1]) if len(table) else []
 

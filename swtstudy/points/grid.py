@@ -24,14 +24,14 @@ from swtstudy.points.canonical import (
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
-from swtstudy.vocabulary.quantities import Request, item_of
+from swtstudy.vocabulary.parameters import AXES, HARMONIC, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.loads.loop import Loop
-    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray, IntArray
+    from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.
@@ -162,17 +162,21 @@ class Grid:
         """Results as users see them, with units if the grid has some."""
         return dataset
 
-    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
-        """The critical distances that are asked, as items, and which of these each point of the grid wants.
+    def distances(self, asked: Request) -> FloatArray:
+        """The critical distances that are asked of each point, in a_H, shape (size, k)."""
+        own = np.array([canonical_number(distance) for distance in asked.distances])
+        return np.broadcast_to(own, (self.size, own.size))
 
-        Returns
-        -------
-        items
-        wanted
-            Shape (len(asked.distances), size): indices of items.
+    @property
+    def cycles(self) -> FloatArray:
+        """Load cycles of the canonical point in the common period 2πq/ω1 of each point, shape (size,).
+
+        The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times
+        in the common period.
         """
-        items = tuple(map(item_of, asked.distances))
-        return items, np.broadcast_to(np.arange(len(items))[:, None], (len(items), self.size))
+        columns = self.columns(0, self.size)
+        rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
+        return np.broadcast_to(np.where(rests, columns["p"], 1.0), self.size)
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
         """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""

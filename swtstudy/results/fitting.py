@@ -14,9 +14,9 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
+from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
-from swtstudy.points.unique import unique_points
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
@@ -170,7 +170,7 @@ class _Model:
         """Least and greatest logarithms: friction must bear the tangential forces."""
         low, high = [self.distances[0]], [self.distances[-1]]
         if self.friction is not None:
-            ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
+            ratios = margins(Distinct.of(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
             least = max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3)
             if not least < MOST_FRICTION:
                 found = f"tangential forces that need {least:.3g} at least"

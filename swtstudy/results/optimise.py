@@ -14,7 +14,6 @@ import xarray as xr
 
 from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.labelled import ATTRIBUTES, MARGINS
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
@@ -30,6 +29,7 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
 )
 from swtstudy.vocabulary.quantities import NAMED, Request
+from swtstudy.vocabulary.variables import ATTRIBUTES, MARGINS
 
 _NOT_ALWAYS = ("s_error", "run", *MARGINS)
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
 from swtstudy.mechanics.points import IntArray
-from swtstudy.points.chunk import Chunk, Solver, given_up, solve_chunk
-from swtstudy.points.records import Records
+from swtstudy.points.chunk import Chunk, Solver, solve_chunk
+from swtstudy.points.found import Found
+from swtstudy.vocabulary.variables import FAILED
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
-#: Receives every result as soon as it arrives.
-Deliver = Callable[[IntArray, Records], None]
+#: Receives places, version of the solver and values of every chunk as soon as they arrive.
+Deliver = Callable[[IntArray, str, Found], None]
 
 #: Chunks per worker that dask receives at a time: it holds on to their results.
 _WAVE = 256
@@ -110,7 +112,7 @@ class _Tasks:
         if not lost:
             return
         if len(chunk) == 1:
-            self.deliver(chunk.rows, given_up(chunk, self.rtol, LOST_WORKER))
+            self.deliver(chunk.places, SOLVER_VERSION, Found.blank(chunk.rows, FAILED, LOST_WORKER))
             return
         for half in chunk.halves():
             self.alone(half)
@@ -130,8 +132,8 @@ class _Tasks:
         def submitted(name: str, *_: object) -> None:
             in_flight[name] = waiting.pop(name)
 
-        def done(name: str, found: Records, *_: object) -> None:
-            self.deliver(in_flight[name].rows, found)
+        def done(name: str, found: tuple[str, Found], *_: object) -> None:
+            self.deliver(in_flight[name].places, *found)
             del in_flight[name]
 
         in_threads = isinstance(self.pool, ThreadPool)

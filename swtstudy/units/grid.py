@@ -23,12 +23,12 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import Request, item_of
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.points import FloatArray, IntArray
+    from swtstudy.mechanics.points import FloatArray
 
 
 @dataclass(frozen=True)
@@ -270,18 +270,12 @@ class PhysicalGrid(ContactDetails, Grid):
 
         return with_units(dataset, self, asked)
 
-    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
-        """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
-        length = self.at_rest.scale("a_H")
-        names: dict[str, int] = {}
-        at = np.empty((len(asked.distances), self.size), np.int64)
-        position = self._position(0, self.size) if len(length.dims) else {}
-        for row, distance in zip(at, asked.distances, strict=True):
-            items = [item_of(distance / each) for each in length.values.flat]
-            numbers = np.array([names.setdefault(item, len(names)) for item in items])
-            over = numbers.reshape(length.shape)
-            row[:] = over[tuple(position[str(dim)] for dim in length.dims)]
-        return tuple(names), at
+    def distances(self, asked: Request) -> FloatArray:
+        """See `Grid.distances`: the same length is another one in a_H from contact to contact."""
+        if not asked.distances:
+            return super().distances(asked)
+        length = self._of_points(self.at_rest.scale("a_H"))
+        return rounded(np.array(asked.distances) / length[:, None])
 
 
 def _over(values: xr.DataArray, scale: xr.DataArray) -> xr.DataArray:

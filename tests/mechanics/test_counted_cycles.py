@@ -14,7 +14,7 @@ import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
 from swtstudy.archive.describe import describe
 from swtstudy.archive.netcdf import save
-from swtstudy.runner.workload import assess
+from swtstudy.runner.work import assess
 from swtstudy.units.life import UNCOUNTED
 
 CONTACT = {

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import swtstudy
 from swtstudy.archive.netcdf import save
-from swtstudy.runner.workload import assess
+from swtstudy.runner.work import assess
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}

@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from xarray.plot.utils import label_from_attrs
 
 import swtstudy
-from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.evaluate import slice_at, to_table
 from swtstudy.study.figure import VARIABLES
 from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
+from swtstudy.vocabulary.variables import ATTRIBUTES
 
 PHASE = np.linspace(0, np.pi, 37)
 

@@ -91,7 +91,7 @@ def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_
     (tmp_path / "rig.csv").unlink()
     again = Study.from_text(open_results(tmp_path / "absolute.nc").attrs["study"])
     assert again.grid.values("normal_force") == (200.0,)
-    from swtstudy.runner.workload import assess
+    from swtstudy.runner.work import assess
 
     assert assess(again, tmp_path / "absolute.nc").todo == 0
     contact = swtstudy.physical(

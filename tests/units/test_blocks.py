@@ -13,7 +13,7 @@ import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
 from swtstudy.reports.findings import sentences
-from swtstudy.runner.workload import assess
+from swtstudy.runner.work import assess
 from swtstudy.units.blocks import sequence_words
 from swtstudy.vocabulary.wording import number_words
 

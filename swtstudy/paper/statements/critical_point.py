@@ -15,7 +15,7 @@ from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.paper.statements.statement import Finding, Statement
-from swtstudy.points.canonical import RATIO_COLUMNS, alike, points_from
+from swtstudy.points.canonical import alike, points_from
 
 
 def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
@@ -29,7 +29,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     """
     rows, _ = grid_of(dataset).canonical()
     radius = np.empty(len(rows))
-    for members in alike(rows, *RATIO_COLUMNS):
+    for members in alike(rows, rows["p"], rows["q"]):
         radius[members] = np.nan_to_num(Margins.of(points_from(rows[members], {})).stick_radius)
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 
