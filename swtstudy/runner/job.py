@@ -16,7 +16,7 @@ from swtstudy.mechanics.points import IntArray
 from swtstudy.points.chunk import Solver
 from swtstudy.points.found import Found, Run, join
 from swtstudy.runner.engine import Pool, WorkerError, solve
-from swtstudy.runner.work import assess
+from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.progress import Progress
@@ -135,21 +135,22 @@ class Job:
     @contextmanager
     def reporting(self) -> Iterator[None]:
         """However the block is stopped, its error says what is saved and how to go on."""
-
-        def saved() -> str:
-            count = len(self.work.found)
-            return f"{count - self.work.todo.sum()} of {count} distinct points are saved beside {self.path}"
-
         try:
             yield
         except Stopped:
             raise
         except KeyboardInterrupt:
-            raise Stopped(f"stopped; {saved()}; the same command continues from there") from None
+            raise Stopped(f"stopped; {_saved(self.work, self.path)}; the same command continues from there") from None
         except OSError as error:
             kind = WorkerError if isinstance(error, WorkerError) else OSError
             advice = "once that is fixed, the same command continues from there"
-            raise kind(f"{error.strerror or error}; {saved()}; {advice}") from error
+            raise kind(f"{error.strerror or error}; {_saved(self.work, self.path)}; {advice}") from error
+
+
+def _saved(work: Work, path: Path) -> str:
+    """Say how much is saved."""
+    count = len(work.found)
+    return f"{count - work.todo.sum()} of {count} distinct points are saved beside {path}"
 
 
 class _Saving:

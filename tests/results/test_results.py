@@ -72,6 +72,7 @@ def test_what_a_reader_is_told_of_each_variable():
         "regime": None,
         "status": None,
         "run": "1",
+        "message": None,
     }
     symbols = {
         name: attributes["symbol"] for name, attributes in ATTRIBUTES.items() if "symbol" in attributes
