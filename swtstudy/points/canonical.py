@@ -201,17 +201,18 @@ class Distinct:
     definitions: Definitions
 
     @classmethod
-    def of(cls, grid: Grid, asked: Request = NOTHING) -> Distinct:
-        """Those of a grid; a ValueError if it has more than `LARGEST_GRID` points."""
+    def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
+        """Those of a grid, or of n places of it; a ValueError if it has more than `LARGEST_GRID` points."""
         if grid.size > LARGEST_GRID:
             found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
             raise ValueError(f"{found}; swtstudy audit samples them")
-        rows, mirrored = np.empty(grid.size, ROW), np.empty(grid.size, bool)
+        places = np.arange(grid.size) if places is None else places
+        rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
         # In slabs: the working memory for a point is several times that of its row.
-        for start in range(0, grid.size, _SLAB):
-            stop = min(start + _SLAB, grid.size)
-            rows[start:stop], mirrored[start:stop] = grid.canonical(start, stop)
-        distances = grid.distances(asked)
+        for start in range(0, len(places), _SLAB):
+            some = slice(start, start + _SLAB)
+            rows[some], mirrored[some] = grid.canonical(places[some])
+        distances = grid.distances(asked)[places]
         first, index = group_rows(rows, *(each for each in distances.T if np.ptp(each)))
         return cls(rows[first], distances[first], index, mirrored, grid.definitions)
 

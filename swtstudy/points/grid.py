@@ -119,13 +119,12 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[Table, BoolArray]:
-        """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
-        stop = self.size if stop is None else stop
-        columns = self.columns(start, stop)
+    def canonical(self, places: IndexArray) -> tuple[Table, BoolArray]:
+        """Canonical rows of the points at n places of the grid in C order; see `canonical_points`."""
+        columns = self.columns(places)
         force = (self.control.normal_force, self.control.tangential_force)
         columns["control"] = control_code(*map(np.array, force))
-        columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
+        columns["profile"] = np.broadcast_to(columns["profile"], len(places))
         # What does not scale a loop does not matter for it.
         name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Definition)]
         if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
@@ -167,29 +166,28 @@ class Grid:
         own = np.array([canonical_number(distance) for distance in asked.distances])
         return np.broadcast_to(own, (self.size, own.size))
 
-    @property
-    def cycles(self) -> FloatArray:
-        """Load cycles of the canonical point in the common period 2πq/ω1 of each point, shape (size,).
+    def cycles(self, places: IndexArray) -> FloatArray:
+        """Load cycles of the canonical point in the common period 2πq/ω1 of n points, shape (n,).
 
         The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times
         in the common period.
         """
-        columns = self.columns(0, self.size)
+        columns = self.columns(places)
         rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
-        return np.broadcast_to(np.where(rests, columns["p"], 1.0), self.size)
+        return np.broadcast_to(np.where(rests, columns["p"], 1.0), len(places))
 
-    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
-        """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
-        position = self._position(start, stop)
+    def columns(self, places: IndexArray) -> dict[str, NDArray]:
+        """A number for each of `COLUMNS` at n places of the grid in C order, of shape (n,) or (1,)."""
+        position = self._position(places)
         along = {name: self.dimension(self._source(name)) for name in COLUMNS}
         return {
             name: codes if (dim := along[name]) is None else codes[position[dim]]
             for name, codes in self._codes.items()
         }
 
-    def _position(self, start: int, stop: int) -> dict[str, IndexArray]:
-        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
-        return dict(zip(self.dims, places, strict=True))
+    def _position(self, places: IndexArray) -> dict[str, IndexArray]:
+        along = np.unravel_index(places, self.shape) if self.dims else ()
+        return dict(zip(self.dims, along, strict=True))
 
     @cached_property
     def _codes(self) -> dict[str, NDArray]:

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray
+from swtstudy.mechanics.points import BoolArray, IndexArray
 from swtstudy.points.canonical import Distinct, alike, points_from
 from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid
@@ -21,14 +21,7 @@ from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, with_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import (
-    COUNTED_SIZES,
-    DISTANCE,
-    NOTHING,
-    QUANTITIES,
-    Request,
-    attributes_of,
-)
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES, FAILED, SOLVED
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -46,8 +39,8 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     grid
         Names and values of the dimensions.
     arrays
-        Data variables by name, each of shape (grid.size, …) in C order; quantities over critical distances
-        have these next.
+        Data variables by name, each of shape (grid.size, …) in C order, or that of the grid; quantities over
+        critical distances have these next.
     asked
         What was asked beside s.
 
@@ -78,7 +71,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     for name, values in arrays.items():
         dims = of_quantities.get(name, ())
         attributes = attributes_of(name) if name in of_quantities else dict(ATTRIBUTES[name])
-        tail = values.shape[1 + (values.ndim - 1 - len(dims)) :]  # of one distance there is no dimension
+        tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
         variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes
     dataset = xr.Dataset(variables, coordinates)
     _name_criteria(dataset, grid, asked)
@@ -95,16 +88,25 @@ def label_found(
     grid: Grid, points: Distinct, found: Found, asked: Request, of_runs: bool = True
 ) -> xr.Dataset:
     """The Dataset of a grid whose distinct points have these values; ``of_runs`` with their states."""
-    names = (*SOLVED, *(("status", "run") if of_runs else ()), *asked.variables)
-    if of_runs and (found["status"] == FAILED).any():
-        names += ("message",)
-    arrays = {name: found[name][points.index] for name in names if name in found.arrays}
-    size = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
-    for row in asked.rows if len(arrays) < len(names) else ():
-        blank = np.full((grid.size, *(size[dim] for dim in row.dims)), np.nan)
-        arrays |= {name: blank for name in row.variables if name not in arrays}
-    arrays = turned(arrays, points.mirrored, grid.cycles if _per_cycle(arrays) else 1.0)
+    arrays = values_at(grid, points, found, asked, np.arange(grid.size))
+    if of_runs:
+        names = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
+        arrays |= {name: found[name][points.index] for name in names}
     return label(grid, arrays | margins(points, grid), asked)
+
+
+def values_at(
+    grid: Grid, points: Distinct, found: Found, asked: Request, places: IndexArray
+) -> dict[str, NDArray[Any]]:
+    """What the solver finds at n places of a grid, and what is asked beside, NaN where that is not known.
+
+    ``points`` are the distinct ones of these places.
+    """
+    sizes, own = asked.sizes, {name: row.dims for row in asked.rows for name in row.variables}
+    for name in (name for name in own if name not in found.arrays):
+        found.arrays[name] = np.full((len(found), *(sizes[dim] for dim in own[name])), np.nan)
+    arrays = {name: found[name][points.index] for name in (*SOLVED, *own)}
+    return turned(arrays, points.mirrored, grid.cycles(places) if _per_cycle(own) else 1.0)
 
 
 def turned(

@@ -32,6 +32,7 @@ from swtstudy.vocabulary.mistakes import (
     plain_number,
 )
 from swtstudy.vocabulary.parameters import DIRECTIONS
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
@@ -107,12 +108,12 @@ def fit(
     if friction and not 0.0 < own < MOST_FRICTION:
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
-    model = _Model.of(grid, np.log10(observed), y, friction)
-    start = model.start()
-    low, high = model.bounds()
-    found = least_squares(
-        model.residuals, np.clip(start, low, high), jac=model.slopes, bounds=(low, high), xtol=XTOL, ftol=XTOL
-    )
+    with Progress(None, "fit"):
+        model = _Model.of(grid, np.log10(observed), y, friction)
+        low, high = model.bounds()
+        start = np.clip(model.start(), low, high)
+        options = {"jac": model.slopes, "bounds": (low, high), "xtol": XTOL, "ftol": XTOL}
+        found = least_squares(model.residuals, start, **options)
     if not low[0] + STEP < found.x[0] < high[0] - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"

@@ -140,7 +140,8 @@ class Job:
         except Stopped:
             raise
         except KeyboardInterrupt:
-            raise Stopped(f"stopped; {_saved(self.work, self.path)}; the same command continues from there") from None
+            words = f"stopped; {_saved(self.work, self.path)}; the same command continues from there"
+            raise Stopped(words) from None
         except OSError as error:
             kind = WorkerError if isinstance(error, WorkerError) else OSError
             advice = "once that is fixed, the same command continues from there"

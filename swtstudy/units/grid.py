@@ -28,7 +28,7 @@ from swtstudy.vocabulary.quantities import Request
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.mechanics.points import FloatArray
+    from swtstudy.mechanics.points import FloatArray, IndexArray
 
 
 @dataclass(frozen=True)
@@ -214,11 +214,11 @@ class PhysicalGrid(ContactDetails, Grid):
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
         return found
 
-    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+    def columns(self, places: IndexArray) -> dict[str, NDArray]:
         """See `Grid.columns`."""
-        position = self._position(start, stop)
+        position = self._position(places)
         return {
-            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], stop - start)
+            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], len(places))
             for name, (dims, values) in self._codes_over.items()
         }
 

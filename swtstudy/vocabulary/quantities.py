@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
@@ -226,6 +227,11 @@ class Request:
             for row in self.rows
             for variable in row.variables
         }
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Lengths of the dimensions that quantities have beside those of the points."""
+        return {DISTANCE: len(self.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
 
 
 #: Nothing but s.

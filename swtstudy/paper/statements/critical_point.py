@@ -27,7 +27,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
         With the dimensions of ``dataset.s``; 0 where the whole contact slides, or is lost, once a cycle.
         Where a flat face only just sticks, the radius of the face.
     """
-    rows, _ = grid_of(dataset).canonical()
+    rows, _ = grid_of(dataset).canonical(np.arange(dataset.s.size))
     radius = np.empty(len(rows))
     for members in alike(rows, rows["p"], rows["q"]):
         radius[members] = np.nan_to_num(Margins.of(points_from(rows[members], {})).stick_radius)
