@@ -101,7 +101,7 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
 
 
 def _found(points: Distinct, rtol: float, asked: Request) -> Found:
-    """What is asked of points, solved one chunk after another; raises if one has no value."""
+    """All that is asked of points, solved one chunk after another; raises if one has no value."""
     from swtstudy.points.chunk import chunks, fill
     from swtstudy.points.found import Found
 

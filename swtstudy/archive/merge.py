@@ -98,7 +98,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
 
 
 def _asked(datasets: Sequence[xr.Dataset]) -> Request:
-    """What the archives have beside s, all together."""
+    """The quantities that the archives have, all together."""
     own = [request_of(dataset) for dataset in datasets]
     names = dict.fromkeys(name for each in own for name in each.names)
     keyed = {canonical_number(v): v for each in reversed(own) for v in reversed(each.distances)}

@@ -163,7 +163,7 @@ def _warn_left_out(path: Path, reason: str) -> None:
 
 
 def known_points(path: Path) -> Found:
-    """What is in the archive at `path`, if there is one, in its parts, and kept beside it.
+    """All that is in the archive at `path`, if there is one, in its parts, and kept beside it.
 
     Raises
     ------

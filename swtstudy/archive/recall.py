@@ -1,4 +1,4 @@
-"""What is in an archive: the grid of its points, what was asked of them, and their values."""
+"""The content of an archive: the grid of its points, what was asked of them, and their values."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def _values(
 
 
 def request_of(dataset: xr.Dataset) -> Request:
-    """What results have beside s; of real contacts distances are lengths."""
+    """The quantities that results have beside s; of real contacts distances are lengths."""
     plain = without_units(dataset) if has_units(dataset) else dataset
     names = tuple(str(name) for name in plain.data_vars if name in NAMED)
     distances = []

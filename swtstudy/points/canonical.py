@@ -202,7 +202,7 @@ class Distinct:
 
     @classmethod
     def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
-        """Those of a grid, or of n places of it; a ValueError if it has more than `LARGEST_GRID` points."""
+        """The points of a grid, or of n places of it; a ValueError if it has more than `LARGEST_GRID` points."""
         if grid.size > LARGEST_GRID:
             found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
             raise ValueError(f"{found}; swtstudy audit samples them")

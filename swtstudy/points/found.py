@@ -164,7 +164,7 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
 
 
 def matching(points: Distinct, found: Found, candidates: BoolArray) -> Found:
-    """What is found of each of some points: "missing" where that is nothing.
+    """All that is found of each of some points: "missing" where that is nothing.
 
     One row may stand for contacts of several sizes, each of which has critical distances of its own: what is
     about these is looked up by row and distance.

@@ -98,7 +98,7 @@ def label_found(
 def values_at(
     grid: Grid, points: Distinct, found: Found, asked: Request, places: IndexArray
 ) -> dict[str, NDArray[Any]]:
-    """What the solver finds at n places of a grid, and what is asked beside, NaN where that is not known.
+    """Values that the solver finds at n places of a grid, and what is asked beside, NaN where that is not known.
 
     ``points`` are the distinct ones of these places.
     """
@@ -134,7 +134,7 @@ def turned(
 
 
 def _per_cycle(arrays: Mapping[str, object]) -> list[str]:
-    """Those that grow with the number of load cycles."""
+    """Names of those that grow with the number of load cycles."""
     return [n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in arrays]
 
 

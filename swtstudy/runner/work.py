@@ -81,7 +81,7 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
 
 
 def not_in(points: Distinct, asked: Request, known: Found) -> Found:
-    """What is known of points that are not among these, or of more quantities than are asked."""
+    """All that is known of points that are not among these, or of more quantities than are asked."""
     own = Found.blank(points.rows)
     elsewhere = look_up(known["row"], own, np.ones(len(own), bool)) < 0
     elsewhere |= np.array([*(not {*run.quantities} <= {*asked.items} for run in known.runs), False])[

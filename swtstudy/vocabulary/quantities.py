@@ -210,7 +210,7 @@ class Request:
 
     @property
     def items(self) -> tuple[str, ...]:
-        """What is asked, as runs record it: the names, `COUNTS` and `DISTANCE`."""
+        """Names of all that is asked, as runs record it: the names, `COUNTS` and `DISTANCE`."""
         return (*self.names, *(COUNTS,) * self.counts, *(DISTANCE,) * bool(self.distances))
 
     @property
