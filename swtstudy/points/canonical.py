@@ -202,7 +202,7 @@ class Distinct:
 
     @classmethod
     def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
-        """The points of a grid, or of n places of it; a ValueError if it has more than `LARGEST_GRID` points."""
+        """The points of a grid, or of n places of it; a ValueError beyond `LARGEST_GRID` points."""
         if grid.size > LARGEST_GRID:
             found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
             raise ValueError(f"{found}; swtstudy audit samples them")
@@ -213,8 +213,10 @@ class Distinct:
             some = slice(start, start + _SLAB)
             rows[some], mirrored[some] = grid.canonical(places[some])
         distances = grid.distances(asked)[places]
-        first, index = group_rows(rows, *(each for each in distances.T if np.ptp(each)))
-        return cls(rows[first], distances[first], index, mirrored, grid.definitions)
+        first, index = group_rows(rows, *distances.T)
+        for name in ROW.names or ():  # in place: a million rows are 200 MB
+            rows[name][: len(first)] = rows[name][first]
+        return cls(rows[: len(first)], distances[first], index, mirrored, grid.definitions)
 
 
 def group_rows(table: Table, *more: FloatArray) -> tuple[IntArray, IntArray]:
@@ -237,6 +239,8 @@ def group_rows(table: Table, *more: FloatArray) -> tuple[IntArray, IntArray]:
     group = np.zeros(len(table), np.int64)
     first = np.zeros(min(len(table), 1), np.int64)
     for column in (*(table[name] for name in table.dtype.names or ()), *more):
+        if len(first) == len(table) or not np.any(column != column[0]):
+            continue  # all are told apart, or none by this column
         values, code = np.unique(column, return_inverse=True)
         # Column by column on integers: sorting whole rows takes ten times as long.
         _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from swtstudy.mechanics.points import BoolArray, IntArray, Points, Solution
-from swtstudy.points.canonical import COST, Definitions, Distinct, Table, alike, points_from
+from swtstudy.points.canonical import COST, SHARED_COLUMNS, Definitions, Distinct, Table, alike, points_from
 from swtstudy.points.found import Found, join
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
 from swtstudy.vocabulary.variables import COMPUTED, FAILED, REGIMES, WITHOUT_S
@@ -58,8 +58,10 @@ class Chunk:
         return self.at(slice(half)), self.at(slice(half, None))
 
 
-def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[Chunk]:
-    """Chunks of the wanted points of a table, those of long cycles first: no worker waits for another's.
+def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IntArray]:
+    """Places of the wanted points of a table, cut into chunks, those of long cycles first.
+
+    So no worker waits for another's.
 
     Parameters
     ----------
@@ -71,24 +73,30 @@ def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> lis
         What is asked of them beside s.
     """
     places = np.flatnonzero(wanted)
-    rows, distances = points.rows[places], points.distances[places]
-    pieces = rows["p"] + rows["q"] + rows[COST]
+    pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
     most = MOST_OF_BODY if {YIELD, DISTANCE} & {*asked.items} else MOST
-    parts = []
-    for own in alike(rows, *distances.T):
+    found = []
+    shared = points.rows[[*SHARED_COLUMNS]]  # a view, whose rows are copied in full
+    for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
+        own = places[own]
         own = own[np.argsort(-pieces[own], kind="stable")]
         begin = 0
         while begin < len(own):
             end = begin + min(most, max(PIECES // int(pieces[own[begin]]), 1))
-            parts.append(own[begin:end])
+            found.append(own[begin:end])
             begin = end
-    parts.sort(key=lambda each: -int(pieces[each[0]]))
+    return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
-    def of(part: IntArray) -> Chunk:
-        own = replace(asked, distances=tuple(distances[part[0]].tolist()))
-        return Chunk(places[part], rows[part], own, points.definitions)
 
-    return list(map(of, parts))
+def chunk_of(points: Distinct, places: IntArray, asked: Request = NOTHING) -> Chunk:
+    """The chunk of some points of a table, which have the same critical distances."""
+    own = replace(asked, distances=tuple(points.distances[places[0]].tolist()))
+    return Chunk(places, points.rows[places], own, points.definitions)
+
+
+def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Iterator[Chunk]:
+    """Chunks of the wanted points of a table; see `cut`."""
+    return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
 
 
 def solve_points(points: Points, rtol: float) -> Solution:

@@ -151,7 +151,7 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
     quantities, then the most accurate one, then the latest.
     """
     index = np.flatnonzero(candidates)
-    if not len(index):
+    if not len(index) or not len(rows):
         return np.full(len(rows), -1)
     runs = found["run"][index]
     tolerance = np.array([*(run.rtol for run in found.runs), np.inf])[runs]

@@ -98,7 +98,7 @@ def label_found(
 def values_at(
     grid: Grid, points: Distinct, found: Found, asked: Request, places: IndexArray
 ) -> dict[str, NDArray[Any]]:
-    """Values that the solver finds at n places of a grid, and what is asked beside, NaN where that is not known.
+    """Values at n places of a grid, and what is asked beside s, NaN where that is not known.
 
     ``points`` are the distinct ones of these places.
     """

@@ -41,6 +41,10 @@ class Pool(Protocol):
     def lost(self) -> type[Exception]:
         """Exception that a future raises if its task was lost with a worker."""
 
+    @property
+    def gone(self) -> tuple[type[Exception], ...]:
+        """Exceptions that say that all workers are lost."""
+
     def size(self) -> int:
         """Number of tasks that run at the same time, at least 1."""
 
@@ -54,7 +58,7 @@ class Pool(Protocol):
 class ThreadPool(ThreadPoolExecutor):
     """Threads of this process; see `Pool`. The compiled solver lets them run side by side."""
 
-    lost = NeverLostError
+    lost, gone = NeverLostError, ()
 
     def __exit__(self, *_: object) -> None:
         self.shutdown(wait=True, cancel_futures=True)
@@ -152,6 +156,8 @@ class _Tasks:
             )
         except self.pool.lost:
             self.pool.renew()
+        except self.pool.gone as error:
+            raise WorkerError("the dask scheduler is gone") from error
         return list(waiting.values()), list(in_flight.values())
 
 

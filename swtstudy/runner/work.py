@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Distinct, group_rows
-from swtstudy.points.chunk import Chunk, Solver, chunks, solve_chunk
+from swtstudy.points.chunk import Chunk, Solver, chunk_of, chunks, cut, solve_chunk
 from swtstudy.points.found import Found, look_up, matching
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.quantities import Request
@@ -59,7 +59,7 @@ class Work:
         """Which points are to be computed, shape (n,)."""
         return np.asarray(self.missing | self.incomplete)
 
-    def chunks(self) -> list[Chunk]:
+    def chunks(self) -> Iterator[Chunk]:
         """The chunks that are to be computed."""
         return chunks(self.points, self.todo, self.asked)
 
@@ -72,7 +72,7 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     known = known_points(path)
     found = matching(points, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
     there = known["status"] != MISSING
-    lost = points.rows[found["status"] == MISSING]
+    lost = points.rows[(found["status"] == MISSING) & bool(len(known))]
     own = known.usable(np.inf, SOLVER_VERSION)
     coarse = look_up(lost, known, own & ~known.usable(study.rtol, SOLVER_VERSION)) >= 0
     outdated = look_up(lost, known, there & ~own) >= 0
@@ -82,6 +82,8 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
 
 def not_in(points: Distinct, asked: Request, known: Found) -> Found:
     """All that is known of points that are not among these, or of more quantities than are asked."""
+    if not len(known):
+        return known
     own = Found.blank(points.rows)
     elsewhere = look_up(known["row"], own, np.ones(len(own), bool)) < 0
     elsewhere |= np.array([*(not {*run.quantities} <= {*asked.items} for run in known.runs), False])[
@@ -106,10 +108,11 @@ def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
     stands for its neighbours.
     """
     lean, growth = _thinned(work.points)
-    todo = replace(work, points=lean).chunks()
+    todo = cut(lean, work.todo, work.asked)
     if not todo:
         return 0.0, 0
-    solve_chunk(todo[-1].at(slice(1)), rtol, solver)  # imports, and compiles
+    last = chunk_of(lean, todo[-1], work.asked)
+    solve_chunk(last.at(slice(1)), rtol, solver)  # imports, and compiles
     ends = np.linspace(0, len(todo), min(_TIMED, len(todo)) + 1).astype(int)
     begin, seconds = time.perf_counter(), 0.0
     timed = counted = left = 0
@@ -122,7 +125,7 @@ def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
         if timed and spent > _BUDGET:
             left += count
             continue
-        middle = own[len(own) // 2]
+        middle = chunk_of(lean, own[len(own) // 2], work.asked)
         one = _seconds(middle.at(slice(1)), rtol, solver)
         timed += 1
         if len(middle) > 1 and len(middle) * one < (_BUDGET - spent) / len(order):
