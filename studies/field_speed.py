@@ -17,14 +17,11 @@ import numpy as np
 
 from swtstudy import swt_of_history
 from swtstudy.kernel import batch
-from swtstudy.kernel.beneath import stretch_of
 from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.field import instants_of, open_cycle, stress_at
-from swtstudy.kernel.growth import solved_places
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.numerics.arrays import hemisphere
-from swtstudy.mechanics.points import Points
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.kernel.growth import find_stretch, solved_places
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of, solve_points
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", ImportWarning)
@@ -73,7 +70,7 @@ def table_1(instants):
 def jumps(opened, instant):
     """Radii and slope jumps of the pressure and of the tangential load at an instant."""
     C, _, P, L, _, _ = opened
-    k, t, sign = stretch_of(C, L, instant)
+    k, t, sign = find_stretch(C, L, instant)
     edge, front = solved_places(C, P, L, k, t)
     slope, radius, piece = float(C["push"][k]), edge, int(C["piece"][k])
     found, outer = [(False, edge, 1.0)], 0.0
@@ -172,6 +169,14 @@ def plain_search(stress, normals):
     strain = ((1.0 + POISSON) * on_planes - POISSON * trace) / (1.0 - POISSON**2)
     tension = np.maximum(on_planes.max(axis=1), 0.0)
     return (tension * 0.5 * (strain.max(axis=1) - strain.min(axis=1))).max(axis=1)
+
+
+def hemisphere(count):
+    """Unit normals that cover a half sphere evenly, shape (count, 3)."""
+    k = np.arange(count) + 0.5
+    z, turn = 1.0 - k / count, np.pi * (3.0 - np.sqrt(5.0)) * k
+    root = np.sqrt(1.0 - z * z)
+    return np.stack([root * np.cos(turn), root * np.sin(turn), z], axis=-1)
 
 
 def planes(size):

@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.indenter import TabulatedProfile
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import solve_points
 from swtstudy.vocabulary.choices import FAMILIES, is_plane
 from swtstudy.vocabulary.parameters import Control
 

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from swtstudy.figures.load import draw_load as draw_load
     from swtstudy.figures.profile import draw_profile as draw_profile
     from swtstudy.loads.load_path import LoadPath as LoadPath
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile as TabulatedProfile
     from swtstudy.paper.audit.audit import audit_study as audit_study
+    from swtstudy.profiles.table import TabulatedProfile as TabulatedProfile
     from swtstudy.results.fitting import fit as fit
     from swtstudy.results.optimise import optimise as optimise
     from swtstudy.results.sensitivity import sensitivity as sensitivity
@@ -43,7 +43,7 @@ _HOMES = {
     "ShearConstants": "swtstudy.units.life",
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.vocabulary.mistakes",
-    "TabulatedProfile": "swtstudy.mechanics.indenter.profile_table",
+    "TabulatedProfile": "swtstudy.profiles.table",
     "audit_study": "swtstudy.paper.audit.audit",
     "criterion_of_history": "swtstudy.fields.history",
     "draw_load": "swtstudy.figures.load",

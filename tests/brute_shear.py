@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Steps between two cusps of the line, and between two events of the cycle; planes; rounds of closer looks.
 STEPS, INSTANTS, PLANES, ROUNDS = 60, 4, 90, 4

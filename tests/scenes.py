@@ -50,7 +50,7 @@ def points(
 
 def take(batch: Points, index: ArrayLike) -> Points:
     """The points at ``index``."""
-    return batch.take(np.atleast_1d(index))
+    return batch[np.atleast_1d(index)]
 
 
 def random_points(seed: int, count: int, profile: str = "paraboloid", largest_term: int = 5) -> Points:

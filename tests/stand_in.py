@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from swtstudy import Study, run
-from swtstudy.mechanics.points import Points, Solution
+from swtstudy.solver.points import Points, Solution
 
 #: Where a stand-in goes when there is no argument for it: on the command line and in a search.
-SOLVER = "swtstudy.mechanics.solve_points"
+SOLVER = "swtstudy.solver.solve.solve_points"
 
 
 def smooth(points: Points, rtol: float) -> Solution:

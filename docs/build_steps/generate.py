@@ -10,7 +10,7 @@ from build_steps.gallery import gallery, results_of
 from build_steps.house import draw_house
 from build_steps.parameters import parameters
 from build_steps.profiles import draw_profiles
-from build_steps.rooms import MECHANICS, WHOLE, rooms
+from build_steps.rooms import WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
 from swtstudy.reports.site import write_reports
@@ -30,7 +30,6 @@ def generate(folder: Path, reports: bool = False) -> None:
         "commands": commands(),
         "gallery": gallery(ROOT, reported),
         "parameters": parameters(),
-        "rooms_mechanics": rooms(MECHANICS),
         "rooms_whole": rooms(WHOLE),
         "study_file": study_file(),
         "three_mistakes": three_mistakes(),
@@ -38,7 +37,6 @@ def generate(folder: Path, reports: bool = False) -> None:
     for name, text in texts.items():
         write_if_new(folder / f"{name}.md", text)
     draw_house(WHOLE, folder / "house.svg")
-    draw_house(MECHANICS, folder / "mechanics.svg")
     draw_profiles(folder)
     draw_best_and_worst(ROOT, folder / "best_and_worst.svg")
     shutil.rmtree(folder / "pages", ignore_errors=True)

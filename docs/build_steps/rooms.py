@@ -1,4 +1,4 @@
-"""The rooms of the package and of its mechanics, from the ground up, and what the files of each import.
+"""The rooms of the package, from the ground up, and what the files of each import.
 
 tests/pages/test_rooms.py holds the files against these lists; the pages draw them.
 """
@@ -65,9 +65,10 @@ WHOLE = House(
     ("vocabulary",),
     (
         *(
+            "profiles",
             "kernel",
             "loads",
-            "mechanics",
+            "solver",
             "points",
             "solving",
             "units",
@@ -77,14 +78,6 @@ WHOLE = House(
             "fields",
         ),
         *("figures", "contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
-    ),
-)
-MECHANICS = House(
-    "swtstudy.mechanics",
-    ("points", "numerics"),
-    (
-        *("indenter", "control", "solver", "body"),
-        *("margins", "load_cycle", "counted", "quantities", "__init__"),
     ),
 )
 

@@ -7,9 +7,9 @@ from functools import lru_cache
 import numpy as np
 from histories import INSTANTS, stress_at
 
-from swtstudy.mechanics import Points
-from swtstudy.mechanics.load_cycle import LoadCycle
 from swtstudy.paper.reference import brute_force
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.points import Points
 
 #: Width of the periodic cell over the largest contact diameter, layers, and planes over 180°.
 WIDTH, LAYERS, PLANES = 2.0, 2, 180

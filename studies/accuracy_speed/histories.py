@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.load_cycle import LoadCycle
+from swtstudy.solver.load_cycle import LoadCycle
 
 INSTANTS = 64
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from histories import stress_at
 
-from swtstudy.mechanics import Points
-from swtstudy.mechanics.load_cycle import LoadCycle
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.points import Points
 
 
 def plane_loop_s(point: Points, x: float, step: float) -> float:

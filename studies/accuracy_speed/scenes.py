@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics import Points, solve_points
 from swtstudy.paper.reference import textbook_s
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import solve_points
 
 #: Tolerance of the reference values.
 REFERENCE_RTOL = 1e-9

@@ -7,8 +7,8 @@ import time
 
 import numpy as np
 
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.points import Points, Solution
+from swtstudy.solver.points import Points, Solution
+from swtstudy.solver.solve import solve_points
 
 
 def cheap(points: Points, rtol: float) -> Solution:

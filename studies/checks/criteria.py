@@ -20,7 +20,8 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 from brute_shear import INSTANTS, PLANES, STEPS, brute
 from scenes import random_plane_points, random_points
 
-from swtstudy.mechanics import Points, solve_points
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import solve_points
 
 #: Profiles of revolution, and plane ones.
 PROFILES = ("paraboloid", "rounded_punch", "wavy_paraboloid", "power_law"), ("cylinder", "rounded_flat")
@@ -52,7 +53,7 @@ def shortfalls(profile: str, criterion: str, count: int, seed: int) -> Iterator[
     batch = drawn(profile, criterion, count, seed)
     found = solve_points(batch, 1e-4)
     for k in np.flatnonzero(found.s > 0.0):
-        own = batch.take(np.array([k]))
+        own = batch[[k]]
         value, _ = brute(own, criterion, float(batch.normal_sensitivity[k]))
         yield 1.0 - found.s[k] / value, found.s_error[k] / value
 

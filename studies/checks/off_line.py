@@ -28,13 +28,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from nonlocal_means import tight_means
 from overlooked import CHUNK, SCENES
+from swtstudy.solver.nonlocal_swt import nonlocal_swt
 
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.body.nonlocal_swt import nonlocal_swt
-from swtstudy.mechanics.solver import arguments_of
+from swtstudy.paper.audit.body_maximum import body_maximum
+from swtstudy.solver.solve import arguments_of, solve_points
 
 Array = NDArray[np.float64]
 #: By scene: points on circles, in bodies, and with means.
@@ -163,7 +162,7 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             if not (np.isfinite(x[0]) and surface > 0.0):
                 low.append(np.nan)
                 continue
-            own = points.take(one)
+            own = points[one]
             opened = open_cycle(**arguments_of(own))
             if solved.s[k] <= solved.s_error[k]:
                 # s that is nothing but rounding has no place.

@@ -29,10 +29,10 @@ from accuracy import SHAPES
 from nonlocal_means import worn
 
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.indenter import check_shape
-from swtstudy.mechanics.points import Solution
 from swtstudy.paper.audit.dense import dense_maximum
+from swtstudy.profiles.at_rest import check_shape
+from swtstudy.solver.points import Points, Solution
+from swtstudy.solver.solve import solve_points
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
@@ -196,7 +196,7 @@ def _solved(several: list[Points], rtol: float) -> list[Solution]:
         own = [points for _, points in group]
         joined, begin = solve_points(Points.joined(own), rtol), 0
         for points in own:
-            parts.append(joined.take(slice(begin, begin + len(points))))
+            parts.append(joined[slice(begin, begin + len(points))])
             begin += len(points)
     return parts
 
@@ -209,8 +209,7 @@ def _compared(name: str, points: Points, solved: list[Solution], look: Dense) ->
         for of_each in ([1.0 - each.s / dense for each in solved], [each.s_error / dense for each in solved])
     )
     words = [
-        f"{name}, {dense[k]:.10g} at {x[k]:.6g}, s {[float(each.s[k]) for each in solved]}: "
-        f"{points.take(np.array([k]))}"
+        f"{name}, {dense[k]:.10g} at {x[k]:.6g}, s {[float(each.s[k]) for each in solved]}: {points[[k]]}"
         for k in np.flatnonzero(some)[(low > error + DENSE).any(axis=0)]
     ]
     return np.stack([low, error]).transpose(2, 0, 1), words
@@ -221,7 +220,7 @@ def _dense(points: Points, some: NDArray[np.bool_]) -> Dense:
     found = np.full((2, some.size), np.nan)
     longer = 1 if points.path is None else max(len(points.path.vertices) // INTERVALS, 1)
     for k in np.flatnonzero(some):
-        found[:, k] = dense_maximum(points.take(np.array([k])), STEPS // longer, PLANES)
+        found[:, k] = dense_maximum(points[[k]], STEPS // longer, PLANES)
     return found
 
 

@@ -19,8 +19,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
-from swtstudy.mechanics import Points, solve_points
 from swtstudy.paper.audit.dense import dense_maximum
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import solve_points
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")
@@ -33,7 +34,7 @@ def rows(profile: str, points: Points) -> Iterator[list[str]]:
     """Lines of the table for the points of one profile at which s is positive."""
     tight = solve_points(points, REFERENCE_RTOL)
     for k in np.flatnonzero(tight.s > 0.0):
-        one = points.take(np.array([k]))
+        one = points[[k]]
         dense, _ = dense_maximum(one, STEPS, PLANES)
         more = dense > tight.s[k] + 2.0 * tight.s_error[k]
         if more or dense < tight.s[k] * (1.0 - 1e-4):

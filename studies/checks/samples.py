@@ -11,9 +11,10 @@ from nonlocal_means import worn
 from overlooked import CHUNK, drawn
 
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.mechanics import Points, solve_points
-from swtstudy.mechanics.body import body_maximum
-from swtstudy.mechanics.quantities import quantities_of
+from swtstudy.paper.audit import body_maximum
+from swtstudy.solver.points import Points
+from swtstudy.solver.quantities import quantities_of
+from swtstudy.solver.solve import solve_points
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
 
@@ -104,18 +105,18 @@ def on_circle(points: Points, rtol: float) -> Values:
 
 def in_body(points: Points, rtol: float) -> Values:
     """The parameter over all planes in every 16th body: its largest value, and that at the critical point."""
-    some = points.take(np.arange(0, len(points), 16))
+    some = points[np.arange(0, len(points), 16)]
     found = []
     for k, x in enumerate(solve_points(some, rtol).critical_x):
         if np.isfinite(x):
-            largest, at_line = body_maximum.body_maximum(some.take(np.array([k])), float(x))
+            largest, at_line = body_maximum.body_maximum(some[[k]], float(x))
             found += [largest.swt, float(at_line.swt)]
     return np.array(found), np.full(len(found), np.inf)
 
 
 def nonlocal_means(points: Points, rtol: float) -> Values:
     """Means of every eighth point over two distances, and their errors."""
-    return _quantities(points.take(np.arange(0, len(points), 8)), rtol, [item_of(0.05), item_of(0.2)])
+    return _quantities(points[np.arange(0, len(points), 8)], rtol, [item_of(0.05), item_of(0.2)])
 
 
 def work_and_force_ratio(points: Points, rtol: float) -> Values:

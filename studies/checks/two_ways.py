@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from overlooked import CHUNK, NEXT_TO_NONE, SCENES
 
-from swtstudy.mechanics import solve_points
+from swtstudy.solver.solve import solve_points
 
 NAMES = (
     "displacements",
@@ -50,7 +50,7 @@ def differences(task: tuple[str, int]) -> tuple[str, NDArray[np.float64], list[s
     allowed = ((first.s_error + second.s_error) / first.s)[some]
     words = [
         f"{name}: {first.s[k]:.9g} at {first.critical_x[k]:.6g}, "
-        f"{second.s[k]:.9g} at {second.critical_x[k]:.6g}, {points.take(np.array([k]))}"
+        f"{second.s[k]:.9g} at {second.critical_x[k]:.6g}, {points[[k]]}"
         for k in some[np.abs(off) > allowed]
     ]
     return name, np.stack([off, allowed], axis=-1), words

@@ -53,7 +53,7 @@ def definitions_text(definitions: Iterable[Definition]) -> str:
 def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
     """Read the user's definitions, by parameter and name."""
     from swtstudy.loads.load_path import LoadPath
-    from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
+    from swtstudy.profiles.table import TabulatedProfile
 
     kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}

@@ -10,10 +10,11 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_definitions, read_figure, read_runs
 from swtstudy.archive.recall import grid_of, request_of
-from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.values import index_at
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
+from swtstudy.vocabulary.arrays import BoolArray
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     SMALLEST_STORED_RTOL,
@@ -25,16 +26,7 @@ from swtstudy.vocabulary.mistakes import (
 )
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, attributes_of
-from swtstudy.vocabulary.variables import (
-    ATTRIBUTES,
-    COMPUTED,
-    CONTACT,
-    REGIMES,
-    SOLVED,
-    STATES,
-    WITHOUT_S,
-    has_units,
-)
+from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units
 
 #: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")

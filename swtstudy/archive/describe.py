@@ -9,7 +9,6 @@ import xarray as xr
 
 from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.recall import request_of
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import index_at
@@ -19,6 +18,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units

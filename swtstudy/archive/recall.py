@@ -21,10 +21,11 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.vocabulary.choices import NONE
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.parameters import PARAMETERS, SHIFT, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED, NONLOCAL, Request
 from swtstudy.vocabulary.variables import CONTACT, SOLVED, has_units, require
 
@@ -51,16 +52,20 @@ def grid_of(dataset: xr.Dataset) -> Grid:
             continue
         raw = np.atleast_1d(dataset[name].values).tolist()
         values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
-    along = {name: str(dataset[name].dims[0]) for name in values if dataset[name].dims}
+    if SHIFT not in values and any(values.get("bulk_stress_amplitude", ())):
+        values[SHIFT] = (NONE,)  # archives from before there was a choice
+    along = {
+        name: str(dataset[name].dims[0]) for name in values if name in dataset.coords and dataset[name].dims
+    }
     for name in (name for name in dims if name not in along.values()):
         report(name, "a dimension without values of a parameter", ", ".join(table))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
     _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
     for twice in given_twice({*values, *dims}):
         report.of(*twice)
-    own = Control.given({*values, *dims}).name
-    if dataset.get("control", own) != own:
-        report("control", literal(dataset.control.values.tolist()), literal(own))
+    control = Control.given({*values, *dims}).name
+    if dataset.get("control", control) != control:
+        report("control", literal(dataset.control.values.tolist()), literal(control))
     report.refuse()
     fixed = {name: value[0] for name, value in values.items() if name not in along}
     samples = {name: values[name] for name, dim in along.items() if dim == SAMPLE}

@@ -82,8 +82,8 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
     """
-    from swtstudy.mechanics.points import REGIMES
     from swtstudy.solving import solve as solve_grid
+    from swtstudy.vocabulary.choices import REGIMES
 
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.contacts.measured import InUnits, as_html, as_text, require_swt
-from swtstudy.mechanics.indenter import TabulatedProfile
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.values import as_number
+from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import solve_grid, spanned
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.blocks import Block, checked_blocks

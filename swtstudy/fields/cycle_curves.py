@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.numerics.arrays import ROUNDING
-from swtstudy.mechanics.points import FloatArray, IndexArray
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.criteria import NORMAL_STRAIN, SHEAR_STRESS
 
 #: States of the contact at its instants, `swtstudy.kernel.course.STATE`.
@@ -78,7 +77,7 @@ def edge_states(cycle: LoadCycle, instant: FloatArray) -> NDArray[np.int8]:
     ends = np.append(instant[1:], instant[-1])
     middle = cycle.states(0.5 * (instant + ends))
     slips = np.where(middle.push > 0, 2, 3)
-    state = np.where(middle.front >= (1.0 - ROUNDING) * middle.normal, 1, slips)
+    state = np.where(middle.front >= (1.0 - 1e-12) * middle.normal, 1, slips)
     return np.where(middle.normal > 0.0, state, 0).astype(np.int8)
 
 

@@ -13,17 +13,18 @@ import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
 from swtstudy.loads.loop import Loop
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.margins import Margins
-from swtstudy.mechanics.points import FloatArray, Points
-from swtstudy.mechanics.solver import arguments_of
 from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
-from swtstudy.vocabulary.choices import family_of
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.margins import Margins
+from swtstudy.solver.points import Points
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS, Control
+from swtstudy.vocabulary.parameters import PAIRS, SHIFT, STRAIN_SHARE, Control
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -45,8 +46,14 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     profile = grid.fixed["profile"]
     ratio = Fraction(str(grid.fixed["frequency_ratio"]))
 
+    moves = grid.fixed[SHIFT] == MOVED
+    # A bulk stress of the other body matters by the stick zone alone.
+    is_there = moves or as_number(grid.fixed[STRAIN_SHARE]) > 0.0
+
     def number(name: str) -> np.ndarray:
-        return np.array([as_number(grid.fixed[grid.control.given_for(name)])])
+        value = as_number(grid.fixed[grid.control.given_for(name)])
+        left_out = name.startswith("bulk_stress") and not is_there
+        return np.array([0.0 if left_out else value])
 
     course, control = grid.fixed["load"], grid.control
     if not number("normal_amplitude").any():
@@ -60,7 +67,8 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         control=control,
         path=course if isinstance(course, Loop) else None,
         criterion=str(grid.fixed["criterion"]),
-        **{name: number(name) for name in NUMBERS},
+        **{name: number(name) for name in NUMBERS if name != STRAIN_SHARE},
+        bulk_strain_share=number(STRAIN_SHARE) * moves,
     )
 
 

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.contour import ContourSet
 from matplotlib.path import Path
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: All in shares of the panel: steps along a contour; half of the stretch that a label covers.
 _STEP, _HALF = 0.01, 0.07

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.maps import STATE_COLOURS, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels
 from swtstudy.figures.style import DASHES, stroke
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Grey of guide lines, and of the second of two curves. A colour is a state of the contact, or an instant.
 FAINT, SECOND = "0.55", "0.4"

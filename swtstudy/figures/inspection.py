@@ -22,9 +22,8 @@ from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.ticks import plain_ticks
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.points.validity import validity_lines
-from swtstudy.vocabulary.choices import family_of
+from swtstudy.vocabulary.choices import REGIMES, family_of
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
 

@@ -17,8 +17,9 @@ from swtstudy.figures.marks import mark_along
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words, slices
 from swtstudy.figures.style import stroke
 from swtstudy.figures.ticks import tick_flags, tick_in_pi, tick_in_ratios
-from swtstudy.mechanics.points import WITHOUT_S, IndexArray
 from swtstudy.study.figure import FigureLayout
+from swtstudy.vocabulary.arrays import IndexArray
+from swtstudy.vocabulary.choices import WITHOUT_S
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 from swtstudy.vocabulary.wording import axis_words

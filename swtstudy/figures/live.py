@@ -25,10 +25,10 @@ from swtstudy.figures.inspection_panels import draw_load, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.points.values import read_value
 from swtstudy.solving import solve
-from swtstudy.vocabulary.choices import FAMILIES
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import FAMILIES, REGIMES
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
 from swtstudy.vocabulary.wording import axis_words
 
@@ -153,6 +153,7 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
     "bulk_stress_amplitude": (0.0, 1.0, 0.01, 0.0),
     "bulk_stress_mean": (-1.0, 1.0, 0.01, 0.0),
     "bulk_stress_phase": (0.0, 2 * pi, pi / 72, 0.0),
+    "bulk_strain_share": (-2.0, 2.0, 0.05, 1.0),
     "walker_exponent": (0.2, 0.8, 0.01, 0.5),
 }
 #: Ratios of the frequencies to choose from.

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
 from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.loads.loop import Loop
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.values import as_number
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.wording import as_text

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.figures.style import stroke
-from swtstudy.mechanics.points import BoolArray
+from swtstudy.vocabulary.arrays import BoolArray
 
 #: Colours of the band and of its rim, which is seen beside the lightest line; width over that of a line.
 _BAND, _RIM, _WIDE = "0.9", "0.45", 4.5

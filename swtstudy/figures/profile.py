@@ -13,10 +13,12 @@ from matplotlib.figure import Figure
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.sheet import Sheet, Width, wrap_texts
 from swtstudy.figures.style import Style, stroke, styled
-from swtstudy.mechanics.indenter import Profile, TabulatedProfile, make_profile
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
+from swtstudy.profiles.at_rest import AtRest
+from swtstudy.profiles.families import MEAN_LOAD
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -24,8 +26,8 @@ from swtstudy.vocabulary.wording import place_words
 
 #: Size of a panel on a screen, inches.
 _PANEL = (4.8, 4.0)
-#: Radii of the curves, over the contact radius at δ0; digits of the pressure.
-_RADII, _REACH, _DIGITS = 1201, 1.45, 9.0
+#: Radii of the curves, over the contact radius at δ0.
+_RADII, _REACH = 1201, 1.45
 
 
 def draw_profile(*, style: Style | None = None, width: Width | None = None, **parameters: object) -> Figure:
@@ -82,7 +84,7 @@ def draw_shape(
         raise StudyError(mistakes)
     pressed = grid.fixed["profile"]
     shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(pressed).shape}
-    profile = make_profile(pressed, shape, np.ones(1))  # type: ignore[arg-type]
+    profile = AtRest(pressed, shape)  # type: ignore[arg-type]
     edge = float(profile.radius(np.ones((1, 1)))[0, 0])
     with styled(style, width):
         sheet = Sheet(1, 2, width, _PANEL)
@@ -105,7 +107,7 @@ def draw_shape(
     return figure
 
 
-def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
+def _draw_sketch(axes: Axes, profile: AtRest, edge: float) -> None:
     """The indenter at δ0 over the undeformed half-space, the coordinates and the loads."""
     r = np.linspace(0.0, _REACH * edge, _RADII)
     height = _height(profile, r) - 1.0
@@ -136,7 +138,7 @@ def _draw_sketch(axes: Axes, profile: Profile, edge: float) -> None:
     axes.set_title(f"f, undeformed, {at}", loc="left")
 
 
-def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float], labels: Labels) -> None:
+def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], labels: Labels) -> None:
     """The radius of the face, or the length of a wave and its height, above the lower end of the indenter."""
     look: dict[str, Any] = {"arrowstyle": "<|-|>", "color": "k", "lw": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
     right = axes.get_xlim()[1]
@@ -159,7 +161,7 @@ def _draw_lengths(axes: Axes, profile: Profile, shape: Mapping[str, float], labe
         axes.annotate(words, (crests[0], level + 0.03), ha="center", va="bottom", fontsize="small")
 
 
-def _draw_springs(axes: Axes, profile: Profile, edge: float, labels: Labels) -> None:
+def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> None:
     """g, or N, and the pressure."""
     r = np.linspace(1e-6, _REACH * edge, _RADII)[None]
     springs = "$N/P_0$" if profile.plane else "$g$" if labels else "$g/\\delta_0$"
@@ -167,8 +169,8 @@ def _draw_springs(axes: Axes, profile: Profile, edge: float, labels: Labels) -> 
     axes.axvline(edge, color="0.6", lw=0.8, ls=":")
     axes.axhline(1.0, color="0.6", lw=0.8, ls=":")
     inside = r[:, r[0] < edge]
-    pressure = profile.primitives(inside, _DIGITS).outer(np.full(inside.shape, edge))[0, 0] / np.pi
-    axes.plot(inside[0], pressure, color="C3", label="$p$" if labels else "$p\\,a_H/(E^*\\delta_0)$")
+    pressure = profile.pressure(inside, np.array([[edge]]))
+    axes.plot(inside[0], pressure[0], color="C3", label="$p$" if labels else "$p\\,a_H/(E^*\\delta_0)$")
     axes.set(
         xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="half-width$/a_H$" if profile.plane else "radius$/a_H$"
     )
@@ -183,11 +185,11 @@ def _draw_springs(axes: Axes, profile: Profile, edge: float, labels: Labels) -> 
     axes.legend(frameon=False, loc="upper left")
 
 
-def _height(profile: Profile, radius: FloatArray) -> FloatArray:
+def _height(profile: AtRest, radius: FloatArray) -> FloatArray:
     """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ; in the plane N r/ξ is in the place of g."""
     node, weight = np.polynomial.legendre.leggauss(200)
     θ = 0.25 * np.pi * (1.0 + node)
-    g = profile.slope_integral((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)
+    g = profile.depth((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)
     if profile.plane:
-        weight = weight / np.sin(θ)
+        weight = MEAN_LOAD * weight / np.sin(θ)
     return np.asarray((g @ weight) * 0.5)

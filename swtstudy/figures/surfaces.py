@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.contour_labels import parts_of, places_of_labels
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
-from swtstudy.mechanics.points import FloatArray, IndexArray
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, value_words
 

@@ -32,12 +32,13 @@ from swtstudy.kernel.history import (
     SPACED,
     add_part,
     approaches,
+    find_passing,
     is_calm,
     may_be_refined,
     split,
 )
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, locate, unresolved
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, unresolved
 from swtstudy.kernel.profile import coordinate_at
 
 #: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
@@ -77,7 +78,7 @@ def body_workspace():
 
 
 @jit
-def sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m, mirrored, nu, mu):
+def sample_instant(S, B, C, P, L, k, t, edge, front, sign, m, mirrored, nu, mu):
     """Write instant m of the history, and where asked what it is half a cycle later."""
     out = S.out
     stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, S.other)
@@ -114,7 +115,7 @@ def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, both):
             edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
         else:
             edge, front = places_at(C, P, L, k, t, H.weight)
-        sample_instant(S, B, H, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
+        sample_instant(S, B, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
     H.first[z], H.intervals[z] = m, intervals
     H.instants = m + intervals + 1
 
@@ -124,15 +125,15 @@ def sample_ends(S, B, H, C, P, L, k, nu, mu):
     """A part for stretch k of which only the ends are sampled; they are shared with the part before."""
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
-    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.G, C.front[k, 0], C.front[k, 1])
+    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
     z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
     m, mirrored = H.instants, L.mirrored
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
         m -= 1
     else:
-        sample_instant(S, B, H, C, P, L, k, C.time[k, 0], edge, front, 1.0, m, mirrored, nu, mu)
+        sample_instant(S, B, C, P, L, k, C.time[k, 0], edge, front, 1.0, m, mirrored, nu, mu)
     t = C.time[k, 1]
-    sample_instant(S, B, H, C, P, L, k, t, edge_end, front_end, 1.0, m + 1, mirrored, nu, mu)
+    sample_instant(S, B, C, P, L, k, t, edge_end, front_end, 1.0, m + 1, mirrored, nu, mu)
     H.first[z], H.intervals[z], H.instants = m, 1, m + 2
 
 
@@ -147,12 +148,14 @@ def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
     coarsest
         Intervals of a part.
     """
-    open_place(B, C, R, P, x, y, z, largest)
+    open_place(B, C, R, P, x, y, z, largest, nu)
     S.overflow = B.overflow
     H.instants, H.parts, H.plane = 0, 0, P.plane
     H.X, H.all_outside, H.G = B.sigma, 1, -1.0
     if B.sigma > 0.0 and B.omega < DEEP * largest:
         H.G = coordinate_at(P, B.sigma) if B.sigma <= largest else np.inf
+    H.shift, H.load, H.reach = C.shift, C.largest, largest
+    find_passing(H, P, x, y)
     for k in range(C.stretches):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             S.overflow = 1
@@ -234,10 +237,7 @@ def value_on_plane(S, H, W, G, Q):
     """H of the best plane with the maxima between the instants."""
     follow_plane(S, H, W, G, Q)
     find_peaks(H, W, Q, 1.0, 0.0)
-    for which in range(3):
-        locate(H, W, Q, which, 1.0, 0.0)
-    swing = W.at_peak[SWING, 0] - W.at_peak[MINUS_SWING, 0]
-    return lifted(Q, W.at_peak[STRESS, 0], swing, G.noise)
+    return lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING], G.noise)
 
 
 @jit
@@ -360,7 +360,7 @@ def largest_at_places(
 
 
 @jit
-def von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values):
+def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
     """Write the largest von Mises stress of the cycle at places, (n, 3)."""
     for i in range(places.shape[0]):
         x, y, z = places[i, 0], places[i, 1], places[i, 2]

@@ -103,3 +103,86 @@ def tail(values, intervals):
         before -= LOBATTO[j * step] * term
         sign = -sign
     return (abs(last) + 2.0 * abs(before)) / intervals
+
+
+@jit
+def vertex(y0, y1, y2, f0, f1, f2):
+    """Place of the maximum of the parabola through three points, and its height; y1, f1 where it has none."""
+    left, right = (f1 - f0) / (y1 - y0), (f2 - f1) / (y2 - y1)
+    bend = (right - left) / (y2 - y0)
+    if bend >= 0.0:
+        return y1, f1
+    slope = left + bend * (y1 - y0)  # at y1
+    move = -0.5 * slope / bend
+    return y1 + move, f1 - 0.25 * slope * slope / bend
+
+
+@jit
+def vertex_at_end(values, intervals, end):
+    """Place and height of the maximum of a parabola from end 0 or `intervals` on; the end where it falls.
+
+    The parabola has the series' value and slope at the end, and its value at the point beside it.
+    """
+    step = FINEST // intervals
+    y, f = LOBATTO[end * step], values[end]
+    sign, inwards = 1.0, 0.0  # the slope inwards
+    for i in range(1, intervals + 1):
+        j = i if end == 0 else intervals - i
+        sign = -sign
+        share = 1.0 if i == intervals else 2.0
+        inwards += sign * share * (f - values[j]) / abs(LOBATTO[j * step] - y)
+    if inwards <= 0.0:
+        return y, f
+    beside = 1 if end == 0 else intervals - 1
+    width = LOBATTO[beside * step] - y
+    drop = f - values[beside] + inwards * abs(width)  # bend times width² is minus that
+    if drop <= 0.0:
+        return y, f
+    share = 0.5 * inwards * abs(width) / drop
+    return y + min(share, 1.0) * width, f + 0.5 * share * inwards * abs(width)
+
+
+@jit
+def peak(values, intervals, node, weight, tolerance):
+    """Place and value of the local maximum of the series through values at the Lobatto points.
+
+    Newton's method for the root of the slope next to the largest value, that at `node`, until a step promises
+    a rise by no more than the tolerance. weight has FINEST + 1 places.
+    """
+    step = FINEST // intervals
+    best_y, best = LOBATTO[node * step], values[node]
+    if node == 0 or node == intervals:
+        y = vertex_at_end(values, intervals, node)[0]
+        if y == best_y:
+            return best_y, best
+        beside = LOBATTO[(1 if node == 0 else intervals - 1) * step]
+        low, high = min(beside, best_y), max(beside, best_y)
+    else:
+        low, high = LOBATTO[(node - 1) * step], LOBATTO[(node + 1) * step]
+        y = vertex(low, best_y, high, values[node - 1], best, values[node + 1])[0]
+    for _ in range(12):
+        barycentric(y, intervals, weight)
+        f, slope, bend = 0.0, 0.0, 0.0
+        for j in range(intervals + 1):
+            f += weight[j] * values[j]
+        if f > best:
+            best_y, best = y, f
+        for j in range(intervals + 1):
+            gap = y - LOBATTO[j * step]
+            if gap == 0.0:
+                return best_y, best
+            slope += weight[j] * (f - values[j]) / gap
+        for j in range(intervals + 1):
+            gap = y - LOBATTO[j * step]
+            bend += 2.0 * weight[j] * (slope - (f - values[j]) / gap) / gap
+        if slope > 0.0:
+            low = y
+        else:
+            high = y
+        move = -slope / bend if bend < 0.0 else high - low
+        if 0.5 * abs(slope * move) <= tolerance:
+            break
+        y += move
+        if not low < y < high:
+            y = 0.5 * (low + high)
+    return best_y, best

@@ -26,7 +26,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.line import ROUNDS
 from swtstudy.kernel.load import has_bulk
-from swtstudy.kernel.planes import BETWEEN, above, find_peaks, locate, unresolved
+from swtstudy.kernel.planes import BETWEEN, above, find_peaks, unresolved
 from swtstudy.kernel.profile import place_of
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md), unless a bulk stress or another
@@ -195,7 +195,7 @@ def settle(D, G, S, H, W, C, P, K, L, Q, angle):
                 doubled += 1
         for which in range(3):
             z = W.part[which]
-            add_peak(D, z, locate(H, W, Q, which, 1.0, 0.0))
+            add_peak(D, z, W.place[which])
             is_high = before > (1.0 - Q.line) * D.best and D.sure[z] == 0 and W.double[z] == 0
             if is_high and H.intervals[z] < FINEST and may_be_refined(H, C, z):
                 W.double[z], D.sure[z] = 1, 1
@@ -282,7 +282,7 @@ def first_arcs(D, G, S, H, W, C, P, K, L, Q):
 @jit
 def search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, known):
     """Largest value on the circle at a place s, if it is above what is known; else that."""
-    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
+    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, 1.0)
     bound_turning(D, H, Q)
     D.angles, D.peaks, D.next, D.parts, D.swing, D.highest = 0, 0, 0, 0, 0.0, 0.0
     D.best = least = lift(Q, known)
@@ -378,9 +378,12 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
 
 @jit
 def search_circles(D, G, S, C, R, _, H, W, K, profiles, which, loads, asks, found):
-    """Write the largest values on the circles of points, where the line may not be enough."""
+    """Write the largest values on the circles of points, where the line may not be enough.
+
+    Not where the stick zone is shifted (`swtstudy.kernel.shifted_circle`).
+    """
     for i in range(which.shape[0]):
-        if found[i].circle:
+        if found[i].circle and found[i].shift == 0.0:
             profile, load = profiles[which[i]], loads[i]
             top = surface_value(D, G, S, C, R, H, W, K, profile, load, asks[i], found[i])
             found[i].s_surface, found[i].overflow = top, C.overflow

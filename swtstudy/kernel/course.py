@@ -4,8 +4,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import OPEN, offset, piece_at
-from swtstudy.kernel.events import SAME_INSTANT
-from swtstudy.kernel.growth import coordinates_at
+from swtstudy.kernel.growth import coordinates_at, find_stretch
 from swtstudy.kernel.history import begin_history, split, stress
 from swtstudy.kernel.line import ASKED, evaluate
 from swtstudy.kernel.load import bulk_at, load_at
@@ -27,28 +26,6 @@ STATE = np.dtype(
         ("answer", "f8"),
     ]
 )
-
-
-@jit
-def find_stretch(C, L, t):
-    """The stretch of an instant in [0, period], the instant within it, and the sign of the tangential load.
-
-    Where two stretches meet it is the earlier one.
-    """
-    last, sign = C.stretches - 1, 1.0
-    if t <= C.time[0, 0] + SAME_INSTANT * L.period:
-        t += L.period
-    if t > C.time[last, 1] and L.mirrored:
-        t -= 0.5 * L.period
-        sign = -1.0
-    low, high = 0, last
-    while low < high:
-        middle = (low + high) // 2
-        if C.time[middle, 1] >= t - SAME_INSTANT * L.period:
-            high = middle
-        else:
-            low = middle + 1
-    return low, min(max(t, C.time[low, 0]), C.time[low, 1]), sign
 
 
 @jit
@@ -99,9 +76,9 @@ def write_springs(C, R, P, L, U, states, places, largest, compression, force):
 
 
 @jit
-def write_stress(H, C, R, P, K, states, place, largest, nu, mu):
-    """Write the stress at place s, as a history of the instants of the states."""
-    begin_history(H, C, R, P, K, place, largest)
+def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
+    """Write the stress at place s on one side, as a history of the instants of the states."""
+    begin_history(H, C, R, P, K, place, largest, side)
     for i in range(states.shape[0]):
         state = states[i]
         stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, nu, mu)
@@ -111,12 +88,12 @@ def write_stress(H, C, R, P, K, states, place, largest, nu, mu):
 
 
 @jit
-def write_parts(H, C, R, P, K, L, place, largest, nu, mu):
-    """Cut the cycle where the stress at place s has cusps in time: the times of the parts are in the history.
+def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
+    """Cut the cycle where the stress at place s on one side has cusps in time.
 
-    Of a mirrored cycle those of half of it.
+    The times of the parts are in the history: of a mirrored cycle those of half of it.
     """
-    begin_history(H, C, R, P, K, place, largest)
+    begin_history(H, C, R, P, K, place, largest, side)
     for k in range(C.stretches):
         if H.parts + 7 >= H.first.shape[0]:
             C.overflow = 1

@@ -18,7 +18,9 @@ from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS
+from swtstudy.kernel.mean import MAX_DISTANCES, cells, means_at
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.shift import centre_of, shift_of
 
 #: Tolerance of what grew, of the stress itself: 1e-8 of the largest pressure.
 GROWTH = 1e-7
@@ -72,6 +74,7 @@ def open_cycle(tolerance=GROWTH, **given):
     if C["no_equilibrium"]:
         return None
     _refuse_overflow(C["overflow"])
+    C["shift"] = shift_of(L, P, Q, C["event"], np.int64(C["events"]))
     lay_out(R, C, P, L, tolerance)
     return Opened(C, R, P, L, Q, float(place_of(P, float(C["largest"]))))
 
@@ -96,10 +99,13 @@ def largest_radius(opened):
 
 def passed_radii(opened, most):
     """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
-    C, _, P, _, _, _ = opened
+    C, _, P, *_ = opened
     pieces, stretches = int(C["pieces"]), int(C["stretches"])
     starts = C["start_s"][:pieces][C["used"][:pieces] == 1]
     every = np.unique(np.concatenate([starts, C["place"][:stretches, :: FINEST // 4].ravel()]))
+    if C["shift"] != 0.0:
+        off = [centre_of(P, C["shift"], C["largest"], opened.largest, s) for s in every]
+        every = np.unique(np.abs(np.concatenate([every, every + off, every - off])))
     if len(every) > most:
         every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
     return np.sqrt(every * every + float(P["flat_radius"]) ** 2)
@@ -155,13 +161,47 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
     return values, missing, normals
 
 
+def means_about(opened, x, double_angle, distance, rtol):
+    """Means of the criterion about a place of the surface line.
+
+    Parameters
+    ----------
+    opened
+        The load cycle.
+    x, double_angle
+        Signed x in a_H, and 2θ of the critical plane there in rad.
+    distance
+        Shape (k,): ℓ > 0 in a_H.
+    rtol
+        Relative accuracy asked for.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (5, k, 2), values and absolute errors: over half spheres, or half discs in the plane; at ℓ/2
+        straight down, and along the critical plane; over 0 … 2ℓ straight down, and along the plane.
+    """
+    C, R, P, L, Q, largest = opened
+    H, W, K = _workspace()[3:]
+    B, S, G = _of_this_thread("body", body_workspace)
+    M, found = _of_this_thread("cells", cells), np.empty((5, len(distance), 2))
+    for first in range(0, len(distance), MAX_DISTANCES):
+        some = np.ascontiguousarray(distance[first : first + MAX_DISTANCES])
+        part = np.empty((5, len(some), 2))
+        own = float(x), float(double_angle), some, largest, float(rtol), part
+        means_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
+        _refuse_overflow(np.isnan(part).any())
+        found[:, first : first + MAX_DISTANCES] = part
+    return found
+
+
 def von_mises_at(opened, places):
     """Largest von Mises stress of the cycle at places (n, 3), in E* δ0/a_H."""
     C, R, P, L, Q, largest = opened
     H, W, K = _workspace()[3:]
     B, S, _ = _of_this_thread("body", body_workspace)
     values = np.empty(len(places))
-    von_mises_at_places(S, B, H, W, C, R, P, K, L, Q, places, largest, values)
+    von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values)
     _refuse_overflow(np.isnan(values).any())
     return values
 

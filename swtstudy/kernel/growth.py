@@ -5,6 +5,7 @@ import numpy as np
 from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric, fit, panel_of, tail
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
+from swtstudy.kernel.events import SAME_INSTANT
 from swtstudy.kernel.load import NORMAL, instant_of, load_at, rates_at
 from swtstudy.kernel.profile import MAX_PANELS, coordinate_at, density_at, place_of
 
@@ -159,3 +160,25 @@ def tabulate_places(C, P, L, k, tolerance):
         if C.interpolated[k] or intervals == FINEST:
             return
         intervals *= 2
+
+
+@jit
+def find_stretch(C, L, t):
+    """The stretch of an instant in [0, period], the instant within it, and the sign of the tangential load.
+
+    Where two stretches meet it is the earlier one.
+    """
+    last, sign = C.stretches - 1, 1.0
+    if t <= C.time[0, 0] + SAME_INSTANT * L.period:
+        t += L.period
+    if t > C.time[last, 1] and L.mirrored:
+        t -= 0.5 * L.period
+        sign = -1.0
+    low, high = 0, last
+    while low < high:
+        middle = (low + high) // 2
+        if C.time[middle, 1] >= t - SAME_INSTANT * L.period:
+            high = middle
+        else:
+            low = middle + 1
+    return low, min(max(t, C.time[low, 0]), C.time[low, 1]), sign

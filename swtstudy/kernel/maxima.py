@@ -24,6 +24,7 @@ from swtstudy.kernel.line import (
     position,
 )
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 
 #: What may be hidden between two places, over the values there, and above a maximum, over its value.
 MAPPED, FOUND = 5e-3, 1e-4
@@ -37,7 +38,7 @@ MAXIMA = np.dtype(
         ("x", "f8", (MAX_MAXIMA,)),
         ("angle", "f8", (MAX_MAXIMA,)),  # 2θ
         ("value", "f8", (MAX_MAXIMA,)),
-        ("between", "f8", (MAX_MAXIMA, 2)),  # places s of its neighbours
+        ("between", "f8", (MAX_MAXIMA, 2)),  # places s of its neighbours, in the end x
         ("rank", "i8", (MAX_SEEN,)),  # positions in the order of their places
         ("overflow", "i8"),
     ]
@@ -149,6 +150,7 @@ def find_maxima(C, R, S, H, W, K, M, P, L, Q, limit):
     if C.overflow or C.no_equilibrium:
         M.overflow = C.overflow
         return
+    C.shift = shift_of(L, P, Q, C.event, C.events)
     lay_out(R, C, P, L, Q.growth)
     m = map_line(S, H, W, C, R, P, K, L, Q, limit)
     for side in range(1 if L.mirrored else 2):
@@ -156,7 +158,11 @@ def find_maxima(C, R, S, H, W, K, M, P, L, Q, limit):
     b = P.flat_radius
     for top in range(M.maxima):
         m = refine_top(S, M, H, W, C, R, P, K, L, Q, place_of(P, C.largest), top, m, limit)
-        M.x[top] = (1.0 - 2.0 * M.side[top]) * sqrt(b * b + M.place[top] * abs(M.place[top]))
+        sign = 1.0 - 2.0 * M.side[top]
+        M.x[top] = sign * sqrt(b * b + M.place[top] * abs(M.place[top]))
+        for end in range(2):
+            place = M.between[top, end]
+            M.between[top, end] = sign * sqrt(b * b + place * abs(place))
     M.overflow = max(M.overflow, C.overflow)
 
 

@@ -13,7 +13,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, tail
+from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, peak, tail
 from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE
@@ -45,9 +45,11 @@ WORK = np.dtype(
         ("noise", "f8"),  # tension that rounding may make
         ("curvature", "f8"),  # bound of -d²/d(2θ)²
         ("waiting", "f8", (128, 4)),  # intervals of planes: 2θ, value, width, value at the other end
-        ("top", "f8", (3,)),  # largest estimate of each curve
-        ("part", "i8", (3,)),  # and its part and instant
-        ("node", "i8", (3,)),
+        ("top", "f8", (3,)),  # largest maximum of each curve
+        ("part", "i8", (3,)),  # and its part, and its place there, from -1 to 1
+        ("place", "f8", (3,)),
+        ("height", "f8", (MAX_PARTS, 3)),  # of each curve in each part, or a bound of it
+        ("highest", "i8", (MAX_PARTS, 3)),  # its largest instant
         ("at_peak", "f8", (3, 3)),  # coefficients (1, cos 2θ, sin 2θ) of each curve at its maximum over time
     ]
 )
@@ -104,68 +106,69 @@ def curve_at(W, Q, i, which, C, S):
 
 
 @jit
-def vertex(y0, y1, y2, f0, f1, f2):
-    """Place of the maximum of the parabola through three points, and its height; y1, f1 where it has none."""
-    left, right = (f1 - f0) / (y1 - y0), (f2 - f1) / (y2 - y1)
-    bend = (right - left) / (y2 - y0)
-    if bend >= 0.0:
-        return y1, f1
-    slope = left + bend * (y1 - y0)  # at y1
-    move = -0.5 * slope / bend
-    return y1 + move, f1 - 0.25 * slope * slope / bend
-
-
-@jit
-def middle_node(node, first, intervals):
-    """The inner instant of a part next to `node`, or itself: three points about it are in the part."""
-    return min(max(node, first + 1), first + intervals - 1)
-
-
-@jit
-def estimate(H, W, Q, z, node, which, C, S):
-    """Estimated maximum of a curve within part z, from its largest instant."""
-    i = middle_node(node, H.first[z], H.intervals[z])
-    step = FINEST // H.intervals[z]
-    j = (i - H.first[z]) * step
-    f = curve_at(W, Q, node, which, C, S)
-    y, height = vertex(
-        LOBATTO[j - step],
-        LOBATTO[j],
-        LOBATTO[j + step],
-        curve_at(W, Q, i - 1, which, C, S),
-        curve_at(W, Q, i, which, C, S),
-        curve_at(W, Q, i + 1, which, C, S),
-    )
-    return max(f, height) if LOBATTO[j - step] < y < LOBATTO[j + step] else f
-
-
-@jit
 def find_peaks(H, W, Q, C, S):
-    """For each of the three curves on a plane, the part and the instant with its largest maximum."""
+    """Write the largest maximum over time of each of the three curves on a plane, and those of all parts.
+
+    A part has the maximum of its series next to its largest instant, or a bound of it that is below the
+    largest maximum.
+    """
     of_b, of_c = swing_weights(Q, C, S)
     for which in range(3):
         W.top[which] = -1e300
     for z in range(H.parts):
         first, last = H.first[z], H.first[z] + H.intervals[z]
         top, high, low = -1e300, -1e300, 1e300
-        at_top, at_high, at_low = first, first, first
         for i in range(first, last + 1):
             b, c = W.b[i], W.c[i]
             stress, swing = W.a[i] + b * C + c * S, W.d[i] + b * of_b + c * of_c
             if stress > top:
-                top, at_top = stress, i
+                top, W.highest[z, STRESS] = stress, i
             if swing > high:
-                high, at_high = swing, i
+                high, W.highest[z, SWING] = swing, i
             if swing < low:
-                low, at_low = swing, i
+                low, W.highest[z, MINUS_SWING] = swing, i
+        W.height[z, STRESS], W.height[z, SWING], W.height[z, MINUS_SWING] = top, high, -low
         for which in range(3):
-            node = at_top if which == STRESS else at_high if which == SWING else at_low
-            if H.intervals[z] == 1:
-                height = top if which == STRESS else high if which == SWING else -low
-            else:
-                height = estimate(H, W, Q, z, node, which, C, S)
-            if height > W.top[which]:
-                W.top[which], W.part[which], W.node[which] = height, z, node
+            if W.height[z, which] > W.top[which]:
+                at = (W.highest[z, which] - first) * (FINEST // H.intervals[z])
+                W.top[which], W.part[which], W.place[which] = W.height[z, which], z, LOBATTO[at]
+    for z in range(H.parts):
+        if H.intervals[z] == 1:
+            continue
+        for which in range(3):
+            W.height[z, which] += rise_beside(H, W, Q, z, which, C, S)
+            if W.height[z, which] > W.top[which]:
+                place, W.height[z, which] = peak_of_part(H, W, Q, z, which, C, S)
+                if W.height[z, which] > W.top[which]:
+                    W.top[which], W.part[which], W.place[which] = W.height[z, which], z, place
+
+
+@jit
+def rise_beside(H, W, Q, z, which, C, S):
+    """Bound of the rise of a curve within part z above its largest instant, from those beside it."""
+    i, first, last = W.highest[z, which], H.first[z], H.first[z] + H.intervals[z]
+    f = curve_at(W, Q, i, which, C, S)
+    if first < i < last:
+        before, after = curve_at(W, Q, i - 1, which, C, S), curve_at(W, Q, i + 1, which, C, S)
+        return 0.5 * (f - before + f - after)
+    inwards = 1 if i == first else -1
+    second = curve_at(W, Q, i + inwards, which, C, S)
+    third = curve_at(W, Q, i + 2 * inwards, which, C, S)
+    return abs(f - second) + abs(second - third)
+
+
+@jit
+def peak_of_part(H, W, Q, z, which, C, S):
+    """Place, from -1 to 1, and value of a curve's maximum next to its largest instant in part z."""
+    first, intervals, values = H.first[z], H.intervals[z], W.curve[0]
+    for j in range(intervals + 1):
+        values[j] = curve_at(W, Q, first + j, which, C, S)
+    node = W.highest[z, which] - first
+    best = values[node]
+    span = max(abs(values[0] - best), abs(values[intervals] - best))
+    if intervals == FINEST and tail(values, intervals) > RESOLVED * span:
+        return LOBATTO[node], best
+    return peak(values, intervals, node, W.weight, 0.1 * Q.plane * abs(best))
 
 
 @jit
@@ -177,50 +180,11 @@ def in_swing(Q, b, c):
 
 
 @jit
-def locate(H, W, Q, which, C, S):
-    """Write the coefficients of a curve at its maximum over time: parabolas on the series of its part.
-
-    Returns the place of the maximum on the part, from -1 to 1.
-    """
-    z, node = W.part[which], W.node[which]
+def locate(H, W, Q, which):
+    """Write the coefficients of a curve at its maximum over time."""
+    z = W.part[which]
     first, intervals = H.first[z], H.intervals[z]
-    step = FINEST // intervals
-    if intervals == 1:
-        of_cos, of_sin = W.b[node], W.c[node]
-        if which != STRESS:
-            of_cos, of_sin = in_swing(Q, of_cos, of_sin)
-        W.at_peak[which, 0] = W.a[node] if which == STRESS else W.d[node]
-        W.at_peak[which, 1], W.at_peak[which, 2] = of_cos, of_sin
-        return -1.0 if node == first else 1.0
-    values = W.curve[0]
-    for j in range(intervals + 1):
-        values[j] = curve_at(W, Q, first + j, which, C, S)
-    i = middle_node(node, first, intervals) - first
-    y0, y1, y2 = LOBATTO[(i - 1) * step], LOBATTO[i * step], LOBATTO[(i + 1) * step]
-    f0, f1, f2 = values[i - 1], values[i], values[i + 1]
-    best, at = values[node - first], LOBATTO[(node - first) * step]
-    span = max(abs(values[0] - best), abs(values[intervals] - best))
-    resolved = intervals < FINEST or tail(values, intervals) <= RESOLVED * span
-    for _ in range(4 if resolved else 0):
-        y = vertex(y0, y1, y2, f0, f1, f2)[0]
-        if not (y > y0 and y < y2) or abs(y - y1) < 1e-3 * (y2 - y0):
-            break
-        barycentric(y, intervals, W.weight)
-        f = 0.0
-        for j in range(intervals + 1):
-            f += W.weight[j] * values[j]
-        if f > best:
-            best, at = f, y
-        if (y > y1) == (f > f1):
-            if f > f1:
-                y0, f0, y1, f1 = y1, f1, y, f
-            else:
-                y0, f0 = y, f
-        elif f > f1:
-            y2, f2, y1, f1 = y1, f1, y, f
-        else:
-            y2, f2 = y, f
-    barycentric(at, intervals, W.weight)
+    barycentric(W.place[which], intervals, W.weight)
     constant, of_cos, of_sin = 0.0, 0.0, 0.0
     for j in range(intervals + 1):
         w = W.weight[j]
@@ -230,7 +194,6 @@ def locate(H, W, Q, which, C, S):
     if which != STRESS:
         of_cos, of_sin = in_swing(Q, of_cos, of_sin)
     W.at_peak[which, 0], W.at_peak[which, 1], W.at_peak[which, 2] = constant, of_cos, of_sin
-    return at
 
 
 @jit
@@ -244,7 +207,7 @@ def climb(H, W, Q, angle, tolerance):
         C, S = cos(angle), sin(angle)
         find_peaks(H, W, Q, C, S)
         for which in range(3):
-            locate(H, W, Q, which, C, S)
+            locate(H, W, Q, which)
         s0, s1, s2 = W.at_peak[0, 0], W.at_peak[0, 1], W.at_peak[0, 2]
         r0, r1 = W.at_peak[1, 0] - W.at_peak[2, 0], W.at_peak[1, 1] - W.at_peak[2, 1]
         r2 = W.at_peak[1, 2] - W.at_peak[2, 2]
@@ -351,47 +314,32 @@ def unresolved(H, W, Q, z, C, S, tolerance):
 
     0 where the part is resolved. The last coefficients of its series tell what the interpolation misses. A
     part that stays below the largest maximum of each curve by more than that is resolved anyway.
+    The maxima are those of `find_peaks` on the same plane.
     """
-    first, intervals = H.first[z], H.intervals[z]
+    first, intervals, miss = H.first[z], H.intervals[z], 0.0
     of_b, of_c = swing_weights(Q, C, S)
-    at_top, at_high, at_low = first, first, first
-    for j in range(intervals + 1):
-        i = first + j
-        b, c = W.b[i], W.c[i]
-        W.curve[0, j], W.curve[1, j] = W.a[i] + b * C + c * S, W.d[i] + b * of_b + c * of_c
-        if W.curve[0, j] > W.curve[0, at_top - first]:
-            at_top = i
-        if W.curve[1, j] > W.curve[1, at_high - first]:
-            at_high = i
-        if W.curve[1, j] < W.curve[1, at_low - first]:
-            at_low = i
     of_tension, of_swing = sensitivities(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
-    miss = 0.0
     if H.cusps[z] == MONOTONE:
         return miss
     if intervals == 1:  # of a short side, between whose ends the stress is next to monotone
         db, dc = abs(W.b[first + 1] - W.b[first]), abs(W.c[first + 1] - W.c[first])
         of_b, of_c = max(abs(of_b), abs(of_c)), max(abs(of_b), abs(of_c))
         for which in range(3):
+            moved = abs(W.d[first + 1] - W.d[first]) + of_b * db + of_c * dc
             if which == STRESS:
-                top, moved = max(W.curve[0, 0], W.curve[0, 1]), abs(W.a[first + 1] - W.a[first]) + db + dc
-            else:
-                top = (
-                    max(W.curve[1, 0], W.curve[1, 1])
-                    if which == SWING
-                    else -min(W.curve[1, 0], W.curve[1, 1])
-                )
-                moved = abs(W.d[first + 1] - W.d[first]) + of_b * db + of_c * dc
+                moved = abs(W.a[first + 1] - W.a[first]) + db + dc
             share = of_tension if which == STRESS else of_swing
-            rise = top + moved - W.top[which]
+            rise = W.height[z, which] + moved - W.top[which]
             if rise > 0.0 and moved * share > tolerance:
                 miss = max(miss, min(rise, moved) * share)
         return miss
+    for j in range(intervals + 1):
+        a, b, c, d = W.a[first + j], W.b[first + j], W.c[first + j], W.d[first + j]
+        W.curve[0, j], W.curve[1, j] = a + b * C + c * S, d + b * of_b + c * of_c
     for which in range(3):
-        node = at_top if which == STRESS else at_high if which == SWING else at_low
         share = of_tension if which == STRESS else of_swing
         error = tail(W.curve[0 if which == STRESS else 1], intervals)
-        rise = estimate(H, W, Q, z, node, which, C, S) + 2.0 * error - W.top[which]
+        rise = W.height[z, which] + 2.0 * error - W.top[which]
         if rise > 0.0 and error * share > tolerance:
             miss = max(miss, min(rise, 2.0 * error) * share)
     return miss

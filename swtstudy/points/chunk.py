@@ -8,11 +8,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.mechanics.points import BoolArray, IntArray, Points, Solution
 from swtstudy.points.canonical import COST, SHARED_COLUMNS, Definitions, Distinct, Table, alike, points_from
 from swtstudy.points.found import Found, join
+from swtstudy.solver.points import Points, Solution
+from swtstudy.vocabulary.arrays import BoolArray, IntArray
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
-from swtstudy.vocabulary.variables import COMPUTED, FAILED, REGIMES, WITHOUT_S
+from swtstudy.vocabulary.variables import COMPUTED, FAILED
 
 #: Solves points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
@@ -100,10 +102,10 @@ def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Ite
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
-    """The solver of the mechanics, imported where it runs."""
-    from swtstudy import mechanics
+    """The solver, imported where it runs."""
+    from swtstudy.solver import solve
 
-    return mechanics.solve_points(points, rtol)
+    return solve.solve_points(points, rtol)
 
 
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Found]:
@@ -139,7 +141,7 @@ def fill(found: Found, chunk: Chunk, rtol: float, solver: Solver = solve_points)
         if lost.any():
             raise ArithmeticError("the solver found no value")
         if asked.items:
-            from swtstudy.mechanics.quantities import quantities_of
+            from swtstudy.solver.quantities import quantities_of
 
             found.arrays.update(quantities_of(points, asked, solution))
         if asked.distances:

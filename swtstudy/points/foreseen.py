@@ -7,7 +7,7 @@ import numpy as np
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import Grid
 from swtstudy.points.labelled import label, margins
-from swtstudy.vocabulary.variables import REGIMES
+from swtstudy.vocabulary.choices import REGIMES
 
 #: Larger grids are not looked at: a point takes some 30 µs.
 MOST_POINTS = 100_000

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray, FloatArray, IntArray
 from swtstudy.points.canonical import ROW, Distinct, Table, group_rows
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IntArray
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.quantities import NONLOCAL, Request
-from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, REGIMES, SOLVED
+from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
 
 
 @dataclass(frozen=True)

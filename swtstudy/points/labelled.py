@@ -11,17 +11,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.mechanics.points import BoolArray, IndexArray
 from swtstudy.points.canonical import Distinct, alike, points_from
 from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, with_values_of
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
+from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request, attributes_of
+from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, STICK_ENDS, Request, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES, FAILED, SOLVED
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -60,7 +60,8 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
         coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
         coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
     for name, value in grid.fixed.items():
-        if not grid.row(name).goes_without_saying(value):
+        says = name == SHIFT and "stick_zone" in grid.margins
+        if says or not grid.row(name).goes_without_saying(value):
             coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
     coordinates["control"] = control_coordinate(grid)
     if asked.distances:
@@ -125,6 +126,10 @@ def turned(
         if name in found:
             flips = mirrored.reshape(-1, *(1,) * (found[name].ndim - 1))
             found[name] = np.where(flips, -found[name], found[name]) + 0.0
+    if {*STICK_ENDS} <= found.keys():
+        left, right = (found[name] for name in STICK_ENDS)
+        ends = np.where(mirrored, -right, left) + 0.0, np.where(mirrored, -left, right) + 0.0
+        found |= zip(STICK_ENDS, ends, strict=True)
     angle = found["critical_angle"]
     found["critical_angle"] = np.where(angle <= -90, angle + 180, angle)
     for name in _per_cycle(found):
@@ -167,6 +172,18 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
         own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
 
 
+def zones(moved: FloatArray, grid: Grid) -> NDArray[np.int8]:
+    """Index into `ZONES` of each point of a grid, from where the stick zone is moved, (grid.size,)."""
+    plane = [is_plane(value) for value in grid.values("profile")]
+    dim = grid.dimension("profile")
+    if dim is None:
+        of_points: NDArray = np.full(grid.size, plane[0])
+    else:
+        place = np.unravel_index(np.arange(grid.size), grid.shape)[grid.dims.index(dim)]
+        of_points = np.array(plane)[place]
+    return np.where(moved == 1.0, np.where(of_points, 1, 2), 0).astype(np.int8)
+
+
 def control_coordinate(grid: Grid) -> xr.Variable:
     """The scalar coordinate ``control``: what is prescribed on a grid."""
     attributes = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
@@ -199,7 +216,7 @@ def margins(points: Distinct, grid: Grid, foreseen: bool = False) -> dict[str, N
     ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
     known without a compiler, to 1e-5.
     """
-    from swtstudy.mechanics.margins import Margins
+    from swtstudy.solver.margins import Margins
 
     names = grid.margins
     if not names:
@@ -211,12 +228,13 @@ def margins(points: Distinct, grid: Grid, foreseen: bool = False) -> dict[str, N
             with np.errstate(all="ignore"):
                 found_here = of(points_from(points.rows[some], points.definitions))
             every[:, some] = list(vars(found_here).values())
-    radius, stick, shift, ratio, slide = every[:, points.index]
+    radius, stick, shift, ratio, slide, moved = every[:, points.index]
     width = radius - stick  # of the slip zone
     if "bulk_shift" in names:
-        shift = shift * grid.strain_shares
+        shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
+            "stick_zone": zones(moved, grid),
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": ratio,

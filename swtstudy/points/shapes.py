@@ -17,7 +17,7 @@ from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 if TYPE_CHECKING:
-    from swtstudy.mechanics.points import FloatArray, Shape
+    from swtstudy.vocabulary.arrays import FloatArray, Shape
 
 #: Shapes of one profile; each is looked at, a million in 0.1 s.
 MOST_SHAPES = 50_000_000
@@ -74,7 +74,7 @@ def check_shapes(grid: Grid, report: Report) -> None:
             continue
         refused, first = _refused(grid, profile, shapes)
         if first is not None:
-            from swtstudy.mechanics.indenter import check_shape
+            from swtstudy.profiles.at_rest import check_shape
 
             shape, depth = first
             found = ", ".join(f"{name} = {value:g}" for name, value in shape.items())
@@ -83,7 +83,7 @@ def check_shapes(grid: Grid, report: Report) -> None:
 
 def _check_table(grid: Grid, profile: Any, report: Report) -> None:
     """A profile that the user has defined, up to the largest depth."""
-    from swtstudy.mechanics.indenter import check_shape
+    from swtstudy.profiles.at_rest import check_shape
 
     depth = largest_depths(grid, profile, {}, 1.0 + np.maximum(np.array([_largest_course(grid)]), 0.0))
     wrong = check_shape(profile, {}, depth.item())
@@ -119,7 +119,7 @@ def _shapes_of(grid: Grid, profile: str) -> Grid:
 
 def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
     """Number of shapes that are not admissible; the first of these, and its largest depth."""
-    from swtstudy.mechanics.indenter import compact_shapes
+    from swtstudy.profiles.at_rest import compact_shapes
 
     names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
     refused, first = 0, None
@@ -142,8 +142,7 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
     """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
-    from swtstudy.mechanics.control.coordinate import largest_depth
-    from swtstudy.mechanics.indenter import compact_shapes
+    from swtstudy.profiles.at_rest import compact_shapes, largest_depth
 
     if not grid.control.normal_force:
         return normal
@@ -153,5 +152,5 @@ def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -
     some = {name: values[sound] for name, values in shape.items()}
     for rows in np.array_split(np.arange(len(sound)), len(sound) // _TOGETHER + 1):
         own = {name: values[rows] for name, values in some.items()}
-        depth[sound[rows]] = largest_depth(grid.control, profile, own, normal[rows])
+        depth[sound[rows]] = largest_depth(profile, own, normal[rows])
     return depth

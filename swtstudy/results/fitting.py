@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
@@ -22,6 +21,7 @@ from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,

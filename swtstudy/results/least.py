@@ -17,8 +17,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray, Rows
 from swtstudy.results.objective import Function, Objective
+from swtstudy.vocabulary.arrays import Columns, FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: Points of a generation: so many for each parameter, about scipy's 15, and not fewer than the latter.
@@ -76,7 +76,7 @@ _BENT = 0.2
 
 
 @dataclass(frozen=True)
-class Planes(Rows):
+class Planes(Columns):
     """Points, values and gradients of m tangent planes, shapes (m, d), (m,) and (m, d)."""
 
     points: FloatArray
@@ -93,7 +93,7 @@ class Planes(Rows):
 
     def within(self, centre: FloatArray, distance: float) -> Planes:
         """Return the planes of points within a distance along each axis."""
-        return self.take((np.abs(self.points - centre) <= distance).all(axis=1))
+        return self[(np.abs(self.points - centre) <= distance).all(axis=1)]
 
 
 def probes(points: FloatArray, distance: float) -> FloatArray:

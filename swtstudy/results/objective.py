@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
 from swtstudy.units.variables import LIVES
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 
 

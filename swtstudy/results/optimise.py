@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
 from swtstudy.units.variables import LIVES
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     ALLOWED_SEED,

@@ -8,9 +8,9 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
-from swtstudy.mechanics.points import IntArray
 from swtstudy.points.chunk import Chunk, Solver, solve_chunk
 from swtstudy.points.found import Found
+from swtstudy.vocabulary.arrays import IntArray
 from swtstudy.vocabulary.variables import FAILED
 from swtstudy.vocabulary.version import SOLVER_VERSION
 

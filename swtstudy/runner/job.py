@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.mechanics.points import IntArray
 from swtstudy.points.chunk import Solver
 from swtstudy.points.found import Found, Run, join
 from swtstudy.runner.engine import Pool, WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
+from swtstudy.vocabulary.arrays import IntArray
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION

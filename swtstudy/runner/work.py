@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.points import BoolArray
 from swtstudy.points.canonical import Distinct, group_rows
 from swtstudy.points.chunk import Chunk, Solver, chunk_of, chunks, cut, solve_chunk
 from swtstudy.points.found import Found, look_up, matching
 from swtstudy.study.definition import Study
+from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.quantities import Request
 from swtstudy.vocabulary.variables import MISSING
 from swtstudy.vocabulary.version import SOLVER_VERSION

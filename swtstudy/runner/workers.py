@@ -114,7 +114,7 @@ def _warm_up() -> None:
     # Tasks arrive as dask's.
     import dask.local  # noqa: F401
 
-    import swtstudy.mechanics.solver  # noqa: F401
+    import swtstudy.solver.solve  # noqa: F401
 
 
 @contextmanager

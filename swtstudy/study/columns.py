@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 

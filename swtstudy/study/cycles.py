@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.numerics.arrays import TINY
-from swtstudy.mechanics.points import BoolArray, FloatArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 
 #: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
 #: count seven times as much.
@@ -66,7 +65,7 @@ def drift(cycles: FloatArray) -> float:
     means = (v.mean(axis=0)[:, some] / size[some] for v in (cycles, np.diff(cycles, axis=0)))
     mean, step = (np.fft.rfft(v, axis=0)[1:4] for v in means)
     slope = 2j * np.pi * np.arange(1, len(mean) + 1)[:, None] * mean
-    return float(-(slope.conj() * step).sum().real / max((np.abs(slope) ** 2).sum(), TINY))
+    return float(-(slope.conj() * step).sum().real / max((np.abs(slope) ** 2).sum(), 1e-300))
 
 
 def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> tuple[BoolArray, FloatArray]:

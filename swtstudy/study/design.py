@@ -9,8 +9,8 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.points.values import as_number, read_angle, read_exact, read_value
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameter import Parameter
 

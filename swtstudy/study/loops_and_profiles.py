@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.mechanics.indenter.profile_table import TabulatedProfile
 from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
+from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_as_given
 from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
 from swtstudy.study.trace import read_trace

@@ -14,9 +14,9 @@ import numpy as np
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.loads.smooth_path import HIGHEST_ORDER
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.study.columns import check_form, form_of, read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,

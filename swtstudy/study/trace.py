@@ -10,9 +10,9 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.mechanics.indenter.profile_table import FEWEST, TabulatedProfile
-from swtstudy.mechanics.points import BoolArray, FloatArray, IndexArray
+from swtstudy.profiles.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import read_as_given
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 

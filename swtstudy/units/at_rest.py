@@ -12,11 +12,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from swtstudy.mechanics.indenter import Profile, TabulatedProfile, length_law, make_profile, too_small
-from swtstudy.mechanics.indenter.plane import MEAN_LOAD
-from swtstudy.mechanics.indenter.profile_table import AnyProfile
-from swtstudy.mechanics.numerics.arrays import TINY_ROOT
 from swtstudy.points.canonical import canonical_number, rounded
+from swtstudy.profiles.at_rest import AtRest, too_small
+from swtstudy.profiles.families import MEAN_LOAD, length_law
+from swtstudy.profiles.table import AnyProfile, TabulatedProfile
 from swtstudy.units.rows import least_depths, length_of, number_of
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
@@ -88,10 +87,6 @@ class Moduli:
         return 2.0 * of_both[body] / sum(of_both)
 
 
-#: Radii at which the largest pressure is looked for, and its digits.
-_RADII, _DIGITS = 4001, 9.0
-
-
 @lru_cache(maxsize=64)
 def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
     """A table to the digits of canonical points: in whichever units it was given, it is the same."""
@@ -135,8 +130,7 @@ class Contact:
     def length_scale(self) -> float:
         """The length a_H = √(R δ0), and of a power law or a table its contact radius at δ0."""
         if isinstance(self.profile, TabulatedProfile):
-            profile = make_profile(self.profile, {}, np.array([self.depth]))
-            return float(profile.radius(np.array([[self.depth]]))[0, 0])
+            return float(AtRest(self.profile).radius(np.array([[self.depth]]))[0, 0])
         assert self.radius is not None
         coefficient, power = length_law(self.profile, self.shape)
         return self.radius * (self.depth / (coefficient * self.radius)) ** power
@@ -159,7 +153,7 @@ class Contact:
     @property
     def contact_radius(self) -> float:
         """a at the mean depth δ0; of a strip half its width."""
-        return self.length_scale * float(self._profile().radius(np.ones((1, 1)))[0, 0])
+        return self.length_scale * float(self._at_rest().radius(np.ones((1, 1)))[0, 0])
 
     @property
     def normal_force(self) -> float:
@@ -184,8 +178,7 @@ class Contact:
     @property
     def force_factor(self) -> float:
         """Force at the mean depth over E* δ0 a_H, 4/3 for a paraboloid; of a strip per length over E* δ0."""
-        profile = self._profile()
-        return 2.0 * float(profile.half_load(profile.radius(np.ones((1, 1))))[0, 0])
+        return 2.0 * float(self._at_rest().unit()[0, 0])
 
     @property
     def mean_pressure(self) -> float:
@@ -197,18 +190,10 @@ class Contact:
     @property
     def peak_pressure(self) -> float:
         """Largest pressure at the mean depth, p0 of a paraboloid; inf at the edge of a truncated one."""
-        profile = self._profile()
-        if profile.has_singular_edge and profile.flat_radius[0] > 0.0:
-            return math.inf
-        edge = profile.radius(np.ones((1, 1)))
-        # Towards a sharp tip it rises within any radius.
-        r = edge * np.append(TINY_ROOT, np.sin(np.linspace(1e-6, 0.5 * np.pi, _RADII)))
-        outer = profile.primitives(r, _DIGITS).outer(edge[:, :, None])[0]
-        return self.stress_scale * float(outer.max()) / math.pi
+        return self.stress_scale * self._at_rest().largest_pressure()
 
-    def _profile(self) -> Profile:
-        shape = {name: np.array([value]) for name, value in self.shape_parameters.items()}
-        return make_profile(self.pure_profile, shape, np.ones(1))
+    def _at_rest(self) -> AtRest:
+        return AtRest(self.pure_profile, self.shape_parameters)
 
     @property
     def pure_profile(self) -> AnyProfile:
@@ -230,9 +215,8 @@ def depth_at(contact: Contact, force: float) -> float:
     if contact.plane:
         return force / (contact.contact_length or 1.0) / (MEAN_LOAD * contact.moduli.normal)
     if isinstance(contact.profile, TabulatedProfile):
-        profile = make_profile(contact.profile, {}, np.ones(1))
-        half = np.array([[0.5 * force / contact.moduli.normal]])
-        return float(profile.depth(profile.radius_of_half_load(half))[0, 0])
+        profile, half = AtRest(contact.profile), np.array([[0.5 * force / contact.moduli.normal]])
+        return float(profile.depth(profile.radius_at(half))[0, 0])
     _refuse_at_any_depth(contact)
     assert contact.radius is not None
     (coefficient, power), log_radius = length_law(contact.profile, contact.shape), math.log(contact.radius)
@@ -267,7 +251,7 @@ def refuse_beyond(table: TabulatedProfile, depth: float) -> None:
 
 def _refuse_at_any_depth(contact: Contact) -> None:
     """Raise if the contact is not compact however small its depth."""
-    limit = too_small(contact.profile, contact.shape_parameters, 0.0)
+    limit = too_small(str(contact.profile), contact.shape_parameters, 0.0)
     if limit is None:
         return
     name, number = limit

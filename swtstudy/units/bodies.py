@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.labels import wrong_size
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants, not_negative
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
 from swtstudy.vocabulary.quantities import COUNTED
 

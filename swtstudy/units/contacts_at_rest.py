@@ -13,14 +13,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.loads.loop import Loop
-from swtstudy.mechanics.indenter import check_shape, compact_shapes
-from swtstudy.mechanics.points import FloatArray, IndexArray
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.rules import AMPLITUDES, sizes_of
 from swtstudy.points.shapes import largest_depths, largest_reach
 from swtstudy.points.values import Value, as_number, index_at
+from swtstudy.profiles.at_rest import check_shape, compact_shapes
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
 from swtstudy.units.rows import MEAN_LOADS, SCALES
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, more_like_it

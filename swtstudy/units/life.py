@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.units.labels import wrong_size
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
 from swtstudy.vocabulary.quantities import COUNTED_SIZES

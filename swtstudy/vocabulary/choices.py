@@ -1,6 +1,6 @@
-"""Names that parameters take: the families of indenters, of revolution (eqs. 3–6) and plane, and criteria.
+"""Names that parameters take: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts.
 
-Their formulas are in `swtstudy.mechanics.indenter` and `swtstudy.kernel.criterion`.
+Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterion`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
 
 @dataclass(frozen=True)
 class Family:
-    """One family of indenters; its class is in `swtstudy.mechanics.indenter.PROFILES`.
+    """One family of indenters; its form is in `swtstudy.profiles.families.FORMS`.
 
     Attributes
     ----------
@@ -79,9 +79,17 @@ def families_with(name: str) -> list[str]:
     return [family.name for family in FAMILIES.values() if name in family.shape]
 
 
+#: Regimes of the contact over the stationary cycle, in the order of their flag values.
+REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
+#: Those in which s is no finite number.
+WITHOUT_S = ("not_finite", "no_equilibrium")
+
 #: Their names: the Smith–Watson–Topper parameter, and the criteria of shear.
 SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
 CRITERIA = (SWT, FATEMI_SOCIE, FINDLEY)
+
+#: Whether a bulk stress moves the stick zone, where that is known, or leaves it in its place.
+MOVED, NONE = SHIFTS = ("moved", "none")
 
 #: What s is, in words for attributes, and its symbol with its unit.
 MEANING = {

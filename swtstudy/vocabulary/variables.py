@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 if TYPE_CHECKING:
@@ -13,18 +14,23 @@ if TYPE_CHECKING:
 
 #: The attribute of results with units that says what their coordinates do not say of the contacts.
 CONTACT = "contact"
-#: Regimes of the contact over the stationary cycle, in the order of their flag values.
-REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
-#: Those in which s is no finite number.
-WITHOUT_S = ("not_finite", "no_equilibrium")
 #: States of a point, in the order of their flag values.
 STATES = ("computed", "failed", "missing")
 COMPUTED, FAILED, MISSING = range(3)
 #: What the solver finds of every point.
 SOLVED = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface")
 
+#: Where the stick zone is in s, under a bulk stress that moves.
+ZONES = ("in_place", "moved", "moved_approximately")
 #: Data variables that results have where something is given that they are about.
-MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio", "slide_ratio")
+MARGINS = (
+    "stick_zone",
+    "bulk_shift",
+    "bulk_shift_ratio",
+    "prescribed_force_ratio",
+    "radius_ratio",
+    "slide_ratio",
+)
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
 #: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
@@ -51,20 +57,29 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "units": "1",
         "symbol": r"s_\mathrm{surface}",
     },
+    "stick_zone": {
+        "long_name": "stick zone in s",
+        "comment": "whether s and all beside it have the stick zone moved by the bulk stress: exactly, of a "
+        "cylinder, or approximately, of a paraboloid, where the rise of the stress at the edge in tension is "
+        "right within 4 %; it is in place where that is asked for, and where its motion is not known",
+        "flag_values": np.arange(len(ZONES), dtype=np.int8),
+        "flag_meanings": " ".join(ZONES),
+    },
     "bulk_shift": {
         "long_name": "shift of the stick zone",
-        "comment": "by the strain of the bulk stress, in a_H: s leaves it out, and is too low at the edge in "
-        "tension, see bulk_shift_ratio; NaN for other profiles than the paraboloid and the cylinder, without "
-        "friction or stick, and where it exceeds the width of the slip zone",
+        "comment": "by the strain of the bulk stress, in a_H: where stick_zone is in_place, s leaves it out "
+        "and is too low at the edge in tension, see bulk_shift_ratio; NaN for other profiles than the "
+        "paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the slip "
+        "zone",
         "units": "1",
         "symbol": r"e/a_H",
     },
     "bulk_shift_ratio": {
         "long_name": "shift over slip zone",
-        "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
-        "width of the slip zone, however large: at the edge in tension s is too low, it should be up to 6 % "
-        "at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as the shift, without a permanent "
-        "stick zone",
+        "comment": "shift of the stick zone by the strain of the bulk stress over the width of the slip "
+        "zone, however large: where stick_zone is in_place, s leaves it out and is too low at the edge in "
+        "tension, it should be up to 6 % at 0.1, 24 % at 0.5 and 38 % at 1 higher for Q >= 0.2 mu P; NaN as "
+        "the shift, without a permanent stick zone",
         "units": "1",
         "symbol": r"e/(a - c)",
     },

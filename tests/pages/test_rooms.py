@@ -6,19 +6,16 @@ from graphlib import TopologicalSorter
 from importlib import import_module
 
 import pytest
-from build_steps.rooms import MECHANICS, MODULES, WHOLE, House, imported
+from build_steps.rooms import MODULES, WHOLE, imported
 from folders import ROOT, TESTS
 
 ORACLE, STATEMENTS = "swtstudy.paper.reference", "swtstudy.paper.statements"
 
 
-@pytest.mark.parametrize(
-    ("house", "types"), [(WHOLE, True), (MECHANICS, False)], ids=["types included", "of the mechanics"]
-)
-def test_a_file_imports_only_rooms_above(house: House, types: bool) -> None:
-    imports = [(own, other, house.room_of(own), house.room_of(other)) for own, other in house.imports(types)]
+def test_a_file_imports_only_rooms_above() -> None:
+    imports = [(own, other, WHOLE.room_of(own), WHOLE.room_of(other)) for own, other in WHOLE.imports(True)]
     assert len(imports) > 50
-    order = house.rooms.index
+    order = WHOLE.rooms.index
     assert not [f"{own} imports {other}" for own, other, mine, its in imports if order(its) > order(mine)]
 
 
@@ -39,9 +36,8 @@ def test_no_imports_go_in_a_circle() -> None:
     TopologicalSorter(graph).prepare()
 
 
-@pytest.mark.parametrize("house", [WHOLE, MECHANICS], ids=lambda house: house.name)
-def test_no_room_is_missing_in_the_lists(house: House) -> None:
-    assert {house.room_of(name) for name in MODULES} - {None} == {*house.rooms}
+def test_no_room_is_missing_in_the_lists() -> None:
+    assert {WHOLE.room_of(name) for name in MODULES} - {None} == {*WHOLE.rooms}
 
 
 @pytest.mark.parametrize("name", [name for name, path in MODULES.items() if "__all__" in path.read_text()])

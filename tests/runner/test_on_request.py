@@ -23,7 +23,7 @@ from swtstudy.archive.merge import GapsError, merge
 from swtstudy.archive.netcdf import save
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 from swtstudy.cli import main
-from swtstudy.mechanics import quantities
+from swtstudy.solver import quantities
 
 
 def test_a_study_without_them_neither_computes_nor_stores_any(tmp_path: Path, monkeypatch) -> None:

@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.kernel.dense import highest_on_planes
-from swtstudy.mechanics.load_cycle import LoadCycle
-from swtstudy.mechanics.points import FloatArray, Points
+from swtstudy.solver.load_cycle import LoadCycle
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: How often the four intervals of each smooth part of the cycle are halved, at first and in the first closer
 #: grid; each further one halves them once more.

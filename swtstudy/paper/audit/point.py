@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from swtstudy.mechanics import solve_points
-from swtstudy.mechanics.body.body_maximum import body_maximum
-from swtstudy.mechanics.points import REGIMES, FloatArray
+from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.paper.audit.dense import dense_maximum
 from swtstudy.points.canonical import ROW, Definitions, points_from
+from swtstudy.solver.solve import solve_points
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import REGIMES
 
 #: Which of the surface line's assumptions the body's maximum breaks, in the order of the flag values; the
 #: last one is for points without a finite s, or with their maximum where the pressure is unbounded.

@@ -13,7 +13,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
-from swtstudy.mechanics.points import REGIMES, BoolArray, FloatArray
 from swtstudy.paper.audit.point import TOLERANCE, VERDICTS, AuditedPoint
 from swtstudy.points.canonical import (
     COLUMNS,
@@ -25,6 +24,8 @@ from swtstudy.points.canonical import (
     describe_point,
     value_of,
 )
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 _LENGTH = "in units of a_H = sqrt(R delta0)"

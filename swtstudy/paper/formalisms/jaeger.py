@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 
 
 @dataclass

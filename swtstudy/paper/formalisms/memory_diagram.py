@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import brentq
 
-from swtstudy.mechanics.points import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 
 
 @dataclass

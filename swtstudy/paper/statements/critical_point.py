@@ -10,12 +10,13 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.mechanics.margins import Margins
-from swtstudy.mechanics.points import REGIMES, FloatArray
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.paper.statements.statement import Finding, Statement
 from swtstudy.points.canonical import alike, points_from
+from swtstudy.solver.margins import Margins
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import REGIMES
 
 
 def stick_radius(dataset: xr.Dataset) -> xr.DataArray:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.paper.formalisms.jaeger import JaegerContact
 from swtstudy.paper.formalisms.memory_diagram import MemoryDiagram
 from swtstudy.paper.reference import march_springs
 from swtstudy.paper.statements.statement import Finding, Statement
+from swtstudy.vocabulary.arrays import FloatArray
 
 #: Random load paths, their corners, and springs across the largest contact.
 _PATHS, _CORNERS, _SPRINGS = 20, 40, 401

@@ -11,8 +11,8 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import REGIMES
 from swtstudy.paper.statements.statement import Finding, Statement, largest_change, listed, with_dims
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import value_words
 

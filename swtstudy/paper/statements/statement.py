@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.results.evaluate import slice_at
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.wording import value_words
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from swtstudy.mechanics.points import FloatArray
 from swtstudy.paper.statements.face import WEAK, coupling_with
 from swtstudy.paper.statements.statement import (
     Finding,
@@ -21,6 +20,7 @@ from swtstudy.paper.statements.statement import (
     turning_points,
     with_dims,
 )
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.wording import value_words
 
 #: Ripples below this fraction of a curve's range do not count as oscillations.

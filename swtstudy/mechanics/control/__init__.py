@@ -1,1 +1,0 @@
-"""Control by displacements or forces: each has the coordinate in which its memory diagram is drawn."""

@@ -1,1 +1,0 @@
-"""Arrays, roots, series, peaks and spread directions: no physics."""

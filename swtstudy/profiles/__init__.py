@@ -1,0 +1,1 @@
+"""Profiles of indenters: what each family is, tables of a user's own, and contacts at rest."""

@@ -1,0 +1,213 @@
+"""Margins of points, as far as the load alone gives them: how far they are from where the model ends.
+
+One of them is the shift of the stick zone by the bulk strain, which s has where it is known
+(`swtstudy.kernel.shift`) and leaves out elsewhere. The strain of the body that carries an oscillating bulk
+stress drags its surface under the other body. For a Hertz contact of similar materials a stick circle off
+centre makes a uniform strain, which cancels that of the bulk stress along x if the shift is
+e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A is half the range of the bulk stress, as
+of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ). Both are those of equal moduli; with others
+the shift goes with the strain of the body that carries the bulk stress over the mean strain of both, under
+equal tractions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+
+from swtstudy.profiles.at_rest import AtRest
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import BoolArray, Columns, FloatArray, IndexArray
+from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
+
+#: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
+#: are off by some 1e-6 of an amplitude. And values of a load that are held at a time.
+SAMPLES, AT_ONCE = 96, 2_000_000
+#: Places of a profile between which depths and forces are interpolated, and the last of them over √δ0.
+PLACES = 4001
+#: Rounding of the samples, relative: of a bulk stress that follows the tangential load, and of its shift.
+PROPORTIONAL, ROUNDING = 1e-9, 1e-6
+
+
+@dataclass(frozen=True)
+class Margins(Columns):
+    """Margins of n points, each of shape (n,).
+
+    Attributes
+    ----------
+    largest_radius
+        Largest contact radius of the cycle in a_H, half the width in plane contacts.
+    stick_radius
+        Radius of the permanent stick zone in a_H; NaN where there is none.
+    bulk_shift
+        By how much the bulk strain would move the stick zone, in a_H, see `bulk_shift`; however large it is.
+    force_ratio
+        Largest |F_x|/(μ F_N) that is prescribed: there is no equilibrium where it is above 1; NaN where
+        the tangential force is not prescribed.
+    slide
+        By how much the tangential displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus
+        that limit if the depth is constant. 0 without gross slip; NaN where the bodies part or the
+        tangential force is prescribed.
+    moved
+        1 where the bulk stress moves the stick zone in s, else 0.
+    """
+
+    largest_radius: FloatArray
+    stick_radius: FloatArray
+    bulk_shift: FloatArray
+    force_ratio: FloatArray
+    slide: FloatArray
+    moved: FloatArray
+
+    @classmethod
+    def of(cls, points: Points) -> Margins:
+        """Margins of points of one profile family and control."""
+        # Compiled: whoever only reads a study does without.
+        from swtstudy.kernel.batch import margins_batch
+        from swtstudy.solver.solve import arguments_of
+
+        found = margins_batch(**arguments_of(points))
+        radius, stick, ratio, slide = (
+            found[name].copy() for name in ("contact_radius", "stick_radius", "force_ratio", "slide")
+        )
+        return cls(radius, stick, bulk_shift(points), ratio, slide, found["moved"].astype(float))
+
+    @classmethod
+    def foreseen(cls, points: Points) -> Margins:
+        """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
+        found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
+        for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
+            alike = np.flatnonzero((points.p == p) & (points.q == q))
+            parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
+            for rows in np.array_split(alike, parts):
+                found[rows] = _seen(points[rows])
+        return found
+
+
+def _motion(points: Points) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
+    """Normal, tangential and bulk motion over their amplitudes, (n, T) or (1, T), and whether it is smooth.
+
+    The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
+    """
+    path: Any = points.path
+    p, q = int(points.p[0]), int(points.q[0])
+    if path is None:
+        own = (q, points.phase), (p, np.zeros(1)), (p, points.bulk_stress_phase)
+        rows = tuple([(order, 1.0, phase[:, None])] for order, phase in own)
+    elif hasattr(path, "vertices"):
+        columns = path.vertices.T[:, None]
+        return columns[0], columns[1], columns[2] if len(columns) > 2 else 0.0 * columns[0], False
+    else:
+        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk"))
+    fastest = max([1, *(order for row in rows for order, _, _ in row)])
+    turn = 2.0 * np.pi / (SAMPLES * fastest) * np.arange(SAMPLES * fastest)[None]
+    normal, tangential, bulk = (
+        sum((size * np.sin(order * turn + phase) for order, size, phase in row), np.zeros((1, turn.size)))
+        for row in rows
+    )
+    return normal, tangential, bulk, True
+
+
+def _largest(values: FloatArray, smooth: bool) -> FloatArray:
+    """Largest values of closed curves, (n, T), shape (n,): of smooth ones by parabolas."""
+    if not smooth:
+        return values.max(axis=1)
+    before, after = np.roll(values, 1, axis=1), np.roll(values, -1, axis=1)
+    top = (values >= before) & (values >= after) & np.isfinite(before + values + after)
+    bend = np.where(top, 2.0 * values - before - after, 0.0)
+    rise = np.divide((after - before) ** 2, 8.0 * bend, out=np.zeros_like(values), where=bend > 0.0)
+    return np.asarray((values + rise).max(axis=1))
+
+
+def _seen(points: Points) -> Margins:
+    """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
+    normal, tangential, bulk, smooth = _motion(points)
+    follows = _follows(points, normal, tangential, bulk)
+    normal = 1.0 + points.normal_amplitude[:, None] * normal
+    tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
+    largest = _largest(normal, smooth)
+    control, plane = points.control, is_plane(points.profile)
+    if control.mixed and not plane:
+        for rows in _of_one_shape(points):
+            own = float(largest[rows].max())
+            scale = _other_coordinate(points[rows[:1]], own)
+            normal[rows], largest[rows] = (
+                np.where(values > 0.0, np.interp(np.maximum(values, 0.0), *scale), values)
+                for values in (normal[rows], largest[rows])
+            )
+    highest, lowest = _largest(tangential - normal, smooth), -_largest(-tangential - normal, smooth)
+    stick = 0.5 * (lowest - highest)
+    ends = np.maximum(np.stack([stick, largest], axis=1), 0.0)
+    at_rest = AtRest(points.profile, points.shape)
+    radius = _radii(at_rest, ends, control.tangential_force and not plane)
+    stick_radius = np.where(stick >= 0.0, radius[:, 0], np.nan)
+    shift, unknown = bulk_shift(points), np.full(len(points), np.nan)
+    width = (radius[:, 1] - stick_radius) * (1.0 + ROUNDING)
+    moved = (follows & (shift * np.abs(points.bulk_strain_share) <= width)).astype(float)
+    if not control.tangential_force:
+        slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
+        return Margins(radius[:, 1], stick_radius, shift, unknown, slide, moved)
+    size, load = np.abs(tangential), np.maximum(normal, 0.0)
+    with np.errstate(divide="ignore"):
+        ratio = np.divide(size, load, out=np.zeros_like(load), where=size > 0.0)
+    return Margins(radius[:, 1], stick_radius, shift, _largest(ratio, smooth), unknown, moved)
+
+
+def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray) -> BoolArray:
+    """Points whose bulk stress follows the tangential load in proportion at a constant normal load, (n,)."""
+    rests = (points.normal_amplitude == 0.0) | (np.ptp(normal, axis=1) == 0.0)
+    across, along = np.broadcast_arrays(tangential - tangential[:, :1], bulk - bulk[:, :1])
+    square = (across * across).sum(axis=1)
+    slope = np.divide((across * along).sum(axis=1), square, out=np.zeros_like(square), where=square > 0.0)
+    off = np.abs(along - slope[:, None] * across).max(axis=1)
+    shifts = (slope != 0.0) & (off <= PROPORTIONAL * np.abs(along).max(axis=1))
+    moves = points.tangential_amplitude * points.bulk_stress_amplitude * points.bulk_strain_share != 0.0
+    return rests & shifts & moves & (points.profile in (PLAIN, PLAIN_STRIP))
+
+
+def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArray:
+    """Radii of n profiles, or one, at depths, or forces over that at δ0; shape (n, m)."""
+    alike = len(at_rest.flat_radius) == 1
+    own = coordinate.reshape(1, -1) if alike else coordinate
+    found = at_rest.radius_at(own * at_rest.unit()) if in_force else at_rest.radius(own)
+    return found.reshape(coordinate.shape)
+
+
+def _of_one_shape(points: Points) -> Iterator[IndexArray]:
+    """Rows of points whose profiles have one shape."""
+    if not points.shape:
+        yield np.arange(len(points))
+        return
+    shapes = np.stack(list(points.shape.values()), axis=1)
+    for number in range((which := np.unique(shapes, axis=0, return_inverse=True)[1].reshape(-1)).max() + 1):
+        yield np.flatnonzero(which == number)
+
+
+def _other_coordinate(point: Points, largest: float) -> tuple[FloatArray, FloatArray]:
+    """Normal loads as they are prescribed and in the kind of the tangential one, up to the largest."""
+    at_rest, given = AtRest(point.profile, point.shape), np.array([[max(largest, 1.0)]])
+    edge = float(_radii(at_rest, given, point.control.normal_force)[0, 0])
+    b = float(at_rest.flat_radius[0, 0])
+    s = np.sqrt((edge - b) * (edge + b)) * np.linspace(0.0, 1.0, PLACES)
+    depth, half_load = (each[0] for each in at_rest.rise(s[None]))
+    force = half_load / at_rest.unit()[0, 0]
+    return (force, depth) if point.control.normal_force else (depth, force)
+
+
+def bulk_shift(points: Points) -> FloatArray:
+    """e/a_H of n points, shape (n,), however large: about the width of the slip zone it is but an estimate.
+
+    NaN without friction, and under a bulk stress that moves for other profiles than the paraboloid and the
+    cylinder.
+    """
+    ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
+    if points.path is not None:
+        amplitude = amplitude * 0.5 * np.ptp(points.path.bulk_ends or (0.0, 0.0))
+    if points.profile not in (PLAIN, PLAIN_STRIP):
+        return np.where((amplitude == 0.0) & (μ > 0.0), 0.0, np.nan)
+    stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)
+    shift = np.full(len(points), np.nan)
+    return np.divide(2.0 * amplitude, μ * stiffness, out=shift, where=μ > 0.0)

@@ -1,0 +1,134 @@
+"""swt not at a point but over a critical distance ℓ: means over a volume or a line, and the point method.
+
+The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
+about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
+(point method), or as the mean over the depths 0 … 2ℓ, straight down or along the critical plane. These are
+means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and line methods are.
+
+With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
+that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
+paraboloid: beside that the pressure is infinite like a logarithm, and so slow is the limit.
+
+Means are taken about whichever place of the surface line has most of them: the critical point has the largest
+swt, but about another local maximum swt may fall off more slowly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from swtstudy.kernel.batch import maxima_batch
+from swtstudy.kernel.field import means_about, open_cycle
+from swtstudy.kernel.mean import OF_VALUE
+from swtstudy.solver.points import Points, Solution
+from swtstudy.solver.solve import arguments_of
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.parameters import DIRECTIONS
+
+#: What each place may be the worst of.
+KINDS = ("volume", "point", "line")
+#: Relative accuracy of means, and of swt at local maxima; tolerance of what grew in stick.
+RTOL, OF_MAXIMA, GROWTH = 1e-3, 1e-4, 1e-5
+
+
+@dataclass(frozen=True)
+class Means:
+    """swt over k critical distances at n points, over E* δ0/R as s, with absolute errors; NaN without s.
+
+    Attributes
+    ----------
+    volume, volume_error, volume_x
+        Shape (n, k): means over half spheres, or half discs in the plane; and the signed x of the points of
+        the surface line that they are about.
+    point, point_error, point_x, line, line_error, line_x
+        Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
+    """
+
+    volume: FloatArray
+    volume_error: FloatArray
+    volume_x: FloatArray
+    point: FloatArray
+    point_error: FloatArray
+    point_x: FloatArray
+    line: FloatArray
+    line_error: FloatArray
+    line_x: FloatArray
+
+    @classmethod
+    def blank(cls, n: int, k: int) -> Means:
+        """Means of so many points without values."""
+        shapes = [(n, k)] * 3 + [(n, k, len(DIRECTIONS))] * 6
+        return cls(*(np.full(shape, np.nan) for shape in shapes))
+
+    def least(self, row: int) -> float:
+        """The smallest mean of a point."""
+        return min(float(getattr(self, kind)[row].min()) for kind in KINDS)
+
+    def raise_to(self, row: int, means: FloatArray, x: float) -> None:
+        """Take the means about x, (5, k, 2), where they are larger, or where there are none."""
+        volume, *rest = means
+        for kind, own in zip(KINDS, (volume, np.stack(rest[:2], 1), np.stack(rest[2:], 1)), strict=True):
+            value, error, place = (getattr(self, name)[row] for name in (kind, f"{kind}_error", f"{kind}_x"))
+            # It is not by noise that one of two is taken.
+            larger = np.isnan(value) | (own[..., 0] > (1.0 + OF_VALUE) * value)
+            value[larger], error[larger], place[larger] = own[larger, 0], own[larger, 1], x
+
+
+def means_at(
+    points: Points, x: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = RTOL
+) -> Means:
+    """Means about one place each of n points.
+
+    Parameters
+    ----------
+    points
+        n points.
+    x, angle
+        Shape (n,): signed x of the places on the surface line, in a_H, and the angle between the normal of
+        the worst plane there and the x axis, degrees; NaN where there is none.
+    distance
+        Shape (k,): ℓ > 0 in a_H.
+    rtol
+        Relative accuracy asked for.
+    """
+    found = Means.blank(len(x), len(distance))
+    for row in np.flatnonzero(np.isfinite(x)):
+        opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
+        double_angle = np.radians(2.0 * angle[row])
+        found.raise_to(int(row), means_about(opened, x[row], double_angle, distance, rtol), float(x[row]))
+    return found
+
+
+def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Means:
+    """The largest means about the critical points and all other local maxima of swt along the line.
+
+    Each kind, distance and direction has its own place. A maximum is tried if its swt is above one of the
+    means found so far: no mean about it could be larger otherwise, but where what is nearby is higher, which
+    is tried itself.
+
+    Parameters
+    ----------
+    points, solution
+        n points and their solution.
+    distance
+        As of `means_at`.
+    """
+    x, angle = solution.critical_x, solution.critical_angle
+    found = means_at(points, x, angle, distance)
+    rows = np.flatnonzero(np.isfinite(x))
+    if not rows.size:
+        return found
+    limits = np.array([max(found.least(int(row)), 0.0) for row in rows]), solution.s[rows]
+    others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=OF_MAXIMA)
+    for row, maxima in zip(rows.tolist(), others, strict=True):
+        opened, mirrored = None, (maxima[0] > 0.0).all()  # what is at -x is that of x then
+        for place, double_angle, swt, ends in zip(*maxima, strict=True):
+            critical = abs(x[row]) if mirrored else x[row]
+            # The critical point itself is between the neighbours of one of them.
+            if swt <= found.least(row) or ends.min() <= critical <= ends.max():
+                continue
+            opened = opened or open_cycle(GROWTH, **arguments_of(points[[row]]))
+            found.raise_to(row, means_about(opened, place, double_angle, distance, RTOL), float(place))
+    return found

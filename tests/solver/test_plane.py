@@ -1,0 +1,327 @@
+"""Plane contacts: kernels, stress on the surface and s, against closed forms, elements and a dense look."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from oracles.strip_march import StripMarch
+from oracles.strips import STRIPS, Strip
+from scenes import PLANE_NAMES, plane_points
+from solved import solve_points
+
+import swtstudy
+from swtstudy import LoadPath, StudyError, TabulatedProfile
+from swtstudy.profiles.at_rest import AtRest, check_shape
+from swtstudy.vocabulary.choices import FAMILIES, PLANE
+from swtstudy.vocabulary.parameters import Control
+
+Array = NDArray[np.float64]
+FORCES = Control(True, True)
+MEAN = 0.25 * np.pi
+every_strip = pytest.mark.parametrize("strip", STRIPS, ids=str)
+
+
+def profile_of(strip: Strip) -> AtRest:
+    return AtRest(strip.profile, strip.shape)
+
+
+def solved(**given: Any) -> Any:
+    own = {"profile": "cylinder", "normal_force_amplitude": 0.0} | given
+    return swtstudy.solve(**own)
+
+
+def test_each_plane_family_has_an_oracle_and_says_that_it_is_one() -> None:
+    assert {strip.profile for strip in STRIPS} == {*PLANE_NAMES}
+    for name, family in FAMILIES.items():
+        assert AtRest(name, dict.fromkeys(family.shape, 2.5)).plane == (family.geometry == PLANE)
+
+
+@every_strip
+def test_loads_and_slopes(strip: Strip) -> None:
+    profile = profile_of(strip)
+    widest = float(profile.radius(np.array([[1.8]]))[0, 0])
+    radius = strip.flat + (widest - strip.flat) * np.array([1e-3, 0.02, 0.3, 0.7, 1.0])
+    load = np.array([strip.load(xi) for xi in radius])
+    np.testing.assert_allclose(profile.depth(radius[None])[0], load / MEAN, rtol=1e-9, atol=1e-13)
+    np.testing.assert_allclose(profile.half_load(radius[None])[0], 0.5 * load, rtol=1e-9, atol=1e-13)
+    rise = np.sqrt((radius - strip.flat) * (radius + strip.flat))
+    slope = np.array([strip.slope(xi) for xi in radius])
+    np.testing.assert_allclose(MEAN * profile.density(rise[None])[0], slope * rise / radius, rtol=1e-9)
+    for given, inverse in ((profile.depth, profile.radius), (profile.half_load, profile.radius_at)):
+        found = inverse(given(radius[None]))[0]
+        np.testing.assert_allclose(np.sqrt((found - strip.flat) * (found + strip.flat)), rise, rtol=2e-7)
+
+
+@every_strip
+def test_pressure(strip: Strip) -> None:
+    profile = profile_of(strip)
+    b, widest = strip.flat, profile.radius(np.array([[1.8]]))
+    share = np.array([-0.5, 0.05, 0.4, 0.9]) if b else np.array([0.05, 0.4, 0.9])
+    x = b + (widest[0] - b) * share
+    x = x[x > 0.0]
+    expected = [strip.outer(each, float(widest[0, 0])) / np.pi for each in x]
+    np.testing.assert_allclose(profile.pressure(x[None], widest)[0], expected, rtol=1e-8, atol=1e-9)
+
+
+@pytest.mark.parametrize("b", [0.0, 0.5])
+@pytest.mark.parametrize("count", [60, 500])
+def test_a_table_is_what_it_is_a_table_of(b: float, count: int) -> None:
+    x = np.linspace(0.0, 2.0, count)
+    table = TabulatedProfile("mine", x, 0.5 * np.maximum(x - b, 0.0) ** 2, geometry="plane")
+    own, exact = AtRest(table), AtRest("rounded_flat", {"flat_half_width": b})
+    radius = b + np.linspace(0.05, 1.2, 30)[None]
+    for name in ("depth", "half_load"):
+        np.testing.assert_allclose(getattr(own, name)(radius), getattr(exact, name)(radius), atol=2e-7)
+    edge = np.array([[1.5]])
+    np.testing.assert_allclose(own.pressure(radius, edge), exact.pressure(radius, edge), atol=1e-5)
+    given = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3, "phase": 1.0, "rtol": 1e-5}
+    s, closed = (
+        float(swtstudy.solve(**given, **shape).s)
+        for shape in ({"profile": table}, {"profile": "rounded_flat", "flat_half_width": b})
+    )
+    assert s == pytest.approx(closed, rel=2e-5 if b else 1e-8)
+
+
+def test_a_table_says_how_far_it_goes() -> None:
+    x = np.linspace(0.0, 1.1, 80)
+    table = TabulatedProfile("short", x, 0.5 * x**2, geometry="plane")
+    assert table.deepest == pytest.approx(1.21)
+    with pytest.raises(StudyError, match=r"load 4P/\(πE\*\) = 1.3 is beyond the table of short"):
+        solved(profile=table, normal_force_amplitude=0.3, tangential_force_amplitude=0.1)
+    again = TabulatedProfile.of_content("again", table.content())
+    assert again.geometry == "plane"
+    assert again.code == table.code != TabulatedProfile("disc", x, 0.5 * x**2).code
+    with pytest.raises(
+        StudyError, match=r"wrong\.geometry: found 'round'; allowed: one of axisymmetric, plane"
+    ):
+        TabulatedProfile("wrong", x, 0.5 * x**2, geometry="round")
+
+
+def test_slope_of_a_cubic() -> None:
+    """f = x³: N′ = ξ ∫ 6x dx/√(ξ² − x²) = 6 ξ², and N = 2 ξ³; also beyond the table, where N′/ξ stays."""
+    x = np.linspace(0.0, 2.0, 9)
+    cubic = TabulatedProfile("cubic", x, x**3, geometry="plane")
+    radius = np.array([0.3, 0.5, 0.9, 1.7])
+    np.testing.assert_allclose(cubic.slope(radius), 6.0 * radius**2, rtol=1e-12)
+    np.testing.assert_allclose(cubic.rise(radius)[0], 2.0 * radius**3, rtol=1e-12)
+    beyond = 16.0 + 6.0 * 2.0 * 0.5 * (3.0**2 - 2.0**2)
+    np.testing.assert_allclose(cubic.rise(np.array([3.0]))[0], beyond, rtol=1e-9)
+
+
+@pytest.mark.parametrize("gamma", [0.3, 0.5, 0.8])
+def test_at_constant_load_s_is_known(gamma: float) -> None:
+    """μ² Q_A/(μP), at the edge, on the plane normal to x; Q_A = μP is full sliding, where σ_xx = 2 μ p0."""
+    rng = np.random.default_rng(1)
+    n = 40
+    mu, nu, pull = 10.0 ** rng.uniform(-1.0, 1.0, n), rng.uniform(0.0, 0.5, n), rng.uniform(0.02, 1.0, n)
+    pull[:3] = 1.0
+    batch = plane_points("cylinder", nu, mu, 0.0, pull, walker_exponent=gamma)
+    found = solve_points(batch)
+    expected = mu**2 * pull * (1.0 - nu**2) ** (2.0 * gamma - 1.0)
+    np.testing.assert_allclose(found.s, expected, rtol=1e-7)
+    np.testing.assert_allclose(np.abs(found.critical_x), 1.0, rtol=1e-12)
+    np.testing.assert_allclose(found.critical_angle, 0.0, atol=1e-6)
+    np.testing.assert_array_equal(found.s_surface, found.s)
+
+
+def test_cattaneo_mindlin() -> None:
+    """Two of Hertz's shear tractions, on strips: closed forms on both sides, and in plane strain."""
+    mu, nu, pull = 0.7, 0.3, 0.6
+    own = {"profile": "cylinder", "poisson_ratio": nu, "friction": mu, "normal_force_amplitude": 0.0}
+    x = np.array([-1.5, -1.0, -0.9, -0.4, 0.1, 0.8, 0.99, 1.2])
+    field = swtstudy.stress_field(x, 0.0, 0.0, time=0.5 * np.pi, tangential_force_amplitude=pull, **own)
+    xx, yy, zz, xz = (np.ravel(field[f"sigma_{name}"]) for name in ("xx", "yy", "zz", "xz"))
+    c = np.sqrt(1.0 - pull)
+
+    def root(a: float) -> Array:
+        return np.sqrt(np.maximum(a * a - x * x, 0.0))
+
+    def along(a: float) -> Array:  # σ_xx by the shear √(a² − x²) in +x
+        return -2.0 * np.where(np.abs(x) < a, x, x - np.sign(x) * np.sqrt(np.maximum(x * x - a * a, 0.0)))
+
+    pressure, shear = 0.5 * root(1.0), 0.5 * mu * (root(1.0) - root(c))
+    np.testing.assert_allclose(zz, -pressure, atol=1e-14)
+    np.testing.assert_allclose(xz, -shear, atol=1e-14)
+    np.testing.assert_allclose(xx, -pressure + 0.5 * mu * (along(1.0) - along(c)), atol=1e-14)
+    np.testing.assert_allclose(yy, nu * (xx + zz), atol=1e-15)
+
+
+#: From the least normal load on, as the field's instants are counted.
+LOOPS = {
+    "oblique": [[0.6, 0.1], [0.8, -0.6], [1.3, 0.0], [1.4, 0.5]],
+    "growth": [[0.4, 0.1], [1.5, 0.6], [0.9, -0.5]],
+}
+
+
+def march(loop: Array, strip: StripMarch, per_side: int, x: Array) -> Array:
+    """σ_xx at places after each part of the sides of the second round, (X, T), by elements."""
+    ends = np.roll(loop, -1, axis=0)
+    strip.step(MEAN * loop[0, 0], 0.0)
+    strip.step(*(MEAN * loop[0] * [1.0, strip.friction]))
+    found = []
+    for _ in range(2):
+        found = []
+        for first, last in zip(loop, ends, strict=True):
+            for share in np.arange(1, per_side + 1) / per_side:
+                normal, tangential = MEAN * (first + share * (last - first))
+                strip.step(normal, strip.friction * tangential)
+                found.append(strip.stress_along(x))
+    return np.stack(found, axis=1)
+
+
+@pytest.mark.parametrize(("name", "b"), [("oblique", 0.0), ("growth", 0.0), ("oblique", 0.6)])
+def test_boundary_elements_marched_in_time(name: str, b: float) -> None:
+    """The normal load varies; the march knows neither a superposition nor a memory."""
+    loop, mu, elements, per_side = np.array(LOOPS[name]), 0.5, 150, 24
+    shape = {"profile": "rounded_flat", "flat_half_width": b} if b else {"profile": "cylinder"}
+    given = shape | {
+        "poisson_ratio": 0.3,
+        "friction": mu,
+        "load": LoadPath(name, loop - [1.0, 0.0]),
+        "normal_force_amplitude": 1.0,
+        "tangential_force_amplitude": 1.0,
+    }
+    reach = 1.05 * float(swtstudy.solve(**given, rtol=1e-3, quantities=["contact_radius"]).contact_radius)
+    strip = StripMarch(lambda x: 0.5 * np.maximum(x - b, 0.0) ** 2, reach, elements, mu)
+    x = strip.x[::7]
+    x = x[np.abs(x) < reach]
+    expected = march(loop, strip, per_side, x)
+    # A side takes as long as any other.
+    sides = np.linspace(0.0, 2.0 * np.pi, len(loop) + 1)
+    share = np.arange(1, per_side + 1) / per_side
+    instants = (sides[:-1, None] + np.diff(sides)[:, None] * share).ravel()
+    field = swtstudy.stress_field(x, 0.0, 0.0, time=instants, **given)
+    found = field.sigma_xx.transpose("x", "time").values
+    # Where a slip front is within one element that is off by all that the traction turns in it.
+    off = np.abs(found - expected) / np.abs(expected).max()
+    assert off.max() < 0.12
+    assert off.mean() < 5e-3
+
+
+def loop_points(profile: str, **given: Any) -> Any:
+    return swtstudy.solve(
+        profile=profile, normal_force_amplitude=1.0, tangential_force_amplitude=1.0, rtol=1e-6, **given
+    )
+
+
+def test_where_a_loop_starts_and_which_side_is_which_does_not_matter() -> None:
+    corners = np.array([[0.3, 0.5, 0.1], [-0.4, 0.1, -0.2], [-0.2, -0.6, 0.3], [0.3, 0.0, 0.0]])
+    other = {"bulk_stress_amplitude": 0.3, "profile": "rounded_flat", "flat_half_width": 0.4}
+    found = [loop_points(load=LoadPath("mine", np.roll(corners, k, axis=0)), **other) for k in range(4)]
+    first = found[0]
+    for one in found[1:]:
+        assert float(one.s) == pytest.approx(float(first.s), rel=1e-9)
+    mirrored = loop_points(load=LoadPath("mirror", corners * [1.0, -1.0, 1.0]), **other)
+    assert float(mirrored.s) == pytest.approx(float(first.s), rel=1e-9)
+    assert float(mirrored.critical_x) == pytest.approx(-float(first.critical_x), rel=1e-6)
+
+
+@pytest.mark.slow
+def test_a_sampled_loop_comes_near_to_the_exact_one() -> None:
+    t = 2.0 * np.pi * np.arange(600) / 600
+    sampled = LoadPath("sampled", np.stack([0.5 * np.sin(t + 2.3), 0.4 * np.sin(t)], axis=1))
+    exact = solved(normal_force_amplitude=0.5, tangential_force_amplitude=0.4, phase=2.3, rtol=1e-6)
+    assert float(loop_points("cylinder", load=sampled).s) == pytest.approx(float(exact.s), rel=1e-4)
+
+
+def test_far_from_the_contact_the_bulk_stress_is_plane_strain() -> None:
+    mean, amplitude, nu = 0.1, 0.3, 0.4
+    for gamma in (0.5, 0.3):
+        batch = plane_points(
+            "cylinder", nu, 0.0, 0.2, 0.0,
+            bulk_stress_amplitude=amplitude, bulk_stress_mean=mean, walker_exponent=gamma,
+        )  # fmt: skip
+        found = solve_points(batch)
+        expected = (mean + amplitude) ** (2 - 2 * gamma) * amplitude ** (2 * gamma)
+        expected *= (1 - nu**2) ** (2 * gamma - 1)
+        assert found.s[0] >= expected * (1.0 - 1e-9)
+        assert found.s[0] == pytest.approx(expected, rel=1e-7)
+    own = {"profile": "cylinder", "poisson_ratio": nu, "friction": 0.5}
+    own |= {"normal_force_amplitude": 0.2, "tangential_force_amplitude": 0.4}
+    own |= {"time": [0.3, 2.0]}
+    pulled, bare = (
+        swtstudy.stress_field([0.5, 3.0], 0.0, 0.0, **own, bulk_stress_mean=each) for each in (mean, 0.0)
+    )
+    np.testing.assert_allclose(pulled.sigma_yy, nu * (pulled.sigma_xx + pulled.sigma_zz), atol=1e-12)
+    np.testing.assert_allclose(pulled.sigma_xx - bare.sigma_xx, mean, rtol=1e-9)
+
+
+def test_shift_of_the_stick_zone() -> None:
+    amplitude = np.array([0.05, 0.2])
+    given = {"poisson_ratio": 0.3, "friction": 0.8, "tangential_force_amplitude": 0.5}
+    found = solved(**given, bulk_stress_amplitude=amplitude)
+    np.testing.assert_allclose(found.bulk_shift, amplitude / (2.0 * 0.8), rtol=1e-9)
+    width = 1.0 - np.sqrt(0.5)
+    np.testing.assert_allclose(found.bulk_shift_ratio, found.bulk_shift / width, rtol=1e-9)
+    flat = solved(profile="rounded_flat", flat_half_width=0.5, **given, bulk_stress_amplitude=0.05)
+    assert np.isnan(flat.bulk_shift)
+
+
+@pytest.mark.parametrize("strip", STRIPS, ids=str)
+def test_without_friction_nothing_pulls(strip: Strip) -> None:
+    given = {"friction": 0.0, "normal_force_amplitude": 0.5, "tangential_force_amplitude": 0.0}
+    assert float(solved(profile=strip.profile, **strip.shape, **given).s) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("given", "key", "found", "allowed"),
+    [
+        ({}, "normal_force_amplitude, tangential_force_amplitude", "nothing", "and tangential_force_a"),
+        ({"normal_amplitude": 0.1, "tangential_force_amplitude": 1}, "normal_amplitude", "a dis", "normal"),
+        ({"normal_force_amplitude": 0, "tangential_amplitude": 1}, "tangential_amplitude", "a d", "tial_f"),
+        ({"tangential_force_amplitude": 0.1}, "normal_force_amplitude", "nothing", "force_amplitude: d"),
+    ],
+)  # fmt: skip
+def test_displacements_are_refused_in_one_line(
+    given: dict[str, Any], key: str, found: str, allowed: str
+) -> None:
+    for profile in ("cylinder", ["paraboloid", "cylinder"]):
+        with pytest.raises(StudyError) as error:
+            swtstudy.solve(profile=profile, **given)
+        (line,) = str(error.value).splitlines()
+        assert line.startswith(f"{key}: found {found}")
+        assert allowed in line
+        assert "plane contact" in line
+        assert "with the profile cylinder" in line
+
+
+def test_it_shares_an_axis_with_discs() -> None:
+    both = swtstudy.solve(
+        profile=["cylinder", "paraboloid"],
+        normal_force_amplitude=0.3,
+        tangential_force_amplitude=0.4,
+        phase=1.0,
+    )
+    for name in both.profile.values:
+        alone = swtstudy.solve(
+            profile=str(name), normal_force_amplitude=0.3, tangential_force_amplitude=0.4, phase=1.0
+        )
+        assert float(both.s.sel(profile=name)) == float(alone.s)
+    plain = swtstudy.solve(
+        profile="power_law_cylinder",
+        exponent=2,
+        normal_force_amplitude=0.3,
+        tangential_force_amplitude=0.4,
+        phase=1,
+    )
+    assert float(plain.s) == float(both.s.sel(profile="cylinder"))
+
+
+@pytest.mark.parametrize("height", [0.002, 0.05])
+def test_waves_are_compact_while_the_load_rises(height: float) -> None:
+    """N′ ≥ 0 is 1 + h k² J₀ ≥ 0, h k² below 2.48; the least wavelength is said where it is refused."""
+    least = 2.0 * np.pi / np.sqrt(2.4829)
+    for share, refused in ((1.002, False), (0.998, True)):
+        shape = {"waviness_amplitude": height, "wavelength": share * least}
+        wrong = check_shape("wavy_cylinder", shape, 2.5)
+        assert (wrong is not None) == refused
+        assert not refused or "below 3.988, " in str(wrong)
+        assert not refused or "up to the load 2.5 P0" in str(wrong)
+        if not refused:
+            slope = np.diff(
+                profile_of(Strip("wavy_cylinder", shape, float)).depth(np.linspace(0, 1.5, 4000)[None])
+            )
+            assert (slope > 0.0).all()
