@@ -23,13 +23,13 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, STRAIN_SHARE
-from swtstudy.vocabulary.quantities import Request, item_of
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.units.at_rest import Contact
-    from swtstudy.vocabulary.arrays import FloatArray, IntArray
+    from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 
 
 @dataclass(frozen=True)
@@ -219,11 +219,11 @@ class PhysicalGrid(ContactDetails, Grid):
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
         return found
 
-    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+    def columns(self, places: IndexArray) -> dict[str, NDArray]:
         """See `Grid.columns`."""
-        position = self._position(start, stop)
+        position = self._position(places)
         return {
-            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], stop - start)
+            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], len(places))
             for name, (dims, values) in self._codes_over.items()
         }
 
@@ -286,18 +286,12 @@ class PhysicalGrid(ContactDetails, Grid):
 
         return with_units(dataset, self, asked)
 
-    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
-        """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
-        length = self.at_rest.scale("a_H")
-        names: dict[str, int] = {}
-        at = np.empty((len(asked.distances), self.size), np.int64)
-        position = self._position(0, self.size) if len(length.dims) else {}
-        for row, distance in zip(at, asked.distances, strict=True):
-            items = [item_of(distance / each) for each in length.values.flat]
-            numbers = np.array([names.setdefault(item, len(names)) for item in items])
-            over = numbers.reshape(length.shape)
-            row[:] = over[tuple(position[str(dim)] for dim in length.dims)]
-        return tuple(names), at
+    def distances(self, asked: Request) -> FloatArray:
+        """See `Grid.distances`: the same length is another one in a_H from contact to contact."""
+        if not asked.distances:
+            return super().distances(asked)
+        length = self._of_points(self.at_rest.scale("a_H"))
+        return rounded(np.array(asked.distances) / length[:, None])
 
 
 def _over(values: xr.DataArray, scale: xr.DataArray) -> xr.DataArray:
