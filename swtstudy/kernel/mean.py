@@ -36,6 +36,9 @@ SPHERE, LINE = np.arange(2)
 #: amount of these, which does not cancel: of half spheres, in which kinks are at many places of a cell, and
 #: of lines.
 OF_CHANGE, OF_OFF = 0.3, np.array([0.06, 0.15])
+#: Cells are halved until they lack such a share of the accuracy asked for; and what is claimed over what they
+#: lack: a kink may hide in one cell (results/nonlocal_means.md).
+ENOUGH, CLAIMED = 0.7, 2.5
 #: Accuracy of single values and of those that are averaged, over that of the means; and the least error that
 #: is claimed of a value, of planes and cells, and of a single one, in which a missed peak does not average
 #: out; relative.
@@ -255,7 +258,7 @@ def sum_cells(M):
             volume += M.volume[k, n]
             lacking += M.lacking[k, n, 0] + M.lacking[k, n, 1]
         M.average[n], M.of_cells[n] = whole / volume, lacking / volume
-        M.error[n] = M.of_cells[n] + abs(missing / volume) + OF_VALUE * abs(M.average[n])
+        M.error[n] = CLAIMED * M.of_cells[n] + abs(missing / volume) + OF_VALUE * abs(M.average[n])
         if M.average[n] < 0.0:  # a mean of values that are never negative
             M.error[n] -= M.average[n]
             M.average[n] = 0.0
@@ -266,7 +269,7 @@ def worst_cell(M, rtol):
     """The cell that most is lacking in, and the axis; -1 if the means are accurate enough."""
     worst, of = 1.0, -1
     for n in range(M.distances):
-        size, of_values = rtol * M.average[n], M.error[n] - M.of_cells[n]
+        size, of_values = ENOUGH * rtol * M.average[n], M.error[n] - CLAIMED * M.of_cells[n]
         allowed = max(size - of_values, 0.5 * size, OF_LARGEST * M.largest)
         if M.of_cells[n] > worst * allowed:
             worst, of = M.of_cells[n] / allowed, n
