@@ -33,6 +33,8 @@ _UNLESS_GIVEN = {
     "bulk_stress_amplitude": 0.0,
     "bulk_stress_mean": 0.0,
     "bulk_stress_phase": 0.0,
+    # What the values are compared with knows no shift of the stick zone.
+    "bulk_strain_share": 0.0,
 }
 _BULK = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase")
 
@@ -65,6 +67,7 @@ class Points:
     bulk_stress_amplitude: Array = field(default_factory=_not_given)
     bulk_stress_mean: Array = field(default_factory=_not_given)
     bulk_stress_phase: Array = field(default_factory=_not_given)
+    bulk_strain_share: Array = field(default_factory=_not_given)
 
     def __post_init__(self) -> None:
         for name, value in _UNLESS_GIVEN.items():
@@ -128,6 +131,8 @@ def columns_of(batch: Points) -> dict[str, list[Any]]:
 def results_of(batch: Points, rtol: float = 1e-4, quantities: Sequence[str] = ()) -> xr.Dataset:
     """Results at the points of a batch, along the dimension sample."""
     fixed = {} if batch.criterion == "swt" else {"criterion": batch.criterion}
+    if batch.bulk_stress_amplitude.any():
+        fixed["stick_zone_shift"] = "none"
     columns = columns_of(batch)
     rtol = max(rtol, LEAST_RTOL)
     if batch.path is None and isinstance(batch.profile, str):

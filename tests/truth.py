@@ -1,9 +1,10 @@
 """Recorded values of s that any solver has to reproduce (`tests/data/truth`), as arguments of `solve`.
 
-Each row of a table holds all parameters of a point under their public names, the value, its own error and
-how it was obtained. ``loads*.json`` and ``profiles*.json`` hold the loops and tables that the columns
-``load`` and ``profile`` name. A column is empty where a point does not use the parameter. ``cycles.json``
-holds contacts with units, and their counted strain cycles.
+Each row of a table holds all parameters of a point under their public names, the value, its own error and how
+it was obtained. Values with a bulk stress are those of a stick zone in place. ``loads*.json`` and
+``profiles*.json`` hold the loops and tables that the columns ``load`` and ``profile`` name. A column is empty
+where a point does not use the parameter. ``cycles.json`` holds contacts with units, and their counted strain
+cycles.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ VALUES = (
 #: Parameters that are text; all others are numbers.
 TEXT = ("profile", "frequency_ratio", "load", "criterion")
 #: Parameters that are one in a study of `solved`.
-FIXED = ("profile", "criterion")
+FIXED = ("profile", "criterion", "stick_zone_shift")
 
 
 @dataclass(frozen=True)
@@ -105,6 +106,8 @@ def _point(row: dict[str, str], name: str) -> Point:
     if "load" in arguments:
         arguments["load"] = load(arguments["load"])
     arguments["profile"] = profile(arguments["profile"])
+    if arguments.get("bulk_stress_amplitude"):
+        arguments["stick_zone_shift"] = "none"
     s, x, angle = (float(row[key] or "nan") for key in ("s", "critical_x", "critical_angle"))
     error = float(row["error"] or 0.0)
     values = {key: float(row[key]) for key in VALUES if row.get(key)}
@@ -157,9 +160,7 @@ def solved(several: Sequence[Point], rtol: float, workers: int = 1) -> dict[str,
 def _study(several: Sequence[dict[str, Any]], rtol: float) -> str:
     """The text of a study whose sample is the points; JSON's numbers, texts and lists are those of TOML."""
     columns = {name: [arguments[name] for arguments in several] for name in several[0]}
-    fixed: dict[str, Any] = {
-        name: columns.pop(name)[0] for name in ("profile", "criterion") if name in columns
-    }
+    fixed: dict[str, Any] = {name: columns.pop(name)[0] for name in FIXED if name in columns}
     lines = ['title = "Recorded points"', f"rtol = {rtol!r}"]
     for path in dict.fromkeys(columns.get("load", [])):
         lines += [f"[loads.{json.dumps(path.name)}]", *_keys({"vertices": path.vertices.tolist()})]
@@ -253,6 +254,8 @@ def contacts() -> list[Counted]:
     found = []
     for each in json.loads((FOLDER / "cycles.json").read_text(encoding="utf-8")):
         given = each["contact"]
+        if "bulk_stress_amplitude" in given:
+            given["stick_zone_shift"] = "none"
         if "load" in given:
             given["load"] = swtstudy.LoadPath("counted", given["load"])
         shares = np.array(each["counted"][0], dtype=float)

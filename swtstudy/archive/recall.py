@@ -24,10 +24,11 @@ from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.vocabulary.choices import NONE
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.parameters import PARAMETERS, SHIFT, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 
@@ -64,6 +65,8 @@ def grid_of(dataset: xr.Dataset) -> Grid:
             continue
         raw = np.atleast_1d(coordinate.values).tolist()
         values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
+    if SHIFT not in values and any(values.get("bulk_stress_amplitude", ())):
+        values[SHIFT] = (NONE,)  # archives from before there was a choice
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
     _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
     _check_control(dataset, {*values, *dims}, report)

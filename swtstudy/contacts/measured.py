@@ -25,7 +25,7 @@ from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS, SHIFT
 from swtstudy.vocabulary.quantities import YIELD, Request
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
@@ -118,7 +118,7 @@ def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
 def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
     """Say how far the contacts are from where the model ends, as far as that is known without solving."""
     for name, values in margins(unique_points(grid), grid).items():
-        if name != "bulk_shift" and np.isfinite(values).any():
+        if name not in ("stick_zone", "bulk_shift") and np.isfinite(values).any():
             largest = plain_words(float(np.nanmax(values)))
             yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]
 
@@ -126,7 +126,14 @@ def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
 #: Data variables and coordinates by what they are measured in, and the symbols that they have with a unit.
 _LENGTHS = {
     **{"x": "x", "y": "y", "z": "z", "r": "r", "contact_radius": "a", "slip_radius": "c", "shown_x": "x"},
-    **{"permanent_stick_radius": "c", "least_radius": "a", "largest_radius": "a"},
+    **{
+        "stick_left": "x",
+        "stick_right": "x",
+        "stick_centre": "x",
+        "permanent_stick_radius": "c",
+        "least_radius": "a",
+        "largest_radius": "a",
+    },
     "critical_x": "x",
 }
 _STRESSES = {
@@ -274,7 +281,7 @@ class InUnits:
         """
         contact, grid = self._one, self._grid_of(self._body(body))
         control, shape = grid.control, family_of(contact.profile).shape
-        names = ("frequency_ratio", "load", "criterion")
+        names = ("frequency_ratio", "load", "criterion", SHIFT)
         own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
         own["profile"] = contact.pure_profile
         for column, values in grid.numbers.items():

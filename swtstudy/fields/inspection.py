@@ -59,9 +59,10 @@ def inspect_point(**parameters: object) -> xr.Dataset:
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
           0 or not finite, those of the largest swt that was sampled;
-        - dissipation, that is ∮ F_x du of the cycle over μF_0 · μE*δ0/G*, and dissipation_error;
-        - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), least_radius and
-          largest_radius of the contact.
+        - dissipation, the work of friction in the cycle over μF_0 · μE*δ0/G*, which is ∮ F_x du but for what
+          a bulk stress adds that moves the stick zone, and dissipation_error;
+        - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), stick_left and
+          stick_right, where that zone ends, least_radius and largest_radius of the contact.
 
         Lengths in a_H, stresses in E* √(δ0/R), strains in √(δ0/R), swt in E* δ0/R, the values of other
         criteria in E* √(δ0/R).
@@ -81,7 +82,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     cycle = read_cycle(parameters)
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
     extent = _extent(cycle)
-    radius = _radii(cycle, [*(float(v[1]) for v in extent.values()), abs(float(solved.critical_x))])
+    radius = _radii(cycle, [*(abs(float(v[1])) for v in extent.values()), abs(float(solved.critical_x))])
     values, double_angles = cycle.along(radius)
     if float(solved.s) == 0.0:  # what is there is rounding
         values = np.zeros_like(values)
@@ -99,7 +100,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "s_local": ("x", _both_sides(values[:, 0], values[:, 1]), named(criterion.words, criterion.symbol)),
     }
     largest = float(extent["largest_radius"][1])
-    slip = slip_map(np.linspace(0.0, _SLIP_REACH * largest, _SLIP_RADII), time=time, **parameters)
+    first = -largest if cycle.moved else 0.0
+    slip = slip_map(_SLIP_REACH * np.linspace(first, largest, _SLIP_RADII), time=time, **parameters)
     coordinates = {
         "x": ("x", _both_sides(radius, -radius), named("position in the direction of sliding", "x/a_H")),
         "instant": np.arange(1, len(marked) + 1),
@@ -107,7 +109,11 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "reason": ("instant", reasons),
     }
     variables = (
-        course | extent | shown | _tractions(cycle, some, radius) | springs_of(cycle, some, slip.r.values)
+        course
+        | extent
+        | shown
+        | _tractions(cycle, some, radius)
+        | springs_of(cycle, some, abs(slip.r.values))
     )
     variables["edge_state"] = "time", edge_states(cycle, instant), of_states(slip.state.attrs)
     return slip.assign(variables).assign_coords(coordinates).merge(solved)
@@ -131,9 +137,12 @@ def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
 
 
 def _extent(cycle: LoadCycle) -> Variables:
-    """Least and largest contact radius, and the radius of permanent stick."""
+    """Ends and radius of permanent stick, least and largest contact radius."""
     permanent, least, largest = cycle.radii
+    left, right = cycle.stick_zone
     return {
+        "stick_left": ((), left, named("left end of what always sticks", "x/a_H")),
+        "stick_right": ((), right, named("right end of what always sticks", "x/a_H")),
         "permanent_stick_radius": ((), permanent, named("radius that always sticks", "c/a_H")),
         "least_radius": ((), least, named("least contact radius", "a/a_H")),
         "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
@@ -166,13 +175,18 @@ def _stress_cycle(cycle: LoadCycle, states: States, x: float, double_angle: floa
 
 
 def _tractions(cycle: LoadCycle, some: States, radius: FloatArray) -> Variables:
-    """Pressure and traction on the half-space; both are even in x."""
-    stress = [cycle.stress(float(r), some) for r in radius]
-    p, q = (-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz"))
+    """Pressure and traction on the half-space; both are even in x if nothing moves the stick zone."""
+
+    def at(x: FloatArray) -> list[FloatArray]:
+        stress = [cycle.stress(float(each), some) for each in x]
+        return [-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz")]
+
+    p, q = at(radius)
+    left = at(-radius)[1] if cycle.moved else q
     dims = ("instant", "x")
     return {
         "pressure": (dims, _both_sides(p, p), named("pressure", "p")),
-        "traction": (dims, _both_sides(q, q), named("tangential traction in +x", "q")),
+        "traction": (dims, _both_sides(q, left), named("tangential traction in +x", "q")),
     }
 
 

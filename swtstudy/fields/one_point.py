@@ -21,10 +21,10 @@ from swtstudy.solver.margins import Margins
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.choices import family_of
+from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS, Control
+from swtstudy.vocabulary.parameters import PAIRS, SHIFT, STRAIN_SHARE, Control
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -46,8 +46,14 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     profile = grid.fixed["profile"]
     ratio = Fraction(str(grid.fixed["frequency_ratio"]))
 
+    moves = grid.fixed[SHIFT] == MOVED
+    # A bulk stress of the other body matters by the stick zone alone.
+    is_there = moves or as_number(grid.fixed[STRAIN_SHARE]) > 0.0
+
     def number(name: str) -> np.ndarray:
-        return np.array([as_number(grid.fixed[grid.control.given_for(name)])])
+        value = as_number(grid.fixed[grid.control.given_for(name)])
+        left_out = name.startswith("bulk_stress") and not is_there
+        return np.array([0.0 if left_out else value])
 
     course, control = grid.fixed["load"], grid.control
     if not number("normal_amplitude").any():
@@ -61,7 +67,8 @@ def read_point(parameters: Mapping[str, object]) -> Points:
         control=control,
         path=course if isinstance(course, Loop) else None,
         criterion=str(grid.fixed["criterion"]),
-        **{name: number(name) for name in NUMBERS},
+        **{name: number(name) for name in NUMBERS if name != STRAIN_SHARE},
+        bulk_strain_share=number(STRAIN_SHARE) * moves,
     )
 
 

@@ -26,7 +26,7 @@ from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.criteria import CRITERIA
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.
 _OF_INSTANTS, _OF_FIELD = 1e-5, 1e-3
@@ -169,7 +169,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     Parameters
     ----------
     r
-        Distance from the axis in a_H, a number or a one-dimensional sequence.
+        Distance from the axis in a_H, a number or a one-dimensional sequence; negative at x < 0, which
+        matters where a bulk stress moves the stick zone.
     time
         ω1 t in rad: a number or a one-dimensional sequence; by default 64 instants of one common period.
     **parameters
@@ -179,7 +180,9 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     -------
     xarray.Dataset
         state (a flag) over time and r; slip_radius and contact_radius in a_H over time: the contact slips
-        between the two. In forward slip the body under the indenter is dragged towards +x.
+        between the two. Where a bulk stress moves the stick zone, the zone of this radius is about
+        stick_centre, x/a_H over time, and the state is that on the line y = 0. In forward slip the body under
+        the indenter is dragged towards +x.
 
     Raises
     ------
@@ -192,17 +195,16 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
     given = read_instants(time)
     instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
-    allowed = "a finite distance r ≥ 0 in a_H or a sequence of them"
-    distances = np.atleast_1d(read_finite("r", r, allowed))
-    if (distances < 0.0).any():
-        raise StudyError([Mistake("r", literal(r), allowed)])
-    radius = xr.DataArray(distances, dims="r")
+    allowed = "a finite distance in a_H, negative at x < 0, or a sequence of them"
+    radius = xr.DataArray(np.atleast_1d(read_finite("r", r, allowed)), dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
     states = cycle.states(given.ravel() / rounds)
     # A ring under a flat face is the whole face.
-    place = np.maximum(cycle.place(radius.values), 0.0)
+    place = np.maximum(cycle.place(np.abs(radius.values)), 0.0)
     slips = np.where(states.push > 0, 2, 3)[:, None]
-    inside, touching = (place < states[name][:, None] for name in ("front_s", "edge_s"))
+    touching, centre = place < states.edge_s[:, None], cycle.centre(states.front_s)
+    off = np.abs(radius.values - centre[:, None]) if cycle.moved else place
+    inside = off < states.front_s[:, None]
     state = np.where(inside, 1, np.where(touching, slips, 0)).astype(np.int8)
     flags = {
         "long_name": "state of the contact",
@@ -216,4 +218,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
         there = np.where(states.normal > 0.0, cycle.radius(values), 0.0).reshape(instants.shape)
         meaning = {"long_name": f"{name.replace('_', ' ')}, in units of a_H", "units": "1"}
         variables[name] = (instants.dims, there, meaning)
+    if cycle.moved:
+        meaning = {"long_name": "centre of the stick zone, in units of a_H", "units": "1"}
+        variables["stick_centre"] = (instants.dims, centre.reshape(instants.shape), meaning)
     return xr.Dataset(variables, {"time": instants, "r": radius})

@@ -58,16 +58,18 @@ def draw_slip(axes: Axes, dataset: xr.Dataset) -> None:
     """Stick and slip over the cycle."""
     handles: list[Artist] = list(draw_slip_map(axes, dataset)[1:])
     axes.grid(False)
-    top = float(dataset.r[-1])
-    axes.set_ylim(0.0, top)
-    stick = float(dataset.permanent_stick_radius)
-    for radius, dashes, words in (
-        (abs(float(dataset.shown_x)), DASHED, "critical point" if _is_finite(dataset) else "largest sampled"),
-        (stick, DOTTED, "always sticks"),
-    ):
-        if radius > 0.0:
-            look: dict[str, Any] = {"color": "black", "linewidth": thin(), "linestyle": dashes}
-            handles.append(axes.axhline(radius, label=words, **look))
+    axes.set_ylim(float(dataset.r[0]), float(dataset.r[-1]))
+    both_sides = float(dataset.r[0]) < 0.0
+    shown = float(dataset.shown_x)
+    ends = [float(dataset.stick_left)] * both_sides + [float(dataset.stick_right)]
+    look: dict[str, Any] = {"color": "black", "linewidth": thin()}
+    words = "critical point" if _is_finite(dataset) else "largest sampled"
+    if abs(shown) > 0.0:
+        place = shown if both_sides else abs(shown)
+        handles.append(axes.axhline(place, label=words, linestyle=DASHED, **look))
+    if float(dataset.permanent_stick_radius) > 0.0:
+        lines = [axes.axhline(end, label="always sticks", linestyle=DOTTED, **look) for end in ends]
+        handles.append(lines[-1])
     for time in dataset.instant_time.values:
         axes.axvline(time, color="black", linewidth=thin(), alpha=0.6)
     mark_over_time(axes, dataset, 0.95)
@@ -176,8 +178,17 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     axes.plot(dataset.x, dataset.s_local, **stroke())
     stick, least = float(dataset.permanent_stick_radius), float(dataset.least_radius)
     if stick > 0.0:
-        axes.axvspan(-stick, stick, color="0.85", zorder=0)
-        axes.text(0.0, 0.04 * top, "always\nsticks", ha="center", va="bottom", color="0.25", fontsize="small")
+        left, right = float(dataset.stick_left), float(dataset.stick_right)
+        axes.axvspan(left, right, color="0.85", zorder=0)
+        axes.text(
+            0.5 * (left + right),
+            0.04 * top,
+            "always\nsticks",
+            ha="center",
+            va="bottom",
+            color="0.25",
+            fontsize="small",
+        )
     # The label of the least radius is beneath that of the largest, or beneath the inset.
     lower = _LOWER if least > 0.5 * largest else _LOWEST
     ends = ((least, DOTTED, r"$a_{\min}$", lower), (largest, "-", r"$a_{\max}$", _UPPER))

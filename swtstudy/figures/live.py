@@ -153,6 +153,7 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
     "bulk_stress_amplitude": (0.0, 1.0, 0.01, 0.0),
     "bulk_stress_mean": (-1.0, 1.0, 0.01, 0.0),
     "bulk_stress_phase": (0.0, 2 * pi, pi / 72, 0.0),
+    "bulk_strain_share": (-2.0, 2.0, 0.05, 1.0),
     "walker_exponent": (0.2, 0.8, 0.01, 0.5),
 }
 #: Ratios of the frequencies to choose from.

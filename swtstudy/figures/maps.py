@@ -109,7 +109,9 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     axes.plot(dataset.time, dataset.contact_radius, **stroke(linewidth=1.2))
     words = state.attrs["flag_meanings"].split()
     draw_time_axis(axes, dataset.time)
-    axes.set_ylabel("$r/a_H$")
+    if float(state.r[0]) < 0.0:  # both sides
+        axes.plot(dataset.time, -dataset.contact_radius, **stroke(linewidth=1.2))
+    axes.set_ylabel("$x/a_H$" if float(state.r[0]) < 0.0 else "$r/a_H$")
     return [
         Patch(facecolor=colour, edgecolor="black", label=word.replace("_", " "))
         for word, colour in zip(words, STATE_COLOURS, strict=True)

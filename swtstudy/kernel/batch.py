@@ -7,17 +7,19 @@ from threading import local
 
 import numpy as np
 
+from swtstudy.kernel.body import body_workspace
 from swtstudy.kernel.circle import circles, search_circles
 from swtstudy.kernel.compiled import new_record, new_records, once
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
-from swtstudy.kernel.loads import load_of
+from swtstudy.kernel.loads import leave_bulk_out, load_of
 from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
+from swtstudy.kernel.shifted_circle import search_shifted_circles
 from swtstudy.kernel.work import CONJUGATE, MARGIN, OF_CYCLE, cycles_of, margins_of
 
 #: Points of one compiled call: their loads and profiles take some 10 MB.
@@ -44,6 +46,7 @@ def chunks(
     criterion="swt",
     walker_exponent=None,
     normal_sensitivity=None,
+    pulled=None,
     rtol=1e-4,
     reach=0.0,
 ):
@@ -71,6 +74,10 @@ def chunks(
         swt, fatemi_socie or findley.
     walker_exponent, normal_sensitivity
         Shape (n,); 1/2 and 0 if None.
+    pulled
+        Shape (n,): strain of the body with the bulk stress over the mean of both, which shifts the stick
+        zone; 0 where it is not to be shifted; 1 if None, for bodies of equal moduli. Negative in the other
+        body, whose stress is without the bulk stress.
     rtol
         Relative accuracy asked of s.
     reach
@@ -89,6 +96,7 @@ def chunks(
     bulk = [zero if each is None else each for each in (bulk_amplitude, bulk_mean, bulk_phase)]
     exponent = zero + 0.5 if walker_exponent is None else walker_exponent
     sensitivity = zero if normal_sensitivity is None else normal_sensitivity
+    strain = zero + 1.0 if pulled is None else pulled
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
         loads, asks = _loads()[: len(rows)], new_records(len(rows), ASK)
@@ -98,7 +106,9 @@ def chunks(
             ratio = Fraction(1 if frequency_ratio is None else frequency_ratio[i])
             own = normal_amplitude[i], tangential_amplitude[i], angle[i], ratio
             loads[j] = load_of(loop, *own, *(each[i] for each in bulk))
-            own = criterion, exponent[i], sensitivity[i]
+            if strain[i] < 0.0:
+                leave_bulk_out(loads[j])
+            own = criterion, exponent[i], sensitivity[i], strain[i]
             asks[j] = ask(poisson_ratio[i], friction[i], rtol, *own)
             keys.append(tuple((key, float(values[i])) for key, values in (shape or {}).items()))
         largest = dict.fromkeys(keys, 1.0)
@@ -142,6 +152,9 @@ def solve_batch(*points, **given):
         if parts[-1]["circle"].any():
             warm_up_circles()
             search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
+            if (parts[-1]["circle"] * parts[-1]["shift"]).any():
+                places = _of_this_thread("body", body_workspace)
+                search_shifted_circles(*places, *_workspace(), profiles, which, loads, asks, parts[-1])
             _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, RESULT)
 
@@ -238,9 +251,9 @@ def cycle_batch(with_ratio, *points, **given):
     U = _of_this_thread("conjugate", partial(new_record, CONJUGATE))
     cycle, growth = _workspace()[:2]
     parts = []
-    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
+    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
         parts.append(new_records(len(which), OF_CYCLE))
-        cycles_of(cycle, growth, U, profiles, which, loads, np.bool_(with_ratio), parts[-1])
+        cycles_of(cycle, growth, U, profiles, which, loads, asks, np.bool_(with_ratio), parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, OF_CYCLE)
 
@@ -259,9 +272,9 @@ def margins_batch(*points, **given):
         Shape (n,) of `swtstudy.kernel.work.MARGIN`.
     """
     parts = []
-    for _, profiles, which, loads, _ in chunks(*points, **given, rtol=OF_PROFILE):
+    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE):
         parts.append(new_records(len(which), MARGIN))
-        margins_of(_workspace()[0], profiles, which, loads, parts[-1])
+        margins_of(_workspace()[0], profiles, which, loads, asks, parts[-1])
     return _joined(parts, MARGIN)
 
 

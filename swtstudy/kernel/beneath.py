@@ -9,6 +9,9 @@ In s all functions have their singularity at the complex place s* = σ + iω wit
 variable u of s = σ + ω sinh u spreads its neighbourhood and removes the root there, so that cells of equal
 length do at every depth, their number growing like ln(1/z). In the surface (ω = 0) s = σ sin u inside and
 s = σ cosh u outside do the same.
+
+Where a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
+its own, and its stresses are added instead of its functions.
 """
 
 from math import asin, asinh, cos, cosh, hypot, pi, sin, sinh, sqrt
@@ -31,6 +34,7 @@ from swtstudy.kernel.punch import (
     strip_moments,
     upper_root,
 )
+from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.surface import acosh
 
 #: Row and cell of the profile; no literal, for which Numba would compile anew.
@@ -71,6 +75,12 @@ PLACE = np.dtype(
         ("drag", "f8", (FUNCTIONS,)),
         ("work", "f8", (2, FUNCTIONS)),
         ("other", "f8", (6,)),
+        ("shift", "f8"),  # of the stick zone; coordinate and place of the edge
+        ("load", "f8"),
+        ("reach", "f8"),
+        ("nothing", "f8", (FUNCTIONS,)),
+        ("drag_to_start", "f8", (MAX_PIECES, 6)),  # the stress up to a piece's start, where there is a shift
+        ("one_drag", "f8", (3, 6)),
     ]
 )
 
@@ -224,7 +234,67 @@ def add(to, factor, f):
 
 
 @jit
-def open_place(B, C, R, P, x, y, z, largest):
+def drag_of(B, P, s, nu):
+    """Write the stress by Hertz's traction on the stick zone of size s about its own centre, times π."""
+    d, f, z = centre_of(P, B.shift, B.load, B.reach, s), B.work[1], B.z
+    x = B.x - d
+    if P.plane:
+        strip_moments(abs(x), z, s, f)
+        f[0] += 0.5 * pi * abs(x)  # less those of size 0
+        f[1] += 0.5 * pi * z
+        f[2] += 0.5 * pi * z
+    else:
+        disc_moments(hypot(x, B.y), z, s, f)
+    components(P.plane, B.nothing, f, x, B.y, z, nu, B.one_drag[0], B.one_drag[1])
+
+
+@jit
+def add_drag(B, P, s, factor, nu, to):
+    """Add a multiple of the stress by the traction on a stick zone."""
+    if factor == 0.0 or s <= 0.0:
+        return
+    drag_of(B, P, s, nu)
+    for c in range(6):
+        to[c] += factor * B.one_drag[0, c]
+
+
+@jit
+def open_drags(B, C, P, nu):
+    """Sum the stress by the pieces up to the start of each."""
+    for j in range(FUNCTIONS):
+        B.nothing[j] = 0.0
+    for i in range(C.pieces):
+        if C.used[i] == 0:
+            continue
+        beneath, sums, jump = C.beneath[i], B.drag_to_start[i], -C.slope[i]
+        for c in range(6):
+            sums[c] = 0.0 if beneath == NONE else B.drag_to_start[beneath, c]
+        if beneath != NONE:
+            jump += C.slope[beneath]
+        add_drag(B, P, C.start_s[i], jump, nu, sums)
+
+
+@jit
+def shifted_stress(B, C, P, k, edge, front, sign, nu, mu, out, other):
+    """`stress_of_state` where the stick zone is shifted: stresses of pressure and of drag on their own."""
+    push, i = C.push[k], C.piece[k]
+    up_to(B, P, edge, B.normal)
+    components(P.plane, B.normal, B.nothing, B.x, B.y, B.z, nu, out, other)
+    drag = B.one_drag[2]
+    for c in range(6):
+        drag[c] = 0.0 if i == NONE else B.drag_to_start[i, c]
+    slope = push if i == NONE else C.slope[i]
+    if front < edge:
+        add_drag(B, P, front, slope - push, nu, drag)
+        slope = push
+    add_drag(B, P, edge, slope, nu, drag)
+    for c in range(6):
+        pressure, shear = out[c] / pi, sign * mu / pi * drag[c]
+        out[c], other[c] = pressure + shear, pressure - shear
+
+
+@jit
+def open_place(B, C, R, P, x, y, z, largest, nu):
     """Tabulate the densities at a place, and ∫ o′ times the functions up to the start of each piece.
 
     Parameters
@@ -233,6 +303,7 @@ def open_place(B, C, R, P, x, y, z, largest):
         Place s of the largest contact.
     """
     set_place(B, P, x, y, z)
+    B.shift, B.load, B.reach = C.shift, C.largest, largest
     k, plane, b = FIRST, P.plane, P.flat_radius
     for j in range(FUNCTIONS):
         B.work[0, j], B.at_axis[j] = 0.0, 0.0
@@ -243,6 +314,9 @@ def open_place(B, C, R, P, x, y, z, largest):
         strip_moments(B.r, z, 0.0, B.at_axis)
     else:
         disc_moments(B.r, z, 0.0, B.at_axis)
+    if B.shift != 0.0:
+        open_drags(B, C, P, nu)
+        return
     f = B.work[1]
     for i in range(C.pieces):
         if C.used[i] == 0 or B.overflow:
@@ -280,6 +354,9 @@ def stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, other):
     if push == OPEN or edge <= 0.0:
         for j in range(6):
             out[j], other[j] = 0.0, 0.0
+        return
+    if B.shift != 0.0:
+        shifted_stress(B, C, P, k, edge, front, sign, nu, mu, out, other)
         return
     up_to(B, P, edge, n)
     for j in range(FUNCTIONS):
@@ -321,7 +398,7 @@ def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
         stretch[i], bulk[i] = k, bulk_at(L, t)
         state[i, 0], state[i, 1] = solved_places(C, P, L, k, t)
     for p in range(places.shape[0]):
-        open_place(B, C, R, P, places[p, 0], places[p, 1], places[p, 2], largest)
+        open_place(B, C, R, P, places[p, 0], places[p, 1], places[p, 2], largest, nu)
         if B.overflow:
             return
         for i in range(m):

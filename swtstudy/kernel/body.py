@@ -32,6 +32,7 @@ from swtstudy.kernel.history import (
     SPACED,
     add_part,
     approaches,
+    find_passing,
     is_calm,
     may_be_refined,
     split,
@@ -124,7 +125,7 @@ def sample_ends(S, B, H, C, P, L, k, nu, mu):
     """A part for stretch k of which only the ends are sampled; they are shared with the part before."""
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
-    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.G, C.front[k, 0], C.front[k, 1])
+    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
     z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
     m, mirrored = H.instants, L.mirrored
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
@@ -147,12 +148,14 @@ def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
     coarsest
         Intervals of a part.
     """
-    open_place(B, C, R, P, x, y, z, largest)
+    open_place(B, C, R, P, x, y, z, largest, nu)
     S.overflow = B.overflow
     H.instants, H.parts, H.plane = 0, 0, P.plane
     H.X, H.all_outside, H.G = B.sigma, 1, -1.0
     if B.sigma > 0.0 and B.omega < DEEP * largest:
         H.G = coordinate_at(P, B.sigma) if B.sigma <= largest else np.inf
+    H.shift, H.load, H.reach = C.shift, C.largest, largest
+    find_passing(H, P, x, y)
     for k in range(C.stretches):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             S.overflow = 1

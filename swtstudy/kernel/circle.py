@@ -282,7 +282,7 @@ def first_arcs(D, G, S, H, W, C, P, K, L, Q):
 @jit
 def search_circle(D, G, S, H, W, C, R, P, K, L, Q, largest, place, known):
     """Largest value on the circle at a place s, if it is above what is known; else that."""
-    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
+    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, 1.0)
     bound_turning(D, H, Q)
     D.angles, D.peaks, D.next, D.parts, D.swing, D.highest = 0, 0, 0, 0, 0.0, 0.0
     D.best = least = lift(Q, known)
@@ -378,9 +378,12 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
 
 @jit
 def search_circles(D, G, S, C, R, _, H, W, K, profiles, which, loads, asks, found):
-    """Write the largest values on the circles of points, where the line may not be enough."""
+    """Write the largest values on the circles of points, where the line may not be enough.
+
+    Not where the stick zone is shifted (`swtstudy.kernel.shifted_circle`).
+    """
     for i in range(which.shape[0]):
-        if found[i].circle:
+        if found[i].circle and found[i].shift == 0.0:
             profile, load = profiles[which[i]], loads[i]
             top = surface_value(D, G, S, C, R, H, W, K, profile, load, asks[i], found[i])
             found[i].s_surface, found[i].overflow = top, C.overflow

@@ -45,6 +45,7 @@ CYCLE = np.dtype(
         ("any_slip", "i8"),
         ("largest", "f8"),  # largest and smallest coordinate of the edge
         ("smallest", "f8"),
+        ("shift", "f8"),  # of the stick zone, see `swtstudy.kernel.shift`
         ("event", "f8", (MAX_EVENTS,)),
         ("beneath", "i8", (MAX_PIECES,)),
         ("kind", "i8", (MAX_PIECES,)),
@@ -270,7 +271,7 @@ def unload(C, L, top, begin, end):
 @jit
 def solve_cycle(C, L):
     """One stationary load cycle; half of it where the other half is its mirror image."""
-    C.pieces, C.stretches, C.overflow = 0, 0, 0
+    C.pieces, C.stretches, C.overflow, C.shift = 0, 0, 0, 0.0
     T = C.event
     m = turning_points(L, T)
     C.events, C.no_equilibrium = m, out_of_equilibrium(L, T, m)

@@ -76,9 +76,9 @@ def write_springs(C, R, P, L, U, states, places, largest, compression, force):
 
 
 @jit
-def write_stress(H, C, R, P, K, states, place, largest, nu, mu):
-    """Write the stress at place s, as a history of the instants of the states."""
-    begin_history(H, C, R, P, K, place, largest)
+def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
+    """Write the stress at place s on one side, as a history of the instants of the states."""
+    begin_history(H, C, R, P, K, place, largest, side)
     for i in range(states.shape[0]):
         state = states[i]
         stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, nu, mu)
@@ -88,12 +88,12 @@ def write_stress(H, C, R, P, K, states, place, largest, nu, mu):
 
 
 @jit
-def write_parts(H, C, R, P, K, L, place, largest, nu, mu):
-    """Cut the cycle where the stress at place s has cusps in time: the times of the parts are in the history.
+def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
+    """Cut the cycle where the stress at place s on one side has cusps in time.
 
-    Of a mirrored cycle those of half of it.
+    The times of the parts are in the history: of a mirrored cycle those of half of it.
     """
-    begin_history(H, C, R, P, K, place, largest)
+    begin_history(H, C, R, P, K, place, largest, side)
     for k in range(C.stretches):
         if H.parts + 7 >= H.first.shape[0]:
             C.overflow = 1

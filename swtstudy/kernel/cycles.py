@@ -27,6 +27,7 @@ from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
 from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 
 #: Powers of the criterion of which the sum is made largest.
 POWERS = np.array([1.0, 2.0, 4.0, 8.0])
@@ -226,9 +227,9 @@ def reach_of(N, Q, top, swing):
 
 
 @jit
-def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals):
-    """Sample the cycle at place s with so many intervals of each part."""
-    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
+def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals, side):
+    """Sample the cycle at place s on one side with so many intervals of each part."""
+    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, side)
     sample_closely(H, C, P, K, L, Q, intervals)
     rank_parts(N, H, L)
 
@@ -252,10 +253,11 @@ def place_at(N, at):
 @jit
 def look_at(N, H, W, C, R, P, K, L, Q, at, largest):
     """Count cycles at one place where they may matter; returns how high they are, over what would matter."""
-    sample_at(N, H, C, R, P, K, L, Q, place_at(N, at), largest, COARSELY)
     highest = 0.0
     for number in range(1 if L.mirrored else 2):
         side = 1.0 - 2.0 * number
+        if number == 0 or C.shift != 0.0:
+            sample_at(N, H, C, R, P, K, L, Q, place_at(N, at), largest, COARSELY, side)
         fill(H, W, side, Q)
         for plane in range(PLANES):
             follow(N, H, W, Q, COS_2[plane], SIN_2[plane])
@@ -304,7 +306,7 @@ def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
         best, at, angle = -1.0, best_at, best_angle
         for i in range(OFFSETS.shape[0]):
             here = min(max(at + wide * OFFSETS[i], 0.0), float(N.ends))
-            sample_at(N, H, C, R, P, K, L, Q, place_at(N, here), largest, CLOSELY)
+            sample_at(N, H, C, R, P, K, L, Q, place_at(N, here), largest, CLOSELY, side)
             fill(H, W, side, Q)
             for j in range(OFFSETS.shape[0]):
                 plane = angle + turned * OFFSETS[j]
@@ -315,7 +317,7 @@ def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
                     best, best_at, best_angle = total, here, plane
         wide *= SHRINKING
         turned *= SHRINKING
-    sample_at(N, H, C, R, P, K, L, Q, place_at(N, best_at), largest, FINELY)
+    sample_at(N, H, C, R, P, K, L, Q, place_at(N, best_at), largest, FINELY, side)
     fill(H, W, side, Q)
     follow(N, H, W, Q, cos(best_angle), sin(best_angle))
     count_cycles(N, Q)
@@ -356,7 +358,7 @@ def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
     asked, needed = Q.growth, Q.growth
     while True:
         growth = lay_out(R, C, P, L, asked)
-        sample_at(N, H, C, R, P, K, L, Q, place, largest, COARSELY)
+        sample_at(N, H, C, R, P, K, L, Q, place, largest, COARSELY, side)
         fill(H, W, side, Q)
         find_peaks(H, W, Q, cos(angle), sin(angle))
         swing = W.top[SWING] + W.top[MINUS_SWING]
@@ -412,7 +414,7 @@ def count_point(C, R, S, H, W, K, N, P, L, Q, x, angle, out):
         if N.largest > 0.0:
             keep_cycles(N, out)
     elif not C.overflow:
-        largest = place_of(P, C.largest)
+        C.shift, largest = shift_of(L, P, Q, C.event, C.events), place_of(P, C.largest)
         count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest)
         set_largest(N)
         if N.largest > 0.0:

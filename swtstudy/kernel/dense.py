@@ -22,13 +22,15 @@ def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, h
         Shape (X, 2, 2): by place and side the value and the number of the plane.
     """
     for i in range(places.shape[0]):
-        sample_cycle(H, C, R, P, K, L, places[i], largest, Q.poisson_ratio, Q.friction)
-        for _ in range(halved):
-            for z in range(H.parts):
-                if may_be_refined(H, C, z) and H.instants + 2 * ROOM < MAX_INSTANTS:
-                    refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
         for side in range(2):
-            fill(H, W, 1.0 - 2.0 * side, Q)
+            sign = 1.0 - 2.0 * side
+            if side == 0 or C.shift != 0.0:
+                sample_cycle(H, C, R, P, K, L, places[i], largest, Q.poisson_ratio, Q.friction, sign)
+                for _ in range(halved):
+                    for z in range(H.parts):
+                        if may_be_refined(H, C, z) and H.instants + 2 * ROOM < MAX_INSTANTS:
+                            refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
+            fill(H, W, sign, Q)
             found[i, side, 0], found[i, side, 1] = 0.0, 0.0
             for k in range(cosines.shape[0]):
                 of_b, of_c = swing_weights(Q, cosines[k], sines[k])

@@ -20,6 +20,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS
 from swtstudy.kernel.mean import MAX_DISTANCES, cells, means_at
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.shift import centre_of, shift_of
 
 #: Tolerance of what grew, of the stress itself: 1e-8 of the largest pressure.
 GROWTH = 1e-7
@@ -73,6 +74,7 @@ def open_cycle(tolerance=GROWTH, **given):
     if C["no_equilibrium"]:
         return None
     _refuse_overflow(C["overflow"])
+    C["shift"] = shift_of(L, P, Q, C["event"], np.int64(C["events"]))
     lay_out(R, C, P, L, tolerance)
     return Opened(C, R, P, L, Q, float(place_of(P, float(C["largest"]))))
 
@@ -97,10 +99,13 @@ def largest_radius(opened):
 
 def passed_radii(opened, most):
     """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
-    C, _, P, _, _, _ = opened
+    C, _, P, *_ = opened
     pieces, stretches = int(C["pieces"]), int(C["stretches"])
     starts = C["start_s"][:pieces][C["used"][:pieces] == 1]
     every = np.unique(np.concatenate([starts, C["place"][:stretches, :: FINEST // 4].ravel()]))
+    if C["shift"] != 0.0:
+        off = [centre_of(P, C["shift"], C["largest"], opened.largest, s) for s in every]
+        every = np.unique(np.abs(np.concatenate([every, every + off, every - off])))
     if len(every) > most:
         every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
     return np.sqrt(every * every + float(P["flat_radius"]) ** 2)

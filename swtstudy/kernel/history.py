@@ -5,7 +5,7 @@ it has a root cusp in time. So a stretch has up to three parts at x. Each part h
 points of a variable in which root cusps at its ends are smooth; its series dies out exponentially.
 """
 
-from math import pi, sqrt
+from math import hypot, pi, sqrt
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from swtstudy.kernel.contact import ALPHA, GROWN, MAX_PIECES, NONE, OPEN, SHORTE
 from swtstudy.kernel.growth import places_at, solved_places
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, bulk_at, distinct, instant_of
 from swtstudy.kernel.profile import coordinate_at, force_at
+from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
 
 MAX_INSTANTS, MAX_PARTS = 300_011, 32_771
@@ -40,6 +41,11 @@ HISTORY = np.dtype(
         ("X", "f8"),  # √|x² - b²|
         ("G", "f8"),  # coordinate of the spring at x; negative on the face, infinite far outside
         ("all_outside", "i8"),
+        ("shift", "f8"),  # of the stick zone, towards x
+        ("load", "f8"),  # coordinate and place of the edge; constant where there is a shift
+        ("reach", "f8"),
+        ("front_G", "f8"),  # coordinate and place of the stick zone that ends at x
+        ("front_X", "f8"),
         ("plane", "i8"),
         ("stretch", "i8", (MAX_PARTS,)),
         ("first", "i8", (MAX_PARTS,)),  # its first instant
@@ -75,10 +81,39 @@ SPACED = _spaced()
 
 
 @jit
+def centre(P, H, s):
+    """Centre of the stick zone of size s, towards x."""
+    return centre_of(P, H.shift, H.load, H.reach, s)
+
+
+@jit
+def find_passing(H, P, x, y):
+    """Note the stick zone that ends at (x, y): the smaller ones do not reach it."""
+    H.front_G, H.front_X = H.G, H.X
+    if H.shift == 0.0 or H.G < 0.0:
+        return
+    low, high = 0.0, H.reach
+    if hypot(x, y) >= high:
+        H.front_G = np.inf
+        return
+    for _ in range(60):
+        s = 0.5 * (low + high)
+        if hypot(x - centre(P, H, s), y) > s:
+            low = s
+        else:
+            high = s
+    H.front_G, H.front_X = coordinate_at(P, high), high
+
+
+@jit
 def functionals(P, K, s, H):
-    """T1, T3, B, V of the profile up to s."""
-    if P.is_hertz:
+    """T1, T3, B, V of the profile up to s, about the centre of the stick zone of this size."""
+    if P.is_hertz and H.shift == 0.0:
         return strip_hertz(s, H.x) if P.plane else hertz(s, H.x)
+    if P.is_hertz:
+        x = H.x - centre(P, H, s)
+        t1, t3, b, v = strip_hertz(s, abs(x)) if P.plane else hertz(s, abs(x))
+        return (t1, t3, b, v) if x >= 0.0 else (-t1, -t3, b, v)
     return running(K, FIRST, s, H.X, H.all_outside)
 
 
@@ -242,7 +277,8 @@ def is_calm(H, C, L, k):
     """
     if L.sides == 0 or C.push[k] == OPEN:
         return False
-    e0, e1, f0, f1 = C.edge[k, 0] - H.G, C.edge[k, 1] - H.G, C.front[k, 0] - H.G, C.front[k, 1] - H.G
+    e0, e1 = C.edge[k, 0] - H.G, C.edge[k, 1] - H.G
+    f0, f1 = C.front[k, 0] - H.front_G, C.front[k, 1] - H.front_G
     moved = max(abs(e1 - e0), abs(f1 - f0))
     return moved <= SHORT * C.largest and e0 * e1 > 0.0 and (f0 * f1 > 0.0 or C.push[k] == STICK)
 
@@ -252,7 +288,7 @@ def sample_ends(H, C, P, L, K, k, nu, mu):
     """A part for stretch k of which only the ends are sampled; they are shared with the part before."""
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
-    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.G, C.front[k, 0], C.front[k, 1])
+    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
     z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
     m = H.instants
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
@@ -333,6 +369,7 @@ def split(H, C, R, P, K, L, k, nu, mu):
     if (C.edge[k, 0] - G) * (C.edge[k, 1] - G) < 0.0:
         at_edge = instant_of(L, NORMAL, G, begin, end)
     if push != STICK and i != NONE:
+        G = H.front_G
         near |= approaches(G, C.front[k, 0], C.front[k, 1])
         if (C.front[k, 0] - G) * (C.front[k, 1] - G) < 0.0:
             which = DIFFERENCE if push == ALPHA else SUM
@@ -366,23 +403,25 @@ def split(H, C, R, P, K, L, k, nu, mu):
             if stop == at_edge:
                 e = H.X
             if stop == at_front or (stop == at_edge and push == STICK):
-                f = H.X
+                f = H.front_X
         add_part(H, C, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
         t, edge, front, cusps = stop, e, f, 1
 
 
 @jit
-def begin_history(H, C, R, P, K, place, largest):
+def begin_history(H, C, R, P, K, place, largest, side):
     """Prepare a history at place s of the line, still without an instant; parameters as of `sample_cycle`."""
     H.instants, H.parts, H.plane = 0, 0, P.plane
     H.G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
     H.x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
     H.X, H.all_outside = abs(place), 1 if place <= 0.0 else 0
+    H.shift, H.load, H.reach = side * C.shift, C.largest, largest
+    find_passing(H, P, H.x, 0.0)
     integrate_pieces(H, C, R, P, K, largest)
 
 
 @jit
-def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu):
+def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu, side):
     """All parts of the cycle at x, coarsely; the mirror image of half a cycle is the other half.
 
     Parameters
@@ -391,8 +430,10 @@ def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu):
         √(x² - b²), or -√(b² - x²) under the face.
     largest
         Place s of the largest contact.
+    side
+        1 or -1: towards which side x is, which matters where the stick zone is shifted.
     """
-    begin_history(H, C, R, P, K, place, largest)
+    begin_history(H, C, R, P, K, place, largest, side)
     for k in range(C.stretches):
         if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
             C.overflow = 1

@@ -36,7 +36,7 @@ from swtstudy.kernel.planes import (
     survey_planes,
     unresolved,
 )
-from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.profile import coordinate_at, place_of
 
 MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
 #: A search ends after so many positions.
@@ -45,6 +45,7 @@ ASK = np.dtype(
     [
         ("poisson_ratio", "f8"),
         ("friction", "f8"),
+        ("pulled", "f8"),  # strain of the body with the bulk stress over the mean of both
         *CRITERION,
         ("line", "f8"),  # relative tolerances: of the search along the line,
         ("time", "f8"),  # of the series over time,
@@ -60,7 +61,7 @@ ASK = np.dtype(
 )
 SEARCH = np.dtype(
     [
-        ("cusp", "f8", (6 * MAX_STRETCHES,)),
+        ("cusp", "f8", (14 * MAX_STRETCHES,)),
         ("positions", "i8"),  # that have been evaluated
         ("singular", "i8"),  # 1: the face's edge is singular
         ("crowd", "f8"),  # length over which many cusps are spread; 0 if there are few
@@ -124,6 +125,7 @@ def ask(
     criterion="swt",
     walker_exponent=0.5,
     normal_sensitivity=0.0,
+    pulled=1.0,
     near=0.9,
     trust=8.0,
     safety=2.0,
@@ -133,7 +135,7 @@ def ask(
 ):
     """Bodies, criterion, tolerances and the numbers of the search."""
     record = new_record(ASK)
-    record["poisson_ratio"], record["friction"] = poisson_ratio, friction
+    record["poisson_ratio"], record["friction"], record["pulled"] = poisson_ratio, friction, pulled
     set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
     record["line"], record["time"], record["plane"], record["growth"] = (
         0.45 * rtol,
@@ -154,6 +156,17 @@ def innermost_front(C, P, largest):
         if C.push[k] != STICK:
             innermost = min(innermost, max(place_of(P, C.front[k, 1]), 0.0))
     return innermost
+
+
+@jit
+def shifted(C, P, z, m):
+    """Append the ends of the stick zone about its own centre, of which the last of m cusps is the size."""
+    if C.shift == 0.0 or m + 2 > z.shape[0]:
+        return m
+    s = z[m - 1]
+    off = min(abs(C.shift) * (C.largest - coordinate_at(P, s)), place_of(P, C.largest) - s)
+    z[m], z[m + 1] = s + off, abs(s - off)
+    return m + 2
 
 
 @jit
@@ -192,10 +205,12 @@ def cusps(S, C, P, L, Q, largest):
                 if G > 0.0:
                     z[m] = place_of(P, G)
                     m += 1
+                    m = shifted(C, P, z, m)
     for i in range(C.pieces):
         if C.used[i] and C.start_s[i] > 0.0 and m < z.shape[0]:
             z[m] = C.start_s[i]
             m += 1
+            m = shifted(C, P, z, m)
     return distinct(z, m, 1e-14 * largest)
 
 
@@ -277,7 +292,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
     number = min(S.positions, MAX_SEEN - 1)
     S.positions += 1
     S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
-    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction)
+    sampled = False
     for side in range(2):
         if side == 1 and L.mirrored:
             S.value[1] = S.value[0]
@@ -286,6 +301,9 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
         if (side == 0 and not plus) or (side == 1 and not minus):
             continue
         sign = 1.0 - 2.0 * side
+        if not sampled or C.shift != 0.0:
+            sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, sign)
+            sampled = True
         swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
         S.value[side] = swt
         S.seen_value[number, side], S.seen_angle[number, side] = swt, angle

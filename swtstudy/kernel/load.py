@@ -4,8 +4,8 @@ The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the 
 displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
 (`swtstudy.kernel.contact`). If one of both is a displacement and the other one a force, the harmonics are
 those of the prescribed normal load, and n is what it is in the kind of the tangential load, a function of
-the profile. A bulk stress B may go with them, of which the contact knows nothing. Time runs over [0, period):
-2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
+the profile. A bulk stress B may go with them, which moves the stick zone (`swtstudy.kernel.shift`). Time runs
+over [0, period): 2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
 """
 
 from math import cos, sin, sqrt
@@ -35,6 +35,7 @@ LOAD = np.dtype(
         ("bulk_moves", "i8"),  # 1: B changes
         ("bulk_turns", "i8"),  # 1: so much faster than n and v that its turning points are events
         ("bulk_range", "f8", (2,)),  # smallest and largest B
+        ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v; else 0
         ("normal_range", "f8", (2,)),  # and n
         ("period", "f8"),
         ("rounds", "i8"),  # how often a round of the load runs through the cycle

@@ -9,6 +9,9 @@ from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
 from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
+#: A bulk stress follows the tangential load where it is off by no more than this share: rounding.
+PROPORTIONAL = 1e-9
+
 
 def load_of(
     loop,
@@ -103,6 +106,9 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     load["fastest"] = max([1, fastest, *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
+    if not orders[0]:
+        own = (load[name][:, : len(moving)] for name in ("cosine", "sine"))
+        load["bulk_slope"] = _slope(*np.concatenate([*own], axis=1)[1:])
     for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
         load[name] = np.add(means[component], ends_of_sum(rows))
     return load
@@ -126,9 +132,27 @@ def polygon(normal, tangential, bulk=None, every=False):
     load["rest"] = vertices[0]
     load["normal_range"], load["bulk_range"] = (_ends(vertices[:, component]) for component in (0, BULK))
     load["bulk_moves"] = load["bulk_range"][0] < load["bulk_range"][1]
+    if load["normal_range"][0] == load["normal_range"][1]:
+        load["bulk_slope"] = _slope(*(vertices - vertices[0]).T[1:])
     half = np.roll(vertices, -(sides // 2), axis=0) * (1.0, -1.0, 1.0)
     load["mirrored"] = sides % 2 == 0 and not load["bulk_moves"] and np.array_equal(half, vertices)
     return load
+
+
+def leave_bulk_out(load):
+    """Take the bulk stress of the other body out of a load: it moves the stick zone, no more."""
+    load["bulk_moves"], load["bulk_turns"], load["bulk_range"] = 0, 0, 0.0
+    for name in ("rest", "cosine", "sine", "vertex"):
+        load[name][BULK] = 0.0
+
+
+def _slope(tangential, bulk):
+    """Factor by which the bulk stress follows the tangential load, 0 where it does not; of their changes."""
+    size = np.abs(tangential).max(initial=0.0)
+    if size == 0.0:
+        return 0.0
+    slope = float(bulk @ tangential / (tangential @ tangential))
+    return slope if np.abs(bulk - slope * tangential).max() <= PROPORTIONAL * abs(slope) * size else 0.0
 
 
 def _ends(values):

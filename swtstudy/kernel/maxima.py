@@ -24,6 +24,7 @@ from swtstudy.kernel.line import (
     position,
 )
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 
 #: What may be hidden between two places, over the values there, and above a maximum, over its value.
 MAPPED, FOUND = 5e-3, 1e-4
@@ -149,6 +150,7 @@ def find_maxima(C, R, S, H, W, K, M, P, L, Q, limit):
     if C.overflow or C.no_equilibrium:
         M.overflow = C.overflow
         return
+    C.shift = shift_of(L, P, Q, C.event, C.events)
     lay_out(R, C, P, L, Q.growth)
     m = map_line(S, H, W, C, R, P, K, L, Q, limit)
     for side in range(1 if L.mirrored else 2):

@@ -14,6 +14,7 @@ from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
 from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.surface import TABLE
 from swtstudy.vocabulary.choices import REGIMES
 
@@ -37,6 +38,7 @@ RESULT = np.dtype(
         ("s_error", "f8"),
         ("critical_x", "f8"),
         ("critical_angle", "f8"),  # degrees
+        ("shift", "f8"),  # of the stick zone, see `swtstudy.kernel.shift`
         ("regime", "i8"),
         ("positions", "i8"),
         ("instants", "i8"),
@@ -135,6 +137,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     stresses the table is made again, and the search with it.
     """
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
+    out.shift = 0.0
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
     out.s_surface, out.circle, out.place, out.growth = nan, 0, 0.0, Q.growth
     solve_cycle(C, L)
@@ -143,6 +146,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
     if out.regime == NOT_FINITE or C.overflow:
         return
+    C.shift = out.shift = shift_of(L, P, Q, C.event, C.events)
     out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(L, P, Q)
     if is_idle(C, L, P, Q):
         return

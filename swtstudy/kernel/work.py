@@ -12,7 +12,8 @@ The spring at G dissipates |τ do|, and slips with τ = n - G while α rises or 
     ∮ |d(v ∓ n)| ∫ (n - G) dC′,   G from the front f to the edge n,
     ∫ (n - G) dC′ = C(n) - C(f) - (n - f) C′(f),
 
-with the sign of C″ positive for displacements and negative for forces.
+with the sign of C″ positive for displacements and negative for forces. A stick zone that a bulk stress moves
+leaves all of this as it is but for the work, which rises by `swtstudy.kernel.shift.more_work`.
 """
 
 from math import cos, log, nan, pi, sin
@@ -36,6 +37,7 @@ from swtstudy.kernel.profile import (
     place_of,
     radius_of,
 )
+from swtstudy.kernel.shift import more_work, shift_of
 
 CONJUGATE = np.dtype(
     [
@@ -51,6 +53,8 @@ OF_CYCLE = np.dtype(
         ("work", "f8"),  # of a round, over μF_0 · μE*δ0/G*, and its error
         ("work_error", "f8"),
         ("stick_radius", "f8"),  # NaN where nothing sticks throughout
+        ("stick_left", "f8"),  # x of the ends of the permanent stick zone
+        ("stick_right", "f8"),
         ("contact_radius", "f8"),  # largest of the cycle
         ("force_ratio", "f8"),  # largest |F_x|/(μ F_N)
         ("no_equilibrium", "i8"),
@@ -63,6 +67,7 @@ MARGIN = np.dtype(
         ("stick_radius", "f8"),  # of permanent stick; NaN where there is none
         ("force_ratio", "f8"),  # as prescribed; NaN where it is not
         ("slide", "f8"),  # displacement beyond the limit of partial slip; NaN if there is none to tell
+        ("moved", "i8"),  # 1: the bulk stress moves the stick zone
     ]
 )
 
@@ -246,7 +251,7 @@ def slipped(P, U, n, edge, front, whole):
 
 
 @jit
-def work_of(C, L, P, U, k, m):
+def work_of(C, L, P, Q, U, k, m):
     """Work of stretch k by m points in time, and by how much rounding may change it."""
     begin, end, push, whole = C.time[k, 0], C.time[k, 1], C.push[k], C.piece[k] == NONE
     work, rounding = 0.0, 0.0
@@ -256,6 +261,11 @@ def work_of(C, L, P, U, k, m):
         n, v, dn, dv, ddn, ddv = rates_at(L, t)
         edge, front = solved_places(C, P, L, k, t)
         zone, width = slipped(P, U, n, edge, front, whole)
+        if C.shift != 0.0:
+            force, rate = width, 1.0
+            if P.in_force == 0:
+                force, rate = other_at(P, U, edge) - other_at(P, U, front), slope_at(P, U, front)
+            zone += more_work(P, C.shift, Q.poisson_ratio, width, force, rate)
         moved = 0.25 * pi * (end - begin) * sin(angle) * TIME_WEIGHT[i] * abs(dv - push * dn)
         work += zone * moved
         if width > 0.0:
@@ -264,22 +274,22 @@ def work_of(C, L, P, U, k, m):
 
 
 @jit
-def dissipate(C, L, P, U, out):
+def dissipate(C, L, P, Q, U, out):
     """Write the work of a round, and its error."""
     total, change, rounding = 0.0, 0.0, 0.0
     for k in range(C.stretches):
         if C.push[k] != STICK and C.push[k] != OPEN:
-            total += work_of(C, L, P, U, k, LEAST_POINTS)[0]
+            total += work_of(C, L, P, Q, U, k, LEAST_POINTS)[0]
     least, total = ENOUGH * total, 0.0
     for k in range(C.stretches):
         if C.push[k] == STICK or C.push[k] == OPEN:
             continue
         m = LEAST_POINTS
-        work, noise = work_of(C, L, P, U, k, m)
+        work, noise = work_of(C, L, P, Q, U, k, m)
         while m < MOST_POINTS:
             m *= 2
             before = work
-            work, noise = work_of(C, L, P, U, k, m)
+            work, noise = work_of(C, L, P, Q, U, k, m)
             if abs(work - before) <= least:
                 break
         total += work
@@ -359,16 +369,20 @@ def largest_contact(L, P):
 
 
 @jit
-def cycle_of(C, R, P, L, U, with_ratio, out):
+def cycle_of(C, R, P, L, Q, U, with_ratio, out):
     """Quantities of the cycle of one point: the force ratio only where asked, NaN out of equilibrium."""
     solve_cycle(C, L)
     out.no_equilibrium, out.overflow = C.no_equilibrium, C.overflow
-    out.work, out.work_error, out.stick_radius, out.contact_radius, out.force_ratio = nan, nan, nan, nan, nan
+    out.work, out.work_error, out.contact_radius, out.force_ratio = nan, nan, nan, nan
+    out.stick_radius, out.stick_left, out.stick_right = nan, nan, nan
     if C.no_equilibrium or C.overflow:
         return
     tabulate_other(U, P)
-    dissipate(C, L, P, U, out)
+    C.shift = shift_of(L, P, Q, C.event, C.events)
+    dissipate(C, L, P, Q, U, out)
     out.stick_radius = permanent_stick(L, P, C.event, C.events)
+    off = C.shift * (C.largest - max(stick_limit(L, C.event, C.events), 0.0))
+    out.stick_left, out.stick_right = off - out.stick_radius, off + out.stick_radius
     out.contact_radius = largest_contact(L, P)
     if with_ratio:
         if P.in_force == 0:
@@ -379,14 +393,14 @@ def cycle_of(C, R, P, L, U, with_ratio, out):
 
 
 @jit
-def cycles_of(C, R, U, profiles, which, loads, with_ratio, out):
-    """Quantities of the cycles of points: profile which[i], loads[i]."""
+def cycles_of(C, R, U, profiles, which, loads, asks, with_ratio, out):
+    """Quantities of the cycles of points: profile which[i], loads[i], asks[i]."""
     for i in range(which.shape[0]):
-        cycle_of(C, R, profiles[which[i]], loads[i], U, with_ratio, out[i])
+        cycle_of(C, R, profiles[which[i]], loads[i], asks[i], U, with_ratio, out[i])
 
 
 @jit
-def margins_of(C, profiles, which, loads, out):
+def margins_of(C, profiles, which, loads, asks, out):
     """Write how far points are from where the model ends, by the load alone, also out of equilibrium."""
     for i in range(which.shape[0]):
         P, L = profiles[which[i]], loads[i]
@@ -395,3 +409,4 @@ def margins_of(C, profiles, which, loads, out):
         out[i].stick_radius = permanent_stick(L, P, C.event, m)
         out[i].force_ratio = force_ratio(L, C.event, m)
         out[i].slide = slide(L, C.event, m)
+        out[i].moved = shift_of(L, P, asks[i], C.event, m) != 0.0

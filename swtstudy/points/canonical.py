@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.vocabulary.choices import FAMILIES, PLAIN_OF, SWT, family_of
+from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, family_of
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, Control
+from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, SHIFT, STRAIN_SHARE, Control
 
 if TYPE_CHECKING:
     from swtstudy.solver.points import Points
@@ -71,6 +71,8 @@ NUMBERS = (*_numbers("load"), *_OTHERS)
 #: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 _INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
+#: What rows are made of: a stick zone that stays has a strain share of 0.
+GIVEN_COLUMNS = (*COLUMNS, SHIFT)
 #: A canonical point, in an array: a number for each of these names.
 ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name in COLUMNS])
 #: Canonical points, shape (n,) of `ROW`.
@@ -97,7 +99,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     Parameters
     ----------
     columns
-        A number for every name in `COLUMNS`, each broadcastable to shape (n,).
+        A number for every name in `GIVEN_COLUMNS`, each broadcastable to shape (n,).
 
     Returns
     -------
@@ -111,6 +113,7 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
         table[name] = columns[name]
     _make_profiles_canonical(table)
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
+    _make_shifts_canonical(table, columns[SHIFT])
     return table, _make_loads_canonical(table)
 
 
@@ -136,6 +139,20 @@ def _make_profiles_canonical(table: Table) -> None:
         shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
         for name in {*SHAPE_COLUMNS} - {*shape}:
             table[name][profile == code] = 0.0
+
+
+def _make_shifts_canonical(table: Table, shift: NDArray) -> None:
+    """The stick zone is not shifted, or known not to be."""
+    harmonic = table["load"] == code_of(HARMONIC, "load")
+    shifted = (shift == code_of(MOVED, SHIFT)) & (table["bulk_stress_amplitude"] != 0.0)
+    shifted &= (table["friction"] > 0.0) & ~(harmonic & (table["normal_amplitude"] != 0.0))
+    shifted &= np.isin(table["profile"], [code_of(name) for name in PLAIN_OF.values()])
+    # The other body has the shift alone.
+    other = table[STRAIN_SHARE] < 0.0
+    table["bulk_stress_mean"][other] = 0.0
+    for name in ("bulk_stress_amplitude", "bulk_stress_phase"):
+        table[name][other & ~shifted] = 0.0
+    table[STRAIN_SHARE][~shifted] = 0.0
 
 
 def _make_loads_canonical(table: Table) -> BoolArray:
@@ -251,5 +268,7 @@ def describe_point(row: np.void, definitions: Definitions) -> str:
         parts.append(f"criterion={criterion}")
     control = control_of(row["control"])
     values = {n: row[n] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
+    if values[STRAIN_SHARE] == 0.0:
+        del values[STRAIN_SHARE]  # the stick zone stays in place
     said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
     return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import (
-    COLUMNS,
     COST,
+    GIVEN_COLUMNS,
     RATIO_COLUMNS,
     Table,
     canonical_number,
@@ -24,7 +24,14 @@ from swtstudy.points.canonical import (
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, LOOP_AMPLITUDE, PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.parameters import (
+    AXES,
+    LOOP_AMPLITUDE,
+    PARAMETERS,
+    STRAIN_SHARE,
+    Control,
+    replaced_by,
+)
 from swtstudy.vocabulary.quantities import Request, item_of
 
 if TYPE_CHECKING:
@@ -140,7 +147,7 @@ class Grid:
     def margins(self) -> tuple[str, ...]:
         """Data variables that say how far the points are from where the model ends."""
         pulled = any(value != 0.0 for value in self.values("bulk_stress_amplitude"))
-        shift = ("bulk_shift", "bulk_shift_ratio") * pulled
+        shift = ("stick_zone", "bulk_shift", "bulk_shift_ratio") * pulled
         return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
 
     @property
@@ -155,8 +162,11 @@ class Grid:
 
     @property
     def strain_shares(self) -> FloatArray:
-        """Strain of each point's body over the mean of both bodies, under equal tractions; shape (size,)."""
-        return np.ones(self.size)
+        """Strain of the body with the bulk stress over the mean of both, under equal tractions; (size,).
+
+        Negative at points of the other body.
+        """
+        return np.broadcast_to(self.columns(0, self.size)[STRAIN_SHARE], self.size)
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """Results as users see them, with units if the grid has some."""
@@ -175,9 +185,9 @@ class Grid:
         return items, np.broadcast_to(np.arange(len(items))[:, None], (len(items), self.size))
 
     def columns(self, start: int, stop: int) -> dict[str, NDArray]:
-        """A number for each of `COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
+        """A number for each of `GIVEN_COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
         position = self._position(start, stop)
-        along = {name: self.dimension(self._source(name)) for name in COLUMNS}
+        along = {name: self.dimension(self._source(name)) for name in GIVEN_COLUMNS}
         return {
             name: codes if (dim := along[name]) is None else codes[position[dim]]
             for name, codes in self._codes.items()
@@ -192,7 +202,7 @@ class Grid:
         """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
         return {
             name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0])
-            for name in COLUMNS
+            for name in GIVEN_COLUMNS
         }
 
     def _source(self, column: str) -> str:

@@ -20,11 +20,11 @@ from swtstudy.points.unique import UniquePoints, columns_at
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.solver.points import Solution
-from swtstudy.vocabulary.arrays import BoolArray
-from swtstudy.vocabulary.choices import BENEATH, MEANING, REGIMES, SWT, WORDS, with_values_of
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
+from swtstudy.vocabulary.choices import BENEATH, MEANING, REGIMES, SWT, WORDS, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTROLS
+from swtstudy.vocabulary.parameters import CONTROLS, SHIFT
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attributes_of
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
@@ -33,8 +33,17 @@ _LONGEST_NAME = 24
 #: Points whose margins are found together: the working memory for one is some kB.
 _TOGETHER = 2000
 
+#: Where the stick zone is in s, under a bulk stress that moves.
+ZONES = ("in_place", "moved", "moved_approximately")
 #: Data variables that results have where something is given that they are about.
-MARGINS = ("bulk_shift", "bulk_shift_ratio", "prescribed_force_ratio", "radius_ratio", "slide_ratio")
+MARGINS = (
+    "stick_zone",
+    "bulk_shift",
+    "bulk_shift_ratio",
+    "prescribed_force_ratio",
+    "radius_ratio",
+    "slide_ratio",
+)
 #: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
 #: use them as labels. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = {
@@ -61,20 +70,29 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
         "units": "1",
         "symbol": r"s_\mathrm{surface}",
     },
+    "stick_zone": {
+        "long_name": "stick zone in s",
+        "comment": "whether s and all beside it have the stick zone moved by the bulk stress: exactly, of a "
+        "cylinder, or approximately, of a paraboloid, where the rise of the stress at the edge in tension is "
+        "right within 4 %; it is in place where that is asked for, and where its motion is not known",
+        "flag_values": np.arange(len(ZONES), dtype=np.int8),
+        "flag_meanings": " ".join(ZONES),
+    },
     "bulk_shift": {
         "long_name": "shift of the stick zone",
-        "comment": "by the strain of the bulk stress, in a_H: s leaves it out, and is too low at the edge in "
-        "tension, see bulk_shift_ratio; NaN for other profiles than the paraboloid and the cylinder, without "
-        "friction or stick, and where it exceeds the width of the slip zone",
+        "comment": "by the strain of the bulk stress, in a_H: where stick_zone is in_place, s leaves it out "
+        "and is too low at the edge in tension, see bulk_shift_ratio; NaN for other profiles than the "
+        "paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the slip "
+        "zone",
         "units": "1",
         "symbol": r"e/a_H",
     },
     "bulk_shift_ratio": {
         "long_name": "shift over slip zone",
-        "comment": "shift of the stick zone by the strain of the bulk stress, which s leaves out, over the "
-        "width of the slip zone, however large: at the edge in tension s is too low, it should be up to 6 % "
-        "at 0.1, 24 % at 0.5 and 39 % at 1 higher for Q >= 0.2 mu P; NaN as the shift, without a permanent "
-        "stick zone",
+        "comment": "shift of the stick zone by the strain of the bulk stress over the width of the slip "
+        "zone, however large: where stick_zone is in_place, s leaves it out and is too low at the edge in "
+        "tension, it should be up to 6 % at 0.1, 24 % at 0.5 and 38 % at 1 higher for Q >= 0.2 mu P; NaN as "
+        "the shift, without a permanent stick zone",
         "units": "1",
         "symbol": r"e/(a - c)",
     },
@@ -167,7 +185,8 @@ def label(
         coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
         coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
     for name, value in grid.fixed.items():
-        if not grid.row(name).goes_without_saying(value):
+        says = name == SHIFT and "stick_zone" in grid.margins
+        if says or not grid.row(name).goes_without_saying(value):
             coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
     coordinates["control"] = control_coordinate(grid)
     variables = {
@@ -214,6 +233,18 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
         own = dataset[name].attrs
         own |= {key: with_values_of(own[key], value) for key in ("long_name", "comment")}
         own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
+
+
+def zones(moved: FloatArray, grid: Grid) -> NDArray[np.int8]:
+    """Index into `ZONES` of each point of a grid, from where the stick zone is moved, (grid.size,)."""
+    plane = [is_plane(value) for value in grid.values("profile")]
+    dim = grid.dimension("profile")
+    if dim is None:
+        of_points: NDArray = np.full(grid.size, plane[0])
+    else:
+        place = np.unravel_index(np.arange(grid.size), grid.shape)[grid.dims.index(dim)]
+        of_points = np.array(plane)[place]
+    return np.where(moved == 1.0, np.where(of_points, 1, 2), 0).astype(np.int8)
 
 
 def control_coordinate(grid: Grid) -> xr.Variable:
@@ -274,12 +305,13 @@ def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[st
             with np.errstate(all="ignore"):
                 found_here = of(points_from(points.table[some], points.definitions))
             every[:, some] = list(vars(found_here).values())
-    radius, stick, shift, ratio, slide = every[:, points.index]
+    radius, stick, shift, ratio, slide, moved = every[:, points.index]
     width = radius - stick  # of the slip zone
     if "bulk_shift" in names:
-        shift = shift * grid.strain_shares
+        shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
         found = {
+            "stick_zone": zones(moved, grid),
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": ratio,

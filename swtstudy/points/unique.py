@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 from swtstudy.points.canonical import ROW, Definitions, Table, canonical_cycles, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
-from swtstudy.vocabulary.quantities import NONLOCAL, Request, columns_in, columns_of, item_of, rows_of
+from swtstudy.vocabulary.quantities import (
+    NONLOCAL,
+    STICK_ENDS,
+    Request,
+    columns_in,
+    columns_of,
+    item_of,
+    rows_of,
+)
 
 #: More grid points than this need more memory than most machines have (about 0.3 kB each).
 LARGEST_GRID = 50_000_000
@@ -96,6 +104,7 @@ def columns_at(
     if per_cycle := _columns_per_cycle(asked):
         cycles = _canonical_cycles(grid)
         found |= {name: cycles * found[name] for name in per_cycle}
+    _swap_ends(found, points.mirrored)
     items, at = grid.items(asked)
     for distance, each in zip(asked.distances, at, strict=True):
         found |= {name: np.full(grid.size, np.nan) for name in columns_of([item_of(distance)])}
@@ -110,6 +119,8 @@ def columns_back(
     """The inverse of `columns_at`: what the distinct points have, each of shape (len(points.table),)."""
     size = len(points.table)
     found: dict[str, FloatArray] = {}
+    columns = dict(columns)
+    _swap_ends(columns, points.mirrored)
 
     def put(name: str, rows: IndexArray, values: FloatArray) -> None:
         found.setdefault(name, np.full(size, np.nan))[points.index[rows]] = values
@@ -124,6 +135,14 @@ def columns_back(
         for name, known, rows, is_place in _columns(item_of(distance), items, each):
             put(known, rows, _mirrored(columns[name][rows], points, rows, is_place))
     return found
+
+
+def _swap_ends(columns: dict[str, FloatArray], mirrored: BoolArray) -> None:
+    """Make the left end of the stick zone the right one at points that are mirrored, in place."""
+    if {*STICK_ENDS} <= columns.keys():
+        left, right = (columns[name] for name in STICK_ENDS)
+        ends = np.where(mirrored, -right, left) + 0.0, np.where(mirrored, -left, right) + 0.0
+        columns |= zip(STICK_ENDS, ends, strict=True)
 
 
 def _columns_per_cycle(asked: Request) -> set[str]:

@@ -16,6 +16,7 @@ from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.shift import centre_of, shift_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import arguments_of
@@ -57,6 +58,7 @@ class LoadCycle:
         load = loads[0].copy()
         solve_cycle(cycle, load)
         if not cycle.no_equilibrium:
+            cycle.shift = shift_of(load, profiles[0], asks[0], cycle.event, cycle.events)
             lay_out(growth, cycle, profiles[0], load, GROWTH)
             tabulate_other(conjugate, profiles[0])
             tabulate_answer(conjugate, cycle, growth, profiles[0])
@@ -83,6 +85,26 @@ class LoadCycle:
             float(radius_of(profile, place_of(profile, value))) for value in self.load.normal_range
         )
         return float(stick), least if self.load.normal_range[0] > 0.0 else 0.0, largest
+
+    @property
+    def moved(self) -> bool:
+        """True if a bulk stress moves the stick zone."""
+        return bool(self.memory[0].shift != 0.0)
+
+    @property
+    def stick_zone(self) -> tuple[float, float]:
+        """Ends x/a_H of the permanent stick zone, NaN where there is none."""
+        radius = self.radii[0]
+        off = self.centre(self.place(np.array([radius])))[0]
+        return off - radius, off + radius
+
+    def centre(self, place: FloatArray) -> FloatArray:
+        """Centres x/a_H of stick zones of sizes s, (n,): off the axis where a bulk stress moves them."""
+        cycle = self.memory[0]
+        if not self.moved:
+            return np.zeros(len(place))
+        own = self.profile, cycle.shift, cycle.largest, self.largest
+        return np.array([centre_of(*own, float(s)) for s in place])
 
     @property
     def oscillations(self) -> int:
@@ -118,7 +140,14 @@ class LoadCycle:
         load = self.load
         times = cycle.time[: cycle.stretches]
         if x is not None:
-            own = float(self.place(np.array(abs(x)))), self.largest, self.ask.poisson_ratio, self.ask.friction
+            side = -1.0 if x < 0.0 else 1.0
+            own = (
+                float(self.place(np.array(abs(x)))),
+                self.largest,
+                side,
+                self.ask.poisson_ratio,
+                self.ask.friction,
+            )
             write_parts(history, cycle, growth, self.profile, tables, load, *own)
             times = history.time[: history.parts]
         share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps + 1))
@@ -129,6 +158,11 @@ class LoadCycle:
         every = (np.arange(load.rounds)[:, None] + np.append(turn, [0.0, 1.0])) / load.rounds
         return 2.0 * np.pi * np.unique(np.clip(every, 0.0, 1.0))
 
+    def _at(self, x: float) -> tuple[float, ...]:
+        """Place s of x/a_H and of the largest contact, the side of x, ν and μ."""
+        place, side = float(self.place(np.array(abs(x)))), -1.0 if x < 0.0 else 1.0
+        return place, self.largest, side, float(self.ask.poisson_ratio), float(self.ask.friction)
+
     def stress(self, x: float, states: np.recarray[Any, Any]) -> dict[str, FloatArray]:
         """Stress at x/a_H on the line at T states, each (T,), in E* √(δ0/R).
 
@@ -138,10 +172,9 @@ class LoadCycle:
             ``xx``, ``yy``, ``zz``, ``xz``, tension positive, and ``bulk``, its part of xx.
         """
         cycle, growth, _, history, _, tables = self.memory
-        ν, μ = float(self.ask.poisson_ratio), float(self.ask.friction)
-        own = float(self.place(np.array(abs(x)))), self.largest, ν, μ
+        ν, own = float(self.ask.poisson_ratio), self._at(x)
         write_stress(history, cycle, growth, self.profile, tables, states, *own)
-        side, T = np.sign(x), len(states)
+        side, T = own[2], len(states)
         p, within, xx, yy, q, bulk = (
             history[name][:T].copy() for name in ("p", "within", "xx", "yy", "q", "bulk")
         )

@@ -1,12 +1,13 @@
 """Margins of points, as far as the load alone gives them: how far they are from where the model ends.
 
-One of them is the shift of the stick zone by the bulk strain, which the superposition of a bulk stress
-leaves out. The strain of the body that carries an oscillating bulk stress drags its surface under the other
-body. For a Hertz contact of similar materials a stick circle off centre makes a uniform strain, which
-cancels that of the bulk stress along x if the shift is e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E*
-δ0/a_H. Of a loop B_A is half the range of the bulk stress, as of an oscillation. For a cylinder, in plane
-strain, e = B_A/(2μ). Both are those of equal moduli; with others the shift goes with the strain of the body
-that carries the bulk stress over the mean strain of both, under equal tractions.
+One of them is the shift of the stick zone by the bulk strain, which s has where it is known
+(`swtstudy.kernel.shift`) and leaves out elsewhere. The strain of the body that carries an oscillating bulk
+stress drags its surface under the other body. For a Hertz contact of similar materials a stick circle off
+centre makes a uniform strain, which cancels that of the bulk stress along x if the shift is
+e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A is half the range of the bulk stress, as
+of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ). Both are those of equal moduli; with others
+the shift goes with the strain of the body that carries the bulk stress over the mean strain of both, under
+equal tractions.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 
 from swtstudy.profiles.at_rest import AtRest
 from swtstudy.solver.points import Points
-from swtstudy.vocabulary.arrays import Columns, FloatArray, IndexArray
+from swtstudy.vocabulary.arrays import BoolArray, Columns, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 
 #: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
@@ -27,6 +28,8 @@ from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 SAMPLES, AT_ONCE = 96, 2_000_000
 #: Places of a profile between which depths and forces are interpolated, and the last of them over √δ0.
 PLACES = 4001
+#: Rounding of the samples, relative: of a bulk stress that follows the tangential load, and of its shift.
+PROPORTIONAL, ROUNDING = 1e-9, 1e-6
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,8 @@ class Margins(Columns):
         By how much the tangential displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus
         that limit if the depth is constant. 0 without gross slip; NaN where the bodies part or the
         tangential force is prescribed.
+    moved
+        1 where the bulk stress moves the stick zone in s, else 0.
     """
 
     largest_radius: FloatArray
@@ -55,6 +60,7 @@ class Margins(Columns):
     bulk_shift: FloatArray
     force_ratio: FloatArray
     slide: FloatArray
+    moved: FloatArray
 
     @classmethod
     def of(cls, points: Points) -> Margins:
@@ -67,7 +73,7 @@ class Margins(Columns):
         radius, stick, ratio, slide = (
             found[name].copy() for name in ("contact_radius", "stick_radius", "force_ratio", "slide")
         )
-        return cls(radius, stick, bulk_shift(points), ratio, slide)
+        return cls(radius, stick, bulk_shift(points), ratio, slide, found["moved"].astype(float))
 
     @classmethod
     def foreseen(cls, points: Points) -> Margins:
@@ -81,27 +87,28 @@ class Margins(Columns):
         return found
 
 
-def _motion(points: Points) -> tuple[FloatArray, FloatArray, bool]:
-    """Normal and tangential motion over their amplitudes, (n, T) or (1, T), and whether it is smooth.
+def _motion(points: Points) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
+    """Normal, tangential and bulk motion over their amplitudes, (n, T) or (1, T), and whether it is smooth.
 
     The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
     """
     path: Any = points.path
     p, q = int(points.p[0]), int(points.q[0])
     if path is None:
-        rows = [(q, 1.0, points.phase[:, None])], [(p, 1.0, np.zeros((1, 1)))]
+        own = (q, points.phase), (p, np.zeros(1)), (p, points.bulk_stress_phase)
+        rows = tuple([(order, 1.0, phase[:, None])] for order, phase in own)
     elif hasattr(path, "vertices"):
-        normal, tangential = path.vertices.T[:2, None]
-        return normal, tangential, False
+        columns = path.vertices.T[:, None]
+        return columns[0], columns[1], columns[2] if len(columns) > 2 else 0.0 * columns[0], False
     else:
-        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential"))
+        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk"))
     fastest = max([1, *(order for row in rows for order, _, _ in row)])
     turn = 2.0 * np.pi / (SAMPLES * fastest) * np.arange(SAMPLES * fastest)[None]
-    normal, tangential = (
+    normal, tangential, bulk = (
         sum((size * np.sin(order * turn + phase) for order, size, phase in row), np.zeros((1, turn.size)))
         for row in rows
     )
-    return normal, tangential, True
+    return normal, tangential, bulk, True
 
 
 def _largest(values: FloatArray, smooth: bool) -> FloatArray:
@@ -117,7 +124,8 @@ def _largest(values: FloatArray, smooth: bool) -> FloatArray:
 
 def _seen(points: Points) -> Margins:
     """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
-    normal, tangential, smooth = _motion(points)
+    normal, tangential, bulk, smooth = _motion(points)
+    follows = _follows(points, normal, tangential, bulk)
     normal = 1.0 + points.normal_amplitude[:, None] * normal
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
     largest = _largest(normal, smooth)
@@ -137,13 +145,27 @@ def _seen(points: Points) -> Margins:
     radius = _radii(at_rest, ends, control.tangential_force and not plane)
     stick_radius = np.where(stick >= 0.0, radius[:, 0], np.nan)
     shift, unknown = bulk_shift(points), np.full(len(points), np.nan)
+    width = (radius[:, 1] - stick_radius) * (1.0 + ROUNDING)
+    moved = (follows & (shift * np.abs(points.bulk_strain_share) <= width)).astype(float)
     if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
-        return Margins(radius[:, 1], stick_radius, shift, unknown, slide)
+        return Margins(radius[:, 1], stick_radius, shift, unknown, slide, moved)
     size, load = np.abs(tangential), np.maximum(normal, 0.0)
     with np.errstate(divide="ignore"):
         ratio = np.divide(size, load, out=np.zeros_like(load), where=size > 0.0)
-    return Margins(radius[:, 1], stick_radius, shift, _largest(ratio, smooth), unknown)
+    return Margins(radius[:, 1], stick_radius, shift, _largest(ratio, smooth), unknown, moved)
+
+
+def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray) -> BoolArray:
+    """Points whose bulk stress follows the tangential load in proportion at a constant normal load, (n,)."""
+    rests = (points.normal_amplitude == 0.0) | (np.ptp(normal, axis=1) == 0.0)
+    across, along = np.broadcast_arrays(tangential - tangential[:, :1], bulk - bulk[:, :1])
+    square = (across * across).sum(axis=1)
+    slope = np.divide((across * along).sum(axis=1), square, out=np.zeros_like(square), where=square > 0.0)
+    off = np.abs(along - slope[:, None] * across).max(axis=1)
+    shifts = (slope != 0.0) & (off <= PROPORTIONAL * np.abs(along).max(axis=1))
+    moves = points.tangential_amplitude * points.bulk_stress_amplitude * points.bulk_strain_share != 0.0
+    return rests & shifts & moves & (points.profile in (PLAIN, PLAIN_STRIP))
 
 
 def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArray:

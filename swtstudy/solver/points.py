@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _UNLESS_GIVEN = {
     "walker_exponent": 0.5,
     "normal_sensitivity": 0.0,
+    "bulk_strain_share": 1.0,
     **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
 }
 #: Arrays of shape (0,) are not given.
@@ -54,6 +55,8 @@ class Points(Columns):
         Shape (n,), of the criteria of shear; 0 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
         Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; 0 unless given.
+    bulk_strain_share
+        Shape (n,), as there; 1 unless given, and 0 where the stick zone is not to be shifted.
     """
 
     profile: AnyProfile
@@ -73,6 +76,7 @@ class Points(Columns):
     bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
     bulk_stress_mean: FloatArray = field(default_factory=_not_given)
     bulk_stress_phase: FloatArray = field(default_factory=_not_given)
+    bulk_strain_share: FloatArray = field(default_factory=_not_given)
 
     def __post_init__(self) -> None:
         for name, value in _UNLESS_GIVEN.items():

@@ -18,6 +18,7 @@ from swtstudy.vocabulary.quantities import (
     COUNTS,
     NAMED,
     NONLOCAL,
+    STICK_ENDS,
     YIELD,
     Request,
     columns_in,
@@ -27,7 +28,7 @@ from swtstudy.vocabulary.quantities import (
 )
 
 #: Quantities of the cycle, by their names in `swtstudy.kernel.work.OF_CYCLE`.
-OF_CYCLE = ("work", "stick_radius", "contact_radius", "force_ratio")
+OF_CYCLE = ("work", "stick_radius", *STICK_ENDS, "contact_radius", "force_ratio")
 
 
 def quantities_of(points: Points, items: Sequence[str], solution: Solution) -> dict[str, FloatArray]:

@@ -54,6 +54,7 @@ def arguments_of(points: Points) -> dict[str, Any]:
         "bulk_amplitude": points.bulk_stress_amplitude,
         "bulk_mean": points.bulk_stress_mean,
         "bulk_phase": points.bulk_stress_phase,
+        "pulled": points.bulk_strain_share,
         "criterion": points.criterion,
         "walker_exponent": points.walker_exponent,
         "normal_sensitivity": points.normal_sensitivity,

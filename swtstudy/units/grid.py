@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, SHAPE_COLUMNS, code_of, rounded
+from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.units.blocks import Block
@@ -22,7 +22,7 @@ from swtstudy.units.rows import SIMILAR, rows
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS, STRAIN_SHARE
 from swtstudy.vocabulary.quantities import Request, item_of
 
 if TYPE_CHECKING:
@@ -150,9 +150,15 @@ class PhysicalGrid(ContactDetails, Grid):
         """The non-dimensional parameters that are numbers, over the dimensions that each depends on."""
         found = {name: self.at_rest.shape(name) for name in SHAPE_COLUMNS}
         found["poisson_ratio"] = self.of_body("poisson_ratio")
+        found[STRAIN_SHARE] = self._strain_share
         for column, row in PARAMETERS.items():
             source = self._source(column)
-            if row.kind == "number" and column not in found and column in COLUMNS and self.values(source):
+            if (
+                row.kind == "number"
+                and column not in found
+                and column in GIVEN_COLUMNS
+                and self.values(source)
+            ):
                 scale = PARAMETERS[source].scale
                 found[column] = _over(
                     self.along(source), self.at_rest.scale(scale) if scale else _scalar(1.0)
@@ -162,12 +168,10 @@ class PhysicalGrid(ContactDetails, Grid):
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
             found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
-        carries = self.bodies == self.bulk_stress_body
-        return found | {
-            name: values.where(carries, 0.0)
-            for name, values in found.items()
-            if PARAMETERS[name].part == "bulk" and self.values("body")
-        }
+        if self.values("body"):
+            carries = self.bodies == self.bulk_stress_body
+            found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
+        return found
 
     @property
     def _sensitivity_scale(self) -> xr.DataArray:
@@ -200,7 +204,7 @@ class PhysicalGrid(ContactDetails, Grid):
     def _codes_over(self) -> dict[str, tuple[tuple[str, ...], NDArray]]:
         """The numbers of each column of canonical rows, with their dimensions."""
         found: dict[str, tuple[tuple[str, ...], NDArray]] = {}
-        for name in COLUMNS:
+        for name in GIVEN_COLUMNS:
             if name in self.numbers:
                 values, dims = self.numbers[name].values, tuple(map(str, self.numbers[name].dims))
                 found[name] = dims, values if PARAMETERS[name].units == "rad" else rounded(values)
@@ -252,11 +256,14 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def strain_shares(self) -> FloatArray:
         """See `Grid.strain_shares`."""
+        return self._of_points(self._strain_share)
 
-        def of(body: int) -> xr.DataArray:
-            return self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
-
-        return self._of_points(of(0).where(self.bodies == 0, of(1)))
+    @property
+    def _strain_share(self) -> xr.DataArray:
+        """The same over the dimensions that it depends on: that of the body with the bulk stress."""
+        body = self.bulk_stress_body
+        share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
+        return share.where(self.bodies == body, -share) if self.values("body") else share
 
     def _of_points(self, over: xr.DataArray) -> FloatArray:
         """Values over some of the dimensions for each point, shape (size,)."""

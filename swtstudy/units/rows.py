@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.units.labels import LARGEST, SMALLEST, Units
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES, STRAIN_SHARE
 
 if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
@@ -133,7 +133,9 @@ def rows(units: Units) -> dict[str, Parameter]:
         name: replace(CONTACT_AXES[name], **changes)
         for name, changes in (("bulk_stress_ratio", ratio), ("body", body))
     }
-    names = [*CONTACT_AXES, *PARAMETERS, *(name for name, row in QUANTITY_AXES.items() if row.kind != "name")]
+    # The share of the strain follows from the moduli.
+    parameters = [name for name in PARAMETERS if name != STRAIN_SHARE]
+    names = [*CONTACT_AXES, *parameters, *(name for name, row in QUANTITY_AXES.items() if row.kind != "name")]
     return {name: own.get(name) or _row(AXES[name], units) for name in names}
 
 

@@ -14,7 +14,7 @@ from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, WORDS
-from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, YIELD, Request, error_of
+from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +26,7 @@ NORMALISED = {
     name: f"normalised_{name}"
     for name in (
         *("dissipation", "dissipation_error", "stick_radius", "contact_radius", "von_mises", "bulk_shift"),
+        *STICK_ENDS,
     )
 }
 
@@ -99,6 +100,10 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
     if "stick_radius" in asked.names:
         of, meaning = NORMALISED["stick_radius"], f"{radius} that always sticks"
         yield Variable("stick_radius", "c", meaning, "length", of, _length)
+    for name in STICK_ENDS if {*STICK_ENDS} <= {*asked.names} else ():
+        side = name.rpartition("_")[2]
+        meaning, symbol = f"{side} end of what always sticks", rf"x_\mathrm{{{side}}}"
+        yield Variable(name, symbol, meaning, "length", NORMALISED[name], _length)
     if "contact_radius" in asked.names:
         of, meaning = NORMALISED["contact_radius"], f"largest contact {radius}"
         yield Variable("largest_contact_radius", r"a_\mathrm{max}", meaning, "length", of, _length)
@@ -316,6 +321,6 @@ NAMES = (
     *LIVES,
     *(name for _, *both in lives_in(LIVES) for name in both),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
-    *("dissipation_error", "stick_radius", "largest_contact_radius", *NORMALISED.values()),
+    *("dissipation_error", "stick_radius", *STICK_ENDS, "largest_contact_radius", *NORMALISED.values()),
     *("von_mises", "yield_ratio", "bulk_shift"),
 )

@@ -1,4 +1,4 @@
-"""Names that parameters take: the families of indenters, of revolution (eqs. 3–6) and plane, and criteria.
+"""Names that parameters take: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts.
 
 Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterion`.
 """
@@ -87,6 +87,9 @@ WITHOUT_S = ("not_finite", "no_equilibrium")
 #: Their names: the Smith–Watson–Topper parameter, and the criteria of shear.
 SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
 CRITERIA = (SWT, FATEMI_SOCIE, FINDLEY)
+
+#: Whether a bulk stress moves the stick zone, where that is known, or leaves it in its place.
+MOVED, NONE = SHIFTS = ("moved", "none")
 
 #: What s is, in words for attributes, and its symbol with its unit.
 MEANING = {

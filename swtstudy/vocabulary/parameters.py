@@ -13,13 +13,16 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import inf
 
-from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, SWT
+from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, MOVED, SHIFTS, SWT
 from swtstudy.vocabulary.parameter import Parameter, spelled
 
 #: The load of the paper.
 HARMONIC = "harmonic"
 #: Amplitudes of a loop that are not given: its vertices are the loads themselves.
 LOOP_AMPLITUDE = 1.0
+
+#: The parameters that say whether a bulk stress moves the stick zone, and by how much its body strains.
+SHIFT, STRAIN_SHARE = "stick_zone_shift", "bulk_strain_share"
 
 #: Largest numerator and denominator of a frequency ratio: the common period grows with them.
 LARGEST_FREQUENCY_TERM = 64
@@ -160,6 +163,29 @@ PARAMETERS: dict[str, Parameter] = {
             part="bulk",
             optional=True,
             units="rad",
+        ),
+        Parameter(
+            STRAIN_SHARE,
+            r"2\epsilon_1/(\epsilon_1+\epsilon_2)",
+            "κB",
+            "strain of the body with the bulk stress over the mean of both bodies, under equal tractions",
+            1.0,
+            lower=-2.0,
+            upper=2.0,
+            part="bulk",
+            optional=True,
+            note="real contacts have it from their moduli; negative in the other body, which the bulk stress "
+            "reaches by the stick zone alone",
+        ),
+        Parameter(
+            SHIFT,
+            r"\mathrm{shift}",
+            "shift",
+            "whether the bulk stress moves the stick zone where that is known, or not",
+            MOVED,
+            names=SHIFTS,
+            part="bulk",
+            optional=True,
         ),
         Parameter(
             "criterion",

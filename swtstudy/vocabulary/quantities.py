@@ -1,7 +1,7 @@
 """The table of quantities that may be asked of every point beside s.
 
 Reading, validation, the schema, attributes, figures and the command line read it; none of them repeats a
-name, a symbol or a meaning. A quantity is the same at a point and at its mirror image.
+name, a symbol or a meaning. A quantity is the same at a point and at its mirror image, but for places.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
+#: Both ends of the stick zone: asked together, since they change places at a mirror image.
+STICK_ENDS = ("stick_left", "stick_right")
 #: What studies with a yield strength ask for.
 YIELD = "von_mises"
 #: What studies with fatigue constants ask for: the strain cycles in a round, at so many places at most and so
@@ -90,6 +92,17 @@ QUANTITIES: dict[str, Quantity] = {
             "radius of the permanent stick zone in units of a_H, half its width in plane contacts; "
             "NaN if the whole contact slides or is lost",
             "stick_radius",
+        ),
+        *(
+            Quantity(
+                name,
+                rf"x_\mathrm{{{side}}}/a_H",
+                f"{side} end of what always sticks",
+                f"signed x of the {side} end of the permanent stick zone on the line y = 0, in units of a_H: "
+                "a bulk stress may move it; NaN as stick_radius",
+                name,
+            )
+            for name, side in zip(STICK_ENDS, ("left", "right"), strict=True)
         ),
         Quantity(
             "contact_radius",
@@ -336,4 +349,6 @@ def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
             report(place, f"unknown quantity {literal(name)}", nearest(name, NAMED))
         elif name in raw[:index]:
             report(place, f"{literal(name)}, the same as {key}[{raw.index(name)}]", "each quantity once")
-    return tuple(dict.fromkeys(name for name in raw if isinstance(name, str) and name in NAMED))
+    names = [name for name in raw if isinstance(name, str) and name in NAMED]
+    ends = STICK_ENDS if {*names} & {*STICK_ENDS} else ()
+    return tuple(dict.fromkeys((*names, *ends)))

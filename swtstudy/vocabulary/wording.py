@@ -9,7 +9,8 @@ from fractions import Fraction
 from html import escape
 from typing import Any
 
-from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.choices import MOVED
+from swtstudy.vocabulary.parameters import AXES, SHIFT
 
 #: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
 _TOLERANCE = 1e-9
@@ -206,6 +207,8 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
     """
+    if name == SHIFT:
+        return f"stick zone {'moved' if value == MOVED else 'in place'}"
     alone = AXES[name].kind == "name" or "flag_meanings" in attributes
     symbol = "" if alone else f"{parameter_words(name, attributes)} = "
     units = unit_words(attributes.get("units", "1"))

@@ -77,8 +77,8 @@ def test_several_contacts_have_values_over_their_dimensions() -> None:
 def test_the_bodies_are_1_and_2() -> None:
     pulled = {"bulk_stress_amplitude": 30.0, "normal_force": 200.0}
     first, second = (physical(**MOVING, **pulled, bulk_stress_body=body) for body in (1, 2))
-    assert "bulk_stress_amplitude" in first.parameters(1)
-    assert "bulk_stress_amplitude" not in first.parameters(2)
+    assert "bulk_strain_share" not in first.parameters(1)
+    assert first.parameters(2)["bulk_strain_share"] == -1.0
     one, other = first.solve(1e-2).SWT, second.solve(1e-2).SWT
     assert one.sel(body=1) > 1.1 * one.sel(body=2)
     np.testing.assert_array_equal(other, one[::-1])

@@ -241,9 +241,9 @@ def test_positions_agree_in_their_coordinates(field):
     assert spanned.sizes["other"] == 3
 
 
-@pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], [0.5, -0.1], np.inf, np.ma.array([0.5], mask=[1])])
+@pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], np.inf, np.ma.array([0.5], mask=[1])])
 def test_distances_of_a_slip_map_are_checked(r):
-    with pytest.raises(ValueError, match=r"r: found .*; allowed: a finite distance r ≥ 0 in a_H"):
+    with pytest.raises(ValueError, match=r"r: found .*; allowed: a finite distance in a_H"):
         swtstudy.slip_map(r)
 
 

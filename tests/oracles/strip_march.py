@@ -3,7 +3,8 @@
 Constant tractions on equal elements. At each instant the pressure is that of the contact without adhesion
 that carries P, and the shear that of Coulomb's friction which carries Q: elements that stick move together
 with the other body since the last instant, those that slip have |q| = μp against their motion. Lengths in
-a_H, heights in δ0, tractions in E* δ0/a_H, loads in E* δ0; similar bodies, so that nothing couples them.
+a_H, heights in δ0, tractions in E* δ0/a_H, loads in E* δ0; similar bodies, so that nothing couples them. A
+bulk stress of one body strains its surface by half its value: u = σ x/(2 E*).
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ class StripMarch:
         right, left = self.x[:, None] - ends[:-1], self.x[:, None] - ends[1:]
         self.compliance = -2.0 / np.pi * (right * np.log(np.abs(right)) - left * np.log(np.abs(left)))
         self.pressure, self.shear = np.zeros((2, elements))
+        self.bulk = 0.0
 
     def _solve(self, free: NDArray[np.bool_], right: Array, load: float, moved: float) -> tuple[Array, float]:
         """Tractions of the free elements that move together, and that motion."""
@@ -41,8 +43,8 @@ class StripMarch:
         traction[index] = found[:-1]
         return traction, float(found[-1])
 
-    def step(self, normal: float, tangential: float) -> None:
-        """Move to line loads P and Q."""
+    def step(self, normal: float, tangential: float, bulk: float = 0.0) -> None:
+        """Move to line loads P and Q, and to a bulk stress."""
         touches = np.ones(self.x.size, dtype=bool)
         for _ in range(ROUNDS):
             pressure, approach = self._solve(touches, -self.gap, normal, 1.0)
@@ -53,21 +55,22 @@ class StripMarch:
             touches = new
         old, limit = self.shear, self.friction * pressure
         slides = np.zeros(self.x.size)
+        strain = 0.5 * (bulk - self.bulk) * self.x
         for _ in range(ROUNDS):
             sticks = touches & (slides == 0.0)
             fixed = slides * limit
             # Elements that stick keep u − (u of the other body).
-            right = self.compliance @ (old - fixed)
+            right = self.compliance @ (old - fixed) - strain
             shear, motion = self._solve(sticks, right, tangential - fixed @ self.width, 1.0)
             shear += fixed
-            slip = self.compliance @ (shear - old) - motion
+            slip = self.compliance @ (shear - old) + strain - motion
             new = np.where(sticks & (np.abs(shear) > limit), np.sign(shear), slides)
             # What is dragged along is held back: the body follows the other one too little.
             new = np.where((slides != 0.0) & (slip * slides > 0.0), 0.0, new)
             if (new == slides).all():
                 break
             slides = new
-        self.pressure, self.shear = pressure, shear
+        self.pressure, self.shear, self.bulk = pressure, shear, bulk
 
     def stress_along(self, x: Array) -> Array:
         """σ_xx by the tractions at places of the surface that are no ends of elements."""

@@ -70,6 +70,7 @@ def test_what_a_reader_is_told_of_each_variable():
         "critical_x": "1",
         "critical_angle": "degree",
         "regime": None,
+        "stick_zone": None,
         "status": None,
         "run": "1",
     }
@@ -96,7 +97,7 @@ def test_what_a_reader_is_told_of_each_variable():
     assert "a_H = sqrt(R delta0)" in ATTRIBUTES["critical_x"]["comment"]
     assert "SWT0 = E* delta0 / R" in ATTRIBUTES["s"]["comment"]
     # What is there with a bulk stress, with forces or with units alone.
-    assert {*ATTRIBUTES} - {*MARGINS} == {*VARIABLES}
+    assert {*ATTRIBUTES} - {*MARGINS, "stick_zone"} == {*VARIABLES}
 
 
 def test_extrema_are_values_of_s_and_places_of_the_dimension(waves):

@@ -33,6 +33,8 @@ def test_defaults_are_table_1():
         "bulk_stress_amplitude": 0.0,
         "bulk_stress_mean": 0.0,
         "bulk_stress_phase": 0.0,
+        "bulk_strain_share": 1.0,
+        "stick_zone_shift": "moved",
         "walker_exponent": 0.5,
         "normal_sensitivity": 0.0,
         "criterion": "swt",
