@@ -10,8 +10,8 @@ sphere cuts an arc |θ| < Θ out of the circle through each place, and along it 
 polynomial in θ: few values tell it, at Gauss's nodes of the arc of the largest sphere. A cell of a line is a
 range of u alone.
 
-With the terms of the highest power left out in u, or in w, a cell's integral changes: what cells lack is a
-share of that.
+With the terms of the two highest powers left out in u, or in w, a cell's integral changes: what cells lack
+is a share of that.
 """
 
 from math import acos, asin, cos, pi, sin, sqrt
@@ -22,20 +22,22 @@ from swtstudy.kernel.body import COARSEST, PROOF, largest_at
 from swtstudy.kernel.compiled import jit, new_record
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
-NODES, FINE = 4, 8
+NODES, FINE = 5, 8
+#: Highest powers that tell what a cell lacks: an even and an odd one, one of which a kink in its middle has.
+TOP = 2
 #: Most cells, distances and values on half an arc.
 MAX_CELLS, MAX_DISTANCES, MAX_ALONG = 1009, 61, 5
 #: Largest radius of the spheres over the centre's distance from the axis up to which so many values, from one
 #: on, are enough on half an arc.
 REACH = np.array([0.35, 0.8, 1.0])
 #: Cells at first in u and w, and on a line.
-FIRST, ON_LINE = (2, 3), 5
+FIRST, ON_LINE = (2, 2), 4
 #: Kinds of cells.
 SPHERE, LINE = np.arange(2)
 #: What a cell lacks over the change of its integral without the highest powers, and over the integral of the
 #: amount of these, which does not cancel: of half spheres, in which kinks are at many places of a cell, and
 #: of lines.
-OF_CHANGE, OF_OFF = 0.3, np.array([0.06, 0.15])
+OF_CHANGE, OF_OFF = 0.15, np.array([0.06, 0.2])
 #: Cells are halved until they lack such a share of the accuracy asked for; and what is claimed over what they
 #: lack: a kink may hide in one cell (results/nonlocal_means.md).
 ENOUGH, CLAIMED = 0.7, 2.5
@@ -231,9 +233,9 @@ def integrate_cell(M, k, n):
                         term = base * M.value[k, 0, power, a, b]
                         value += term
                         lack += base * M.value[k, 1, power, a, b]
-                        if a == NODES - 1:
+                        if a >= NODES - TOP:
                             top_u += term
-                        if rows > 1 and b == NODES - 1:
+                        if rows > 1 and b >= NODES - TOP:
                             top_w += term
             whole += weight * value
             missing += weight * lack
