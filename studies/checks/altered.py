@@ -1,10 +1,12 @@
-"""Modules of the mechanics with another value of a constant, so that all that is made from it follows."""
+"""Modules of the solver with another value of a constant, so that all that is made from it follows."""
 
 from __future__ import annotations
 
 import ast
 import multiprocessing
+import os
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
@@ -57,6 +59,8 @@ def measure(
 ) -> list[tuple]:
     """s, s_error and the processor time in s of each rtol with an altered constant."""
     Altered.module, Altered.constant, Altered.expression = module, constant, expression
+    if constant:  # compiled code of the unaltered sources knows nothing of it
+        os.environ["NUMBA_CACHE_DIR"] = tempfile.mkdtemp()
     sys.meta_path.insert(0, Altered)
     sys.path[:0] = [str(ROOT), str(ROOT / "studies")]
     from samples import solved

@@ -1,7 +1,8 @@
-"""What each tuning constant of the mechanics is good for: s and time with it halved, doubled or taken away.
+"""What each tuning constant of the solver is good for: s and time with it halved, doubled or taken away.
 
 ``python studies/checks/constants.py [part of a name ...] [--points a profile]`` writes results/constants.md:
-all that the code says of constants, their tests among it, and what other values of those so named do.
+all that the code says of constants, their tests among it, and what other values of those so named do, if
+there are names.
 A constant's module is compiled with another value of it, in a process of its own, so that all that is made
 from it follows.
 """
@@ -18,32 +19,21 @@ from pathlib import Path
 import numpy as np
 from altered import ROOT, assigned, in_a_process
 
-MECHANICS = ROOT / "swtstudy" / "mechanics"
+ROOMS = [ROOT / "swtstudy" / room for room in ("profiles", "kernel", "solver")]
 RTOL, REFERENCE_RTOL = 1e-5, 1e-8
 #: Samples that show what modules other than the search of the line do, by a part of their name.
-KINDS = {"wavy": "wavy", "struve": "wavy"}
-KINDS |= {"power_law": "power", "profile_table": "table", "slope_fit": "table", "tabulated": "table"}
-KINDS |= {"harmonic_sum": "loop", "smooth": "loop", "_path": "loop", "polygon": "loop", ".control.": "force"}
-KINDS |= {"nonlocal": "means", "half_sphere": "means"}
-KINDS |= {"paraboloid": "edge", ".body.": "body", ".all_planes": "body", ".ascent": "body"}
+KINDS = {"families": "wavy", "profiles.table": "table", "loops": "loop", ".control": "force"}
+KINDS |= {"mean": "means", ".body": "body", ".beneath": "body", ".all_planes": "body"}
 #: Numbers that mean something rather than tune something.
 DEFINITIONS = ("GROWTH", "LAST", "T", "PERIOD", "NO_AMPLITUDE")
 #: Other values than half and twice, or a hundredth and a hundred times: v is the constant.
-OTHERS = {
-    "paraboloid.APPROACH_COUNT": ("5",),
-    "roots.LAST_STEP": ("100 * v",),
-    "stretches.PER_INTERVAL": (),
-    "wavy.NODES_PER_RADIAN_AND_DIGIT": ("0.0",),
-    "body_maximum.ANGLES": ("v[::2]",),
-    "body_maximum.DEPTHS": ("v[::2]",),
-    "body_maximum.FIRST_STEPS": ("v / 2", "2 * v"),
-}
+OTHERS = {"mean.OF_OFF": ("v / 2", "2 * v")}
 HEADER = "| constant | value | error | missed | change | time |\n|---|---|---|---|---|---|\n"
 
 
 def constants() -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
     """Module, name, value as it is written, and the other values of each constant."""
-    for file in sorted(MECHANICS.rglob("*.py")):
+    for file in sorted(file for room in ROOMS for file in room.glob("*.py")):
         tree = ast.parse(file.read_text(encoding="utf-8"))
         module = ".".join(file.relative_to(ROOT).with_suffix("").parts)
         names = [n.id for n in ast.walk(tree) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
@@ -63,8 +53,8 @@ def constants() -> Iterator[tuple[str, str, str, tuple[str, ...]]]:
 
 def comments() -> Iterator[str]:
     """A row for each statement that gives constants a value: their module and names, values, and comment."""
-    for file in sorted(MECHANICS.rglob("*.py")):
-        module = ".".join(file.relative_to(MECHANICS).with_suffix("").parts)
+    for file in sorted(file for room in ROOMS for file in room.glob("*.py")):
+        module = ".".join(file.relative_to(ROOT / "swtstudy").with_suffix("").parts)
         said, goes_on = "", False
         for line in file.read_text(encoding="utf-8").splitlines():
             found = re.match(r"([A-Z][A-Z_0-9, ]*)(?:: [^=]+)? = (.*)", line)
@@ -83,7 +73,7 @@ class Sample:
 
     def __init__(self, kind: str, count: int) -> None:
         self.kind, self.count = kind, count
-        nothing = "swtstudy.mechanics.points", "", "v"
+        nothing = "swtstudy.solver.points", "", "v"
         self.unaltered, (self.reference, _, _) = in_a_process(*nothing, kind, count, (RTOL, REFERENCE_RTOL))
 
     def row(self, module: str, constant: str, expression: str) -> str:
@@ -110,11 +100,11 @@ def main() -> None:
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
     arguments.add_argument("--quick", action="store_true", help="one constant at one point a profile")
     given = arguments.parse_args()
-    count, names = (1, ["look.AT_ONCE"]) if given.quick else (given.points, given.names or [""])
+    count, names = (1, ["solver.von_mises.CLIMBS"]) if given.quick else (given.points, given.names)
     samples: dict[str, Sample] = {}
     lines = []
     for part, (module, constant, text, others) in itertools.product(names, constants()):
-        name = f"{module.removeprefix('swtstudy.mechanics.')}.{constant}"
+        name = f"{module.removeprefix('swtstudy.')}.{constant}"
         if part not in name:
             continue
         kind = next((kind for part, kind in KINDS.items() if part in module), "line")
@@ -131,9 +121,8 @@ def main() -> None:
     title = f"Relative errors and changes of s at rtol = {RTOL:.0e}, {count} points of each source; "
     title += "times are over that of the constants as they are, and vary as much as its own rows.\n\n"
     given.results.mkdir(exist_ok=True)
-    (given.results / "constants.md").write_text(
-        f"{listed}\n\n{title}{HEADER}" + "\n".join(lines) + "\n", "utf-8"
-    )
+    measured = f"\n\n{title}{HEADER}" + "\n".join(lines) if lines else ""
+    (given.results / "constants.md").write_text(f"{listed}{measured}\n", "utf-8")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 ``python studies/checks/off_line.py``, from the project folder, writes results/off_line.md. The points are
 those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_surface is searched for, or a
 bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
-over 0.01–0.2 a_H, held against the same with many more places and instants, and where these differ, against
-the plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
+over 0.01–0.2 a_H, held against a dense rule with places of its own, and where these differ, against the
+plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
 what is found of each kind and scene as soon as it is, so that ``--kinds mean`` looks at the means alone, and
 ``--scenes`` at some scenes. ``--points`` draws fewer of each scene, ``--quick`` next to none.
 """
@@ -26,13 +26,14 @@ from scipy.stats import qmc
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from nonlocal_means import tight_means
+from nonlocal_means import dense_means
 from overlooked import CHUNK, SCENES
 from swtstudy.solver.nonlocal_swt import nonlocal_swt
 
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
 from swtstudy.paper.audit.body_maximum import body_maximum
+from swtstudy.solver.means import means_at
 from swtstudy.solver.solve import arguments_of, solve_points
 
 Array = NDArray[np.float64]
@@ -151,7 +152,7 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
     drawn = [SCENES[name][0](rng) for _ in range(-(-count // CHUNK))]
     low: list[float] = []
     for some in drawn:
-        points = some.take(np.arange(min(count - len(low), len(some))))
+        points = some[np.arange(min(count - len(low), len(some)))]
         if kind == "circle" and not points.bulk_stress_amplitude.any():
             ν = rng.uniform(SAFE_POISSON_RATIO, 0.5, len(points))
             points = replace(points, poisson_ratio=ν)
@@ -170,8 +171,9 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             with np.errstate(all="ignore"):
                 if kind == "mean":
                     distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
-                    means = nonlocal_swt, tight_means
-                    found, dense = (float(of(own, x, angle, distance).volume[0, 0]) for of in means)
+                    found = float(means_at(own, x, angle, distance).volume[0, 0])
+                    about = float(x[0]), float(np.radians(2.0 * angle[0])), float(distance[0])
+                    dense = float(dense_means(opened, *about, 1)[0])
                     allowed = KINDS[kind][1]
                     if abs(1.0 - found / dense) > allowed:
                         plain, spread = plain_mean(open_cycle(**arguments_of(own)), x, distance)

@@ -42,7 +42,7 @@ def of_law(scene: str) -> Callable[[int], Points]:
 
     def first(count: int) -> Points:
         chunks = [drawn(scene, SEED, chunk) for chunk in range(-(-count // CHUNK))]
-        return Points.joined(chunks).take(np.arange(count))
+        return Points.joined(chunks)[np.arange(count)]
 
     return first
 

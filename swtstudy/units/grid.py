@@ -28,6 +28,7 @@ from swtstudy.vocabulary.quantities import Request
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.units.at_rest import Contact
     from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 
 
@@ -263,7 +264,15 @@ class PhysicalGrid(ContactDetails, Grid):
         """The same over the dimensions that it depends on: that of the body with the bulk stress."""
         body = self.bulk_stress_body
         share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
-        return share.where(self.bodies == body, -share) if self.values("body") else share
+        if not self.values("body"):
+            return share
+
+        def over_own(contact: Contact) -> float:
+            """Number of the other body over that of this one, by which a shift in `a_H` is divided."""
+            of_both = [1.0 if contact.plane else (1.0 + ν) * (4.0 - 3.0 * ν) for ν in contact.moduli.poisson]
+            return of_both[1 - body] / of_both[body]
+
+        return share.where(self.bodies == body, -share * self.at_rest.each(over_own))
 
     def _of_points(self, over: xr.DataArray) -> FloatArray:
         """Values over some of the dimensions for each point, shape (size,)."""
