@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.progress import Progress
@@ -16,6 +17,7 @@ from swtstudy.vocabulary.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.points.found import Found
     from swtstudy.points.grid import Grid
 
 
@@ -54,14 +56,30 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     StudyError
         A ValueError with every mistake in the parameters.
 
+    Notes
+    -----
+    Axes that are arrays of dask are solved lazily, by `xarray.apply_ufunc` (dask="parallelized"): the data
+    variables are arrays of dask, whose chunks are the products of those of the axes, with the same values.
+
     Examples
     --------
     >>> import swtstudy
     >>> dataset = swtstudy.solve(phase=[0, 1.5, 3.0], normal_amplitude=[0.25, 0.75])
     >>> dataset.s.dims
     ('phase', 'normal_amplitude')
+
+    Two chunks of ten phases, each solved in a thread of its own:
+
+    >>> import dask.array
+    >>> lazy = swtstudy.solve(phase=dask.array.linspace(0, 3, 20, chunks=10), rtol=1e-2)
+    >>> lazy.s.chunks
+    ((10, 10),)
+    >>> round(float(lazy.s.max()), 3)
+    0.153
     """
     report = Report()
+    lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]
+    parameters = {name: np.asarray(raw) if name in lazy else raw for name, raw in parameters.items()}
     fixed, axes = spanned(parameters, report)
     if not is_rtol(rtol):
         report("rtol", literal(rtol), ALLOWED_RTOL)
@@ -70,25 +88,67 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or report:
         raise StudyError([*found, *report])
-    return solve_grid(grid, float(rtol), asked)
+    return _solve_lazily(grid, lazy, float(rtol), asked) if lazy else solve_grid(grid, float(rtol), asked)
 
 
 def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process."""
-    from swtstudy.points.chunk import Asked, chunks, solve_points, values_of
-    from swtstudy.points.labelled import label_records
-    from swtstudy.points.records import Records
-    from swtstudy.points.unique import kinds, unique_points, wanted
+    from swtstudy.points.labelled import label_found
 
-    points = unique_points(grid)
-    records = Records.missing(points.table)
-    with Progress(len(records)) as progress:
-        for some, items in kinds(np.ones(len(records), bool), *wanted(grid, asked, points)):
-            for chunk in chunks(points, some, Asked(items)):
-                records.fill(chunk.rows, values_of(chunk, rtol, solve_points))
-                progress.add(len(chunk))
-    dataset = label_records(grid, points, records, asked, of_runs=False)
+    points = Distinct.of(grid, asked)
+    dataset = label_found(grid, points, _found(points, rtol, asked), asked, of_runs=False)
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
+
+
+def _found(points: Distinct, rtol: float, asked: Request) -> Found:
+    """All that is asked of points, solved one chunk after another; raises if one has no value."""
+    from swtstudy.points.chunk import chunks, fill
+    from swtstudy.points.found import Found
+
+    found = Found.blank(points.rows)
+    with Progress(len(found)) as progress:
+        for chunk in chunks(points, np.ones(len(found), bool), asked):
+            part = Found.blank(chunk.rows)
+            fill(part, chunk, rtol)
+            found.put(chunk.places, part)
+            progress.add(len(chunk))
+    return found
+
+
+def _solve_lazily(grid: Grid, lazy: Mapping[str, Any], rtol: float, asked: Request) -> xr.Dataset:
+    """The same as arrays of dask, with these chunks along axes."""
+    import xarray as xr
+
+    from swtstudy.points.labelled import label, margins, values_at
+    from swtstudy.vocabulary.variables import SOLVED
+
+    of_points = dict(zip(grid.dims, grid.shape, strict=True))
+    places = [
+        xr.DataArray(np.arange(size), dims=name).chunk({name: lazy.get(name, size)})
+        for name, size in of_points.items()
+    ]
+    own = dict.fromkeys(SOLVED, ()) | asked.variables
+
+    def at(*block: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], ...]:
+        flat = np.ravel_multi_index(np.broadcast_arrays(*block), grid.shape)
+        points = Distinct.of(grid, asked, flat.ravel())
+        arrays = values_at(grid, points, _found(points, rtol, asked), asked, flat.ravel())
+        return tuple(
+            arrays[name].reshape(*flat.shape, *(asked.sizes[dim] for dim in dims))
+            for name, dims in own.items()
+        )
+
+    made = xr.apply_ufunc(
+        at,
+        *places,
+        output_core_dims=[*own.values()],
+        dask="parallelized",
+        output_dtypes=[np.int8 if name == "regime" else float for name in own],
+        dask_gufunc_kwargs={"output_sizes": {dim: asked.sizes[dim] for dims in own.values() for dim in dims}},
+    )
+    arrays = {name: each.data for name, each in zip(own, made, strict=True)}
+    arrays |= margins(Distinct.of(grid), grid) if grid.margins else {}
+    return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def spanned(

@@ -10,19 +10,20 @@ from __future__ import annotations
 
 import sys
 from functools import partial
+from typing import Any
 
 import stand_in
 
-from swtstudy.archive.parts import PartsWriter
+from swtstudy.archive import parts
 from swtstudy.cli import main
 from swtstudy.runner.run import run_several
 from swtstudy.runner.workers import LocalPool
 
-add, leave = PartsWriter.add, LocalPool.__exit__
+save_part, leave = parts.save_part, LocalPool.__exit__
 
 
-def told_add(writer: PartsWriter, *arguments: object) -> None:
-    add(writer, *arguments)
+def told_save(*arguments: Any) -> None:
+    save_part(*arguments)
     print("saved", flush=True)
 
 
@@ -34,6 +35,6 @@ def told_leave(pool: LocalPool, *arguments: object) -> None:
 
 if __name__ == "__main__":
     study, results, friction, gate = sys.argv[1:]
-    PartsWriter.add, LocalPool.__exit__ = told_add, told_leave
+    parts.save_part, LocalPool.__exit__ = told_save, told_leave
     run_several.__kwdefaults__["solver"] = partial(stand_in.up_to, float(friction), gate)
     main(["run", study, "--results", results, "--processes"])

@@ -42,10 +42,9 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
-    from swtstudy.runner import collector
-    from swtstudy.runner import job as module
+    from swtstudy.runner import job, work
 
-    cut = module.chunks
+    cut = work.chunks
 
     def noted(*arguments: Any) -> list[Chunk]:
         found = cut(*arguments)
@@ -53,8 +52,8 @@ def child(what: str, text: str, path: str, log: str) -> None:
             file.writelines(f"{len(chunk)}\n" for chunk in found)
         return found
 
-    module.chunks = noted
-    collector.PART_SECONDS = collector.PART_SHARE = 0.0  # saved at once
+    work.chunks = noted
+    job.PART_SECONDS = job.PART_SHARE = 0.0  # saved at once
     run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap, processes=True)
 
 

@@ -13,18 +13,17 @@ import xarray as xr
 
 from swtstudy.archive.attributes import definitions_text, versions
 from swtstudy.archive.netcdf import read_archive
-from swtstudy.archive.parts import known_records, parts_folder, read_parts
-from swtstudy.points.canonical import Definitions, describe_point
-from swtstudy.points.labelled import label_records
-from swtstudy.points.records import FAILED, Records, matching
-from swtstudy.points.unique import UniquePoints, unique_points
+from swtstudy.archive.parts import known_points, parts_folder, read_parts
+from swtstudy.points.canonical import Distinct
+from swtstudy.points.found import Found, matching
+from swtstudy.points.labelled import label_found
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.version import __version__
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 
 
-def build(study: Study, points: UniquePoints, records: Records, history: str, seconds: float) -> xr.Dataset:
+def build(study: Study, points: Distinct, found: Found, history: str, seconds: float) -> xr.Dataset:
     """The archive of a study.
 
     Parameters
@@ -33,31 +32,19 @@ def build(study: Study, points: UniquePoints, records: Records, history: str, se
         The study.
     points
         The distinct points of its grid.
-    records
-        Their records, in the same order.
+    found
+        Their values, in the same order.
     history
         One line for each step, the latest first.
     seconds
         Wall time of the run that ends with this archive.
     """
-    dataset = label_records(study.grid, points, records, study.asked)
+    dataset = label_found(study.grid, points, found, study.asked)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
-    dataset.s.attrs["ancillary_variables"] = "s_error regime s_surface status run"
-    dataset.status.attrs["failures"] = json.dumps(failures(records, points.definitions))
-    return dataset.assign_attrs(_provenance(study, records, history, seconds))
-
-
-def failures(records: Records, definitions: Definitions) -> list[dict[str, Any]]:
-    """The failed points: canonical row, description and message of each."""
-    return [
-        {
-            "row": records.table[index].tolist(),
-            "point": describe_point(records.table[index], definitions),
-            "message": records.message[index],
-        }
-        for index in np.flatnonzero(records.status == FAILED)
-    ]
+    message = " message" * ("message" in dataset)
+    dataset.s.attrs["ancillary_variables"] = f"s_error regime s_surface status run{message}"
+    return dataset.assign_attrs(_provenance(study, found, history, seconds))
 
 
 def history_line(what: str) -> str:
@@ -66,7 +53,12 @@ def history_line(what: str) -> str:
     return f"{now}: {what} by swtstudy {__version__}"
 
 
-def _provenance(study: Study, records: Records, history: str, seconds: float) -> dict[str, Any]:
+def _provenance(study: Study, found: Found, history: str, seconds: float) -> dict[str, Any]:
+    made = found["run"] >= 0
+    of_runs = np.bincount(found["run"][made], found["seconds"][made], len(found.runs))
+    runs = [
+        {**run.to_json(), "seconds": round(s, 6)} for run, s in zip(found.runs, of_runs.tolist(), strict=True)
+    ]
     attributes: dict[str, Any] = {
         "Conventions": "CF-1.11",
         "title": study.title,
@@ -76,9 +68,9 @@ def _provenance(study: Study, records: Records, history: str, seconds: float) ->
         "versions": versions(),
         "rtol": study.rtol,
         "wall_time_seconds": round(seconds, 3),
-        "computing_time_seconds": round(records.seconds, 3),
+        "computing_time_seconds": round(float(of_runs.sum()), 3),
         "study": study.text,
-        "runs": json.dumps([run.to_json() for run in records.runs]),
+        "runs": json.dumps(runs),
     }
     if study.grid.given:
         attributes["definitions"] = definitions_text(study.grid.given)
@@ -146,8 +138,6 @@ def partial_results(path: Path) -> xr.Dataset | None:
         return None
     latest = max(parts.runs, key=lambda run: run.started)
     study = Study.from_text(latest.study, str(path))
-    points = unique_points(study.grid)
-    known = known_records(path)
-    usable = known.usable(study.rtol, latest.solver_version, retry_failed=False)
-    records = matching(points.table, known, usable)
-    return build(study, points, records, history_line("opened unfinished"), 0.0)
+    points, known = Distinct.of(study.grid, study.asked), known_points(path)
+    found = matching(points, known, known.usable(study.rtol, latest.solver_version)).take(slice(None))
+    return build(study, points, found, history_line("opened unfinished"), 0.0)

@@ -10,42 +10,34 @@ import json
 import math
 import platform
 from collections.abc import Collection, Hashable, Iterable, Mapping
-from dataclasses import MISSING, asdict, fields
+from dataclasses import asdict, fields
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, TypedDict
+from typing import Any
 
-from swtstudy.points.records import Run
+from swtstudy.points.found import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal, plain_number
-from swtstudy.vocabulary.quantities import EVERY_VARIABLE, is_item
+from swtstudy.vocabulary.quantities import COUNTS, DISTANCE, EVERY_VARIABLE, NAMED
 from swtstudy.vocabulary.version import __version__
 
 
-class Failure(TypedDict):
-    """A failed point: its canonical row, its description, and why it failed."""
-
-    row: list[float]
-    point: str
-    message: str
-
-
-def read_runs(text: object) -> tuple[Run, ...]:
-    """The runs that made the values."""
-    return tuple(_run(raw) for raw in _json(text, list))
-
-
-def read_failures(text: object) -> list[Failure]:
-    """The points that failed."""
-    failures = _json(text, list)
-    for failure in failures:
-        if not isinstance(failure, dict) or failure.keys() != Failure.__annotations__.keys():
-            raise ValueError(f"not a failure: {literal(failure)}")
-        row, words = failure["row"], (failure["point"], failure["message"])
-        good = isinstance(row, list) and all(math.isfinite(plain_number(number)) for number in row)
-        if not good or not all(isinstance(word, str) for word in words):
-            raise ValueError(f"not a failure: {literal(failure)}")
-    return failures
+def read_runs(text: object) -> list[dict[str, Any]]:
+    """The runs that made the values, with their ``seconds`` of computing."""
+    runs = _json(text, list)
+    for raw in runs:
+        if not isinstance(raw, dict) or not {*raw} <= {*(item.name for item in fields(Run)), "seconds"}:
+            raise ValueError(f"not a run: {literal(raw)}")
+        for name, kind in (("solver_version", str), ("rtol", float), ("study", str), ("versions", str)):
+            if not isinstance(raw.get(name), kind):
+                raise ValueError(f"{name} of a run: {literal(raw[name]) if name in raw else 'nothing'}")
+        raw.setdefault("seconds", 0.0)
+        names, seconds = raw.get("quantities", []), raw["seconds"]
+        if not isinstance(names, list) or not {*map(str, names)} <= {*NAMED, COUNTS, DISTANCE}:
+            raise ValueError(f"quantities of a run: {literal(names)}")
+        if not 0.0 <= plain_number(seconds) < math.inf:
+            raise ValueError(f"seconds of a run: {literal(seconds)}")
+    return runs
 
 
 def definitions_text(definitions: Iterable[Definition]) -> str:
@@ -111,21 +103,6 @@ def _json(text: object, kind: type) -> Any:
     if not isinstance(raw, kind):
         raise ValueError("not a list" if kind is list else "not a table")
     return raw
-
-
-def _run(raw: object) -> Run:
-    names = {item.name for item in fields(Run)}
-    if not isinstance(raw, dict) or not raw.keys() <= names:
-        raise ValueError(f"not a run: {literal(raw)}")
-    for item in fields(Run):
-        value = raw.get(item.name, item.default)
-        if item.name == "quantities":
-            good = isinstance(value, list | tuple) and all(map(is_item, value))
-        else:
-            good = isinstance(value, str) if item.type == "str" else 0.0 <= plain_number(value) < math.inf
-        if not good:
-            raise ValueError(f"{item.name} of a run: {'nothing' if value is MISSING else literal(value)}")
-    return Run.from_json(raw)
 
 
 #: Packages whose versions can affect the numbers or the file.

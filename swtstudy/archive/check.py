@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
-from dataclasses import fields
 from functools import partial
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_definitions, read_failures, read_figure, read_runs
-from swtstudy.archive.recall import grid_of
-from swtstudy.points.labelled import ATTRIBUTES
-from swtstudy.points.records import COMPUTED, STATES, made_by
-from swtstudy.points.requested import CONTACT, has_units, request_of
+from swtstudy.archive.attributes import read_definitions, read_figure, read_runs
+from swtstudy.archive.recall import grid_of, request_of
 from swtstudy.points.values import index_at
-from swtstudy.solver.points import Solution
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import without_units
 from swtstudy.vocabulary.arrays import BoolArray
@@ -31,115 +25,81 @@ from swtstudy.vocabulary.mistakes import (
     plain_number,
 )
 from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import (
-    DISTANCE,
-    EVERY_VARIABLE,
-    NONLOCAL,
-    NOTHING,
-    Request,
-    attributes_of,
-    item_of,
-)
+from swtstudy.vocabulary.quantities import EVERY_VARIABLE, attributes_of
+from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units
 
 #: What every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")
 _TEXTS = ("title", "source", "history", "versions", "study", "runs")
-_NUMBERS = ("rtol", "wall_time_seconds")
 
 
 def lacking(dataset: xr.Dataset) -> list[str]:
     """Names of the variables and attributes that a Dataset lacks as an archive."""
     names = [name for name in _VARIABLES if name not in dataset.data_vars]
-    names += [name for name in (*_TEXTS, *_NUMBERS) if name not in dataset.attrs]
-    own = {"regime": ("flag_meanings",), "status": ("flag_meanings", "failures")}
-    return names + [
-        f"attribute {attribute} of {name}"
-        for name, attributes in own.items()
-        for attribute in attributes
-        if name in dataset and attribute not in dataset[name].attrs
-    ]
+    names += [name for name in (*_TEXTS, "rtol", "control") if name not in {*dataset.attrs, *dataset.coords}]
+    flags = (name for name in ("regime", "status") if name in dataset)
+    return names + [f"flag_meanings of {n}" for n in flags if "flag_meanings" not in dataset[n].attrs]
 
 
 def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
     """Everything that is wrong in an archive that lacks nothing."""
-    found = [*_attributes(dataset), *_shapes(dataset)]
-    # Coordinates and values can be checked only if the attributes and shapes that they rely on are sound.
-    return [Mistake(*parts, source) for parts in found or [*_coordinates(dataset), *_values(dataset)]]
+    # Each of these can be checked only if what it relies on, the one before it, is sound.
+    found: list[tuple[str, str, str]] = []
+    for check in (_attributes, _shapes, _coordinates, _values):
+        found = found or [*check(dataset)]
+    return [Mistake(*parts, source) for parts in found]
 
 
 def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    attributes = dataset.attrs
+    attributes, real = dataset.attrs, has_units(dataset)
     for name in _TEXTS:
         if not isinstance(attributes[name], str):
             yield f"attribute {name}", _words(attributes[name]), "a text"
     if not is_rtol(attributes["rtol"], SMALLEST_STORED_RTOL):
         yield "attribute rtol", _words(attributes["rtol"]), ALLOWED_RTOL
-    if not 0.0 <= plain_number(attributes["wall_time_seconds"]) < math.inf:
+    if not 0.0 <= plain_number(attributes.get("wall_time_seconds", 0.0)) < np.inf:
         yield "attribute wall_time_seconds", _words(attributes["wall_time_seconds"]), "a number of seconds"
-    if isinstance(attributes["runs"], str):
-        yield from _unread("runs", attributes["runs"], read_runs)
-    if "definitions" in attributes:
-        yield from _unread("definitions", attributes["definitions"], read_definitions)
-    if "figure" in attributes:
-        others = [str(name) for name in dataset.data_vars] if has_units(dataset) else []
-        yield from _unread("figure", attributes["figure"], partial(read_figure, others=others))
-    yield from _unread("failures of status", dataset.status.attrs["failures"], read_failures)
+    others = [str(name) for name in dataset.data_vars] if real else []
+    readers: dict[str, Callable[[object], object]] = {
+        "runs": read_runs,
+        "definitions": read_definitions,
+        "figure": partial(read_figure, others=others),
+        CONTACT: read_contact,
+    }
+    for name, read in readers.items():
+        try:
+            read(attributes[name]) if name in attributes else None
+        except ValueError as error:
+            yield f"attribute {name}", f"{_words(attributes[name])} ({error})", "JSON as swtstudy writes it"
     for name, words in (("regime", REGIMES), ("status", STATES)):
         meanings = dataset[name].attrs["flag_meanings"]
-        # An older archive may not know the last of them.
-        if not isinstance(meanings, str) or tuple(meanings.split()) != words[: len(meanings.split())]:
+        if meanings != " ".join(words):
             yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
-    real = has_units(dataset)
-    if real:
-        yield from _unread(CONTACT, attributes[CONTACT], read_contact)
-    expected = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
-    expected |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    expected |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
-    dataset = without_units(dataset) if real else dataset
-    for name, units in expected.items():
-        found = dataset[name].attrs.get("units", units) if name in dataset else units
-        if str(found) != units:
-            yield f"attribute units of {name}", _words(found), _words(units)
-
-
-def _unread(name: str, text: object, read: Callable[[object], object]) -> Iterator[tuple[str, str, str]]:
-    try:
-        read(text)
-    except ValueError as error:
-        yield f"attribute {name}", f"{_words(text)} ({error})", "JSON as swtstudy writes it"
+    units = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
+    units |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
+    units |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
+    plain = without_units(dataset) if real else dataset
+    for name in (name for name in units if name in plain):
+        found = plain[name].attrs.get("units", units[name])
+        if str(found) != units[name]:
+            yield f"attribute units of {name}", _words(found), _words(units[name])
 
 
 def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    asked = _asked(dataset)
-    dataset = without_units(dataset) if has_units(dataset) else dataset
-    for name in asked.variables:
-        if name not in dataset and not (name in NONLOCAL and NONLOCAL[name].is_place):
-            yield name, "nothing", "a quantity that the attribute runs says is there"
-    own = dict.fromkeys(["status", "run", *(item.name for item in fields(Solution))], ())
-    for name, more in (own | asked.variables).items():
-        if name not in dataset:
+    plain = without_units(dataset) if has_units(dataset) else dataset
+    own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
+    for name, more in (own | request_of(dataset).variables).items():
+        if name not in plain:
+            yield name, "nothing", "a variable that an archive of this version has"
             continue
-        variable = dataset[name]
-        if {*variable.dims} != {*dataset.s.dims, *more}:
+        if {*plain[name].dims} != {*dataset.s.dims, *more}:
             besides = f" and {', '.join(more)}" * bool(more)
-            yield name, f"dimensions {variable.dims}", f"those of s, {dataset.s.dims}{besides}"
-        if variable.dtype.kind not in "fiu":
-            yield name, f"values of type {variable.dtype}", "numbers"
-
-
-def _asked(dataset: xr.Dataset) -> Request:
-    """The quantities that runs have computed; none if the runs cannot be read."""
-    try:
-        return request_of(dataset, made_by(read_runs(dataset.attrs["runs"])))
-    except ValueError:
-        return NOTHING  # reported with the attributes
+            yield name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}"
+        if plain[name].dtype.kind not in "fiu":
+            yield name, f"values of type {plain[name].dtype}", "numbers"
 
 
 def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
-    known = {item_of(value) for value in np.atleast_1d(dataset.get(DISTANCE, [])).tolist()}
-    lacking = [item for item in map(item_of, _asked(dataset).distances) if item not in known]
-    if lacking:
-        yield DISTANCE, f"no {', '.join(lacking)}", "those that the attribute runs says are there"
     try:
         grid_of(dataset)
     except StudyError as error:

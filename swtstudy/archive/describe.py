@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_failures, read_runs
+from swtstudy.archive.attributes import read_runs
+from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.records import COMPUTED, STATES, made_by
-from swtstudy.points.requested import CONTACT, has_units, request_of
 from swtstudy.points.validity import validity_lines
+from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.blocks import sequence_words
 from swtstudy.units.labels import Units
@@ -21,6 +21,7 @@ from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
 from swtstudy.vocabulary.wording import listed, number_words, numbers_words, unit_words, value_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
@@ -65,8 +66,10 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "validity", line
     if "runs" in attributes:
         yield from _runs(dataset)
-    if "failures" in dataset.get("status", dataset.s).attrs:
-        yield from _failures(dataset)
+    failed = [*failures(dataset)]
+    yield from (("failed", f"{where}: {why}") for where, why in failed[:_LISTED])
+    if len(failed) > _LISTED:
+        yield "failed", f"{len(failed) - _LISTED} more"
     if "figure" in attributes:
         yield "figure", _figure_words(FigureLayout.from_json(attributes["figure"]))
 
@@ -92,7 +95,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def _quantities(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
-    asked = request_of(dataset, made_by(read_runs(dataset.attrs["runs"])))
+    asked = request_of(dataset)
     if asked.names:
         yield "quantities", ", ".join(asked.names)
     if asked.distances:
@@ -121,16 +124,19 @@ def _runs(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     runs = read_runs(dataset.attrs["runs"])
     counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
     for number, run in enumerate(runs):
-        words = f"{counted[number]} points, rtol {run.rtol:g}, solver version {run.solver_version}, "
-        yield f"run {number}", f"{words}{run.seconds:.1f} s of computing, started {run.started}"
+        words = f"{counted[number]} points, rtol {run['rtol']:g}, solver version {run['solver_version']}, "
+        yield f"run {number}", f"{words}{run['seconds']:.1f} s of computing, started {run['started']}"
 
 
-def _failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
-    failures = read_failures(dataset.status.attrs["failures"])
-    for failure in failures[:_LISTED]:
-        yield "failed", f"{failure['point']}: {failure['message']}"
-    if len(failures) > _LISTED:
-        yield "failed", f"{len(failures) - _LISTED} more"
+def failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Say of each point that failed where it is, and why."""
+    if "message" not in dataset:
+        return
+    for flat in np.flatnonzero(dataset.status.values == FAILED).tolist():
+        point = dataset.isel(index_at(dataset.s, flat))
+        names = [n for n in (*PARAMETERS, *CONTACT_AXES) if n in dataset.coords and dataset[n].ndim]
+        where = ", ".join(f"{name}={value_words(name, point[name].item())}" for name in names)
+        yield where or "the point", str(point.message.item())
 
 
 def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:

@@ -11,22 +11,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line, open_results
-from swtstudy.archive.attributes import read_figure, read_runs
+from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.paths import ArchiveError
-from swtstudy.archive.recall import grid_of, records_of
-from swtstudy.points.canonical import Definitions, canonical_number, describe_point, group_rows
+from swtstudy.archive.recall import found_in, grid_of, request_of
+from swtstudy.points.canonical import Definitions, Distinct, canonical_number, describe_point, group_rows
+from swtstudy.points.found import Found, join, look_up, matching
 from swtstudy.points.grid import Grid
-from swtstudy.points.records import COMPUTED, MISSING, Records, completed, join, look_up, made_by, matching
-from swtstudy.points.requested import CONTACT, has_units, request_of
-from swtstudy.points.unique import unique_points, wanted
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.writing import to_toml
 from swtstudy.units.reading import read_contact
-from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.variables import COMPUTED, CONTACT, MISSING
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12
@@ -60,49 +58,53 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         A ValueError, if points of the grid are in none of them and `sparse` is False.
     """
     datasets = [open_results(path) for path in paths]
-    parts = [records_of(dataset, path) for dataset, path in zip(datasets, paths, strict=True)]
-    records = join(parts)
+    parts = [found_in(dataset) for dataset in datasets]
+    known = join(parts)
     sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    runs = [(run, path) for path, part in zip(paths, parts, strict=True) for run in part.trimmed().runs]
+    runs = [(run, path) for path, part in zip(paths, parts, strict=True) for run in part.runs]
     _refuse_several("solver versions", {run.solver_version: path for run, path in reversed(runs)})
     _refuse_other_contacts(paths, datasets)
     grids = [grid_of(dataset) for dataset in datasets]
     controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
     _refuse_several("prescribed loads", controls)
-    grid = _union(grids)
-    _refuse_conflicts(paths, records, sources, grid.definitions)
-    points = unique_points(grid)
+    grid, asked = _union(grids), _asked(datasets)
+    _refuse_conflicts(paths, known, sources, grid.definitions)
+    points = Distinct.of(grid, asked)
+    # What an archive says is missing is no gap.
+    absent = look_up(points.rows, known, np.ones(len(known), bool)) < 0
     made = f"merged from {', '.join(path.name for path in paths)}"
-    absent = look_up(points.table, records, np.ones(len(records), bool)) < 0
     if absent.any():
         gaps = f"{int(absent[points.index].sum())} of {grid.size} points"
-        if not sparse:
-            example = describe_point(points.table[np.flatnonzero(absent)[0]], points.definitions)
-            raise GapsError(
-                f"the grid of all values in {_names(paths)} has {gaps} in none of them, such as {example}; "
-                "--sparse (sparse=True in Python) leaves them missing"
-            )
         made += f", {gaps} in none of them"
-    merged = completed(matching(points.table, records, records.status != MISSING), records)
-    axis = any(DISTANCE in dataset.dims for dataset in datasets)
-    asked = _asked(datasets, made_by(records.runs), axis)
-    if not sparse:
-        _refuse_gaps_in_quantities(paths, merged, wanted(grid, asked, points), points.definitions)
+    merged = matching(points, known, known["status"] != MISSING)
+    lacks = merged.lacking(asked)
+    if not sparse and (absent.any() or lacks.any()):
+        example = describe_point(
+            points.rows[np.flatnonzero(absent if absent.any() else lacks)[0]], points.definitions
+        )
+        words = (
+            f"the grid of all values in {_names(paths)} has {gaps} in none of them"
+            if absent.any()
+            else (
+                f"{' or '.join(asked.items)} is known of some points in {_names(paths)}, but not of "
+                f"{int(lacks.sum())} others"
+            )
+        )
+        raise GapsError(f"{words}, such as {example}; --sparse (sparse=True in Python) leaves them missing")
     study = _study(paths, datasets, grid, asked)
     history = [history_line(made)]
     history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
-    return build(study, points, merged.trimmed(), "\n".join(dict.fromkeys(history)), 0.0)
+    return build(study, points, merged.take(slice(None)), "\n".join(dict.fromkeys(history)), 0.0)
 
 
-def _asked(datasets: Sequence[xr.Dataset], items: tuple[str, ...], axis: bool) -> Request:
-    """Return the request that the archives have in common; distances of real contacts are lengths."""
-    if not has_units(datasets[0]):
-        return Request.of(items, axis)
-    own = [request_of(dataset, made_by(read_runs(dataset.attrs["runs"]))) for dataset in datasets]
-    lengths = sorted({length for each in own for length in each.distances})
-    names = sorted({name for each in own for name in each.names})
-    counts = any(each.counts for each in own)
-    return Request(tuple(names), tuple(lengths), axis or len(lengths) > 1, counts)
+def _asked(datasets: Sequence[xr.Dataset]) -> Request:
+    """The quantities that the archives have, all together."""
+    own = [request_of(dataset) for dataset in datasets]
+    names = dict.fromkeys(name for each in own for name in each.names)
+    keyed = {canonical_number(v): v for each in reversed(own) for v in reversed(each.distances)}
+    is_axis = any(each.is_axis for each in own) or len(keyed) > 1
+    distances = tuple(sorted(keyed.values()))
+    return Request(tuple(names), distances, is_axis, any(each.counts for each in own))
 
 
 def _names(paths: Sequence[Path]) -> str:
@@ -117,36 +119,22 @@ def _refuse_several(what: str, where: Mapping[str, Path]) -> None:
 
 
 def _refuse_conflicts(
-    paths: Sequence[Path], records: Records, sources: NDArray, definitions: Definitions
+    paths: Sequence[Path], known: Found, sources: NDArray[np.int64], definitions: Definitions
 ) -> None:
-    computed = np.flatnonzero(records.status == COMPUTED)
-    first, group = group_rows(records.table[computed])
-    one, other = computed[first[group]], computed
-    error = records.solution.s_error[one] + records.solution.s_error[other]
+    """Refuse values of one point that differ by more than their estimated errors."""
+    computed = np.flatnonzero(known["status"] == COMPUTED)
+    first, group = group_rows(known["row"][computed])
+    one, other, s = computed[first[group]], computed, known["s"]
+    error = known["s_error"][one] + known["s_error"][other]
     # Equal values do not conflict even where the error is not finite.
-    s = records.solution.s
     equal = np.isclose(s[one], s[other], rtol=_ROUNDING, atol=0, equal_nan=True)
     with np.errstate(invalid="ignore"):
-        apart = ~equal & ~(np.abs(s[one] - s[other]) <= error)
-    if apart.any():
-        index = int(np.flatnonzero(apart)[0])
-        a, b = (f"{s[row[index]]:.8g} in {paths[sources[row[index]]]}" for row in (one, other))
-        more = f"; {int(apart.sum()) - 1} more" if apart.sum() > 1 else ""
-        point = describe_point(records.table[one[index]], definitions)
+        apart = np.flatnonzero(~equal & ~(np.abs(s[one] - s[other]) <= error))
+    if apart.size:
+        a, b = (f"{s[row[apart[0]]]:.8g} in {paths[sources[row[apart[0]]]]}" for row in (one, other))
+        more = f"; {apart.size - 1} more" if apart.size > 1 else ""
+        point = describe_point(known["row"][one[apart[0]]], definitions)
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
-
-
-def _refuse_gaps_in_quantities(
-    paths: Sequence[Path], merged: Records, asked: tuple[tuple[str, ...], BoolArray], definitions: Definitions
-) -> None:
-    names, of = asked
-    for name, lacks in zip(names, (merged.lacking(names) & of).T, strict=True):
-        if lacks.any():
-            example = describe_point(merged.table[np.flatnonzero(lacks)[0]], definitions)
-            raise GapsError(
-                f"{name} is known of some points in {_names(paths)}, but not of {int(lacks.sum())} others, "
-                f"such as {example}; --sparse (sparse=True in Python) leaves it NaN, and a run computes it"
-            )
 
 
 def _refuse_other_contacts(paths: Sequence[Path], datasets: Sequence[xr.Dataset]) -> None:

@@ -22,10 +22,6 @@ import xarray as xr
 
 from swtstudy.archive.check import lacking, mistakes
 from swtstudy.archive.paths import ArchiveError, LockedError, is_locked
-from swtstudy.archive.recall import grid_of
-from swtstudy.points.labelled import control_coordinate
-from swtstudy.units.life import UNCOUNTED
-from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.files import replacing
 
 _GROUP = "check_sums"
@@ -49,10 +45,7 @@ def write_check_sums(path: Path, dataset: xr.Dataset) -> None:
 
 
 def damaged(file: netCDF4.Dataset, dataset: xr.Dataset) -> list[str]:
-    """Names of the variables read from a file that do not match their check sums in it, if there are any.
-
-    Archives from before arrays had check sums here have only those of single values and texts.
-    """
+    """Names of the variables read from a file that do not match their check sums in it, if there are any."""
     group = file.groups.get(_GROUP)
     written = {} if group is None else {name: group.getncattr(name) for name in group.ncattrs()}
     read = dataset.variables
@@ -98,13 +91,6 @@ def read_archive(path: Path) -> xr.Dataset:
     found = mistakes(loaded, str(path))
     if found:
         raise ArchiveError("\n".join(map(str, found)))
-    # Archives from before forces could be prescribed do not say what is.
-    if "control" not in loaded.coords:
-        loaded = loaded.assign_coords(control=control_coordinate(grid_of(loaded)))
-    # Nor do those from before strain cycles were counted that theirs are not.
-    for name, variable in loaded.data_vars.items():
-        if is_uncounted(loaded, str(name)):
-            variable.attrs.setdefault("comment", UNCOUNTED)
     return loaded
 
 

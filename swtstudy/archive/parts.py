@@ -2,9 +2,9 @@
 
 A part is an npz file with a check sum at its end: it is read exactly as it was written, or left out.
 
-Parts are in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. Records of
+Parts are in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. Values of
 points that the latest study does not have are kept as a part in another folder, ``figure3.nc.kept``, for
-studies that have these points. All records known for the path of an archive are those in itself, in its
+studies that have these points. All values known for the path of an archive are those in itself, in its
 parts, and kept from other studies.
 """
 
@@ -18,23 +18,17 @@ import logging
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
 from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.points.canonical import NAMES, ROW, group_rows
-from swtstudy.points.records import Records, Run, join
-from swtstudy.solver.points import Solution
+from swtstudy.points.found import Found, Run, join
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 
 _log = logging.getLogger(__name__)
-
-_ARRAYS = tuple(item.name for item in fields(Solution))
-#: What else is in every part; the rest are quantities.
-_OWN = ("meta", "table", "status", "run")
 
 _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 
@@ -59,32 +53,12 @@ def kept_folder(path: Path) -> Path:
     return path.with_name(path.name + ".kept")
 
 
-class PartsWriter:
-    """Writes records as parts into a folder of its own, beside those that are there.
-
-    Parameters
-    ----------
-    folder
-        Folder of the parts.
-    """
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._number = _next_number(folder)
-
-    def add(self, records: Records) -> None:
-        """Write one more part; when this returns, it is safe."""
-        _write(self._folder, self._number, records)
-        self._number += 1
-
-
 @contextmanager
-def keeping(folder: Path, records: Records) -> Iterator[None]:
-    """Make a folder hold exactly these records once the block has ended without an error."""
+def keeping(folder: Path, found: Found) -> Iterator[None]:
+    """Make a folder hold exactly these values once the block has ended without an error."""
     old = _paths(folder)
-    if len(records):
-        folder.mkdir(exist_ok=True)
-        _write(folder, _next_number(folder), records)
+    if len(found):
+        save_part(folder, found)
     yield
     _remove(old)
     clear_unfinished(folder)
@@ -92,8 +66,8 @@ def keeping(folder: Path, records: Records) -> Iterator[None]:
         folder.rmdir()
 
 
-def read_parts(folder: Path) -> Records:
-    """The records in the parts of a folder, also while a run goes on; none if there is no such folder.
+def read_parts(folder: Path) -> Found:
+    """The values in the parts of a folder, also while a run goes on; none if there is no such folder.
 
     A part that cannot be read is left out: its points will be computed again.
     """
@@ -108,7 +82,7 @@ def read_parts(folder: Path) -> Records:
 def points_saved(folder: Path) -> int:
     """Number of distinct points in the parts of a folder."""
     # While parts are being joined, or if that was interrupted, points are in two of them.
-    return len(group_rows(read_parts(folder).table)[0])
+    return len(group_rows(read_parts(folder)["row"])[0])
 
 
 def clear_parts(folder: Path) -> None:
@@ -124,11 +98,6 @@ def clear_unfinished(folder: Path) -> None:
     _remove(unfinished(folder, rf"\d{{6,}}|{archive}"))
 
 
-def _next_number(folder: Path) -> int:
-    # Whatever is there under such a name: it is not replaced.
-    return 1 + max((int(path.stem) for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)), default=0)
-
-
 def _paths(folder: Path) -> list[Path]:
     refuse_link(folder)
     named = (path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
@@ -140,33 +109,26 @@ def _remove(paths: Iterable[Path]) -> None:
         path.unlink(missing_ok=True)
 
 
-def _write(folder: Path, number: int, records: Records) -> Path:
+def save_part(folder: Path, found: Found) -> None:
+    """Write one more part, beside those that are there; when this returns, it is safe."""
     folder.mkdir(parents=True, exist_ok=True)  # without locks another run may have removed it
-    path = folder / f"{number:06d}.npz"
-    meta = {
-        "layout": _LAYOUT,
-        "runs": [run.to_json() for run in records.runs],
-        "messages": {index: words for index, words in enumerate(records.message) if words},
-    }
-    content = io.BytesIO()
-    np.savez(
-        content,
-        meta=np.array(json.dumps(meta)),
-        table=records.table,
-        status=records.status,
-        run=records.run,
-        **{name: getattr(records.solution, name) for name in _ARRAYS},
-        **records.quantities,  # type: ignore[arg-type]
+    # Whatever is there under such a name: it is not replaced.
+    number = 1 + max(
+        (int(path.stem) for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)), default=0
     )
-    with replacing(path) as temporary, open(temporary, "wb") as file:
+    arrays = dict(found.arrays)
+    messages = {place: words for place, words in enumerate(arrays.pop("message")) if words}
+    meta = {"layout": _LAYOUT, "runs": [run.to_json() for run in found.runs], "messages": messages}
+    content = io.BytesIO()
+    np.savez(content, meta=np.array(json.dumps(meta)), **arrays)  # type: ignore[arg-type]
+    with replacing(folder / f"{number:06d}.npz") as temporary, open(temporary, "wb") as file:
         file.write(content.getbuffer())
         file.write(_check_sum(content.getbuffer()))
-    return path
 
 
-def _read(path: Path) -> Records | None:
+def _read(path: Path) -> Found | None:
     try:
-        return _records_from(path.read_bytes())
+        return _found_in(path.read_bytes())
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -174,7 +136,7 @@ def _read(path: Path) -> Records | None:
         return None
 
 
-def _records_from(content: bytes) -> Records:
+def _found_in(content: bytes) -> Found:
     # A zip file's own check sums do not cover its lengths, flags and offsets, which a reader trusts.
     written, check_sum = content[:-_CHECK_SUM_SIZE], content[-_CHECK_SUM_SIZE:]
     if _check_sum(written) != check_sum:
@@ -183,19 +145,11 @@ def _records_from(content: bytes) -> Records:
         meta = json.loads(part["meta"].item())
         if meta["layout"] != _LAYOUT:
             raise ValueError("made by another version of swtstudy")
-        table = part["table"]
-        message = np.full(len(table), "", object)
-        for index, words in meta["messages"].items():
-            message[int(index)] = words
-        return Records(
-            table,
-            Solution(**{name: part[name] for name in _ARRAYS}),
-            part["status"],
-            part["run"],
-            message,
-            tuple(map(Run.from_json, meta["runs"])),
-            {name: part[name] for name in part.files if name not in (*_OWN, *_ARRAYS)},
-        ).without_unknown()
+        arrays = {name: part[name] for name in part.files if name != "meta"}
+        arrays["message"] = np.full(len(arrays["row"]), "", object)
+        for place, words in meta["messages"].items():
+            arrays["message"][int(place)] = words
+        return Found(arrays, tuple(map(Run.from_json, meta["runs"])))
 
 
 def _check_sum(content: bytes | memoryview) -> bytes:
@@ -208,8 +162,8 @@ def _warn_left_out(path: Path, reason: str) -> None:
     _log.warning("%s: left out, its points will be computed again (%s)", path, reason)
 
 
-def known_records(path: Path) -> Records:
-    """The records in the archive at `path`, if there is one, in its parts, and kept beside it.
+def known_points(path: Path) -> Found:
+    """All that is in the archive at `path`, if there is one, in its parts, and kept beside it.
 
     Raises
     ------
@@ -220,11 +174,10 @@ def known_records(path: Path) -> Records:
     if path.exists():
         # Where nothing is known, workers start before xarray is imported here.
         from swtstudy.archive.netcdf import read_archive
-        from swtstudy.archive.recall import records_of
+        from swtstudy.archive.recall import found_in
 
         try:
-            found.append(records_of(read_archive(path), path))
+            found.append(found_in(read_archive(path)))
         except ArchiveError as error:
             raise ArchiveError(f"{error}; move it away to start anew") from None
-    found += [read_parts(parts_folder(path)), read_parts(kept_folder(path))]
-    return join(found)
+    return join([*found, read_parts(parts_folder(path)), read_parts(kept_folder(path))])

@@ -1,24 +1,21 @@
-"""The records in an archive, by canonical point: the way back from labelled results."""
+"""The content of an archive: the grid of its points, what was asked of them, and their values."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import fields
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in, read_failures, read_runs
-from swtstudy.archive.paths import ArchiveError
+from swtstudy.archive.attributes import defined_in, read_runs
+from swtstudy.points.canonical import Distinct
+from swtstudy.points.found import Found, Run
 from swtstudy.points.grid import SAMPLE, Grid, complete
-from swtstudy.points.labelled import arrays_of
+from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
-from swtstudy.points.records import FAILED, Records, made_by
-from swtstudy.points.requested import CONTACT, columns_from, has_units, request_of, require
 from swtstudy.points.shapes import shapes_needed
-from swtstudy.points.unique import columns_back, unique_points
 from swtstudy.points.values import NamedValues, Value, read_value
-from swtstudy.solver.points import Solution
 from swtstudy.units.contacts_at_rest import check_contacts
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
@@ -29,7 +26,8 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, SHIFT, Control, replaced_by
-from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED, NONLOCAL, Request
+from swtstudy.vocabulary.variables import CONTACT, SOLVED, has_units, require
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -41,44 +39,40 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         With every coordinate that no study can have; or if the results have been left without s.
     """
     require(dataset, "s")
-    values: NamedValues = {}
-    report = Report()
-    axes: list[str] = []
-    sampled: list[str] = []
-    dims = [str(name) for name in dataset.s.dims]
+    report, dims = Report(), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    for name in dims:
-        if name != SAMPLE and (name not in table or name not in dataset.coords):
-            report(name, "a dimension without values of a parameter", ", ".join(table))
     known = defined_in(dataset.attrs)
+    values: NamedValues = {}
     for name, parameter in table.items():
         if name not in dataset.coords or name in pairs or name == DISTANCE:
             continue
-        coordinate = dataset[name]
-        if name in dims and coordinate.dims == (name,):
-            axes.append(name)
-        elif SAMPLE in dims and coordinate.dims == (SAMPLE,):
-            sampled.append(name)
-        elif name in dims or coordinate.dims:
-            report(name, f"dimensions {coordinate.dims}", "an axis of s, or a single value")
+        if dataset[name].dims not in ((), (name,), (SAMPLE,)) or not {*dataset[name].dims} <= {*dims}:
+            report(name, f"dimensions {dataset[name].dims}", "an axis of s, or a single value")
             continue
-        raw = np.atleast_1d(coordinate.values).tolist()
+        raw = np.atleast_1d(dataset[name].values).tolist()
         values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
     if SHIFT not in values and any(values.get("bulk_stress_amplitude", ())):
         values[SHIFT] = (NONE,)  # archives from before there was a choice
+    along = {
+        name: str(dataset[name].dims[0]) for name in values if name in dataset.coords and dataset[name].dims
+    }
+    for name in (name for name in dims if name not in along.values()):
+        report(name, "a dimension without values of a parameter", ", ".join(table))
     profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
     _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
-    _check_control(dataset, {*values, *dims}, report)
-    if SAMPLE in dims and not sampled:
-        report(SAMPLE, "a dimension without values of a parameter", ", ".join(table))
+    for twice in given_twice({*values, *dims}):
+        report.of(*twice)
+    control = Control.given({*values, *dims}).name
+    if dataset.get("control", control) != control:
+        report("control", literal(dataset.control.values.tolist()), literal(control))
     report.refuse()
-    fixed = {name: value[0] for name, value in values.items() if name not in (*axes, *sampled)}
-    samples = {name: values[name] for name in sampled}
-    along = {name: values[name] for name in dims if name != SAMPLE}
+    fixed = {name: value[0] for name, value in values.items() if name not in along}
+    samples = {name: values[name] for name, dim in along.items() if dim == SAMPLE}
+    axes = {name: values[name] for name in dims if name != SAMPLE}
     if given is None:
-        return complete(fixed, along, samples)
-    return _of_contacts(completed(fixed, along, samples, given))
+        return complete(fixed, axes, samples)
+    return _of_contacts(completed(fixed, axes, samples, given))
 
 
 def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
@@ -105,17 +99,6 @@ def _check_complete(given: set[str], shape: Sequence[str], report: Report) -> No
             report(name, "nothing", parameter.allowed)
 
 
-def _check_control(dataset: xr.Dataset, given: set[str], report: Report) -> None:
-    """Two parameters that take each other's place, or a coordinate that contradicts them."""
-    for twice in given_twice(given):
-        report.of(*twice)
-    own = Control.given(given).name
-    # Archives from before there was a choice do not say it.
-    found = dataset.control.values.tolist() if "control" in dataset.coords else own
-    if found != own:
-        report("control", literal(found), literal(own))
-
-
 def _values(
     parameter: Parameter, raw: list[object], known: Mapping[str, Definition], report: Report
 ) -> Iterator[Value]:
@@ -128,40 +111,39 @@ def _values(
             return
 
 
-def records_of(dataset: xr.Dataset, source: object = "archive") -> Records:
-    """The results in an archive, by canonical point; `source` names it in messages.
+def request_of(dataset: xr.Dataset) -> Request:
+    """The quantities that results have beside s; of real contacts distances are lengths."""
+    plain = without_units(dataset) if has_units(dataset) else dataset
+    names = tuple(str(name) for name in plain.data_vars if name in NAMED)
+    distances = []
+    if DISTANCE in dataset.coords and any(name in plain for name in NONLOCAL):
+        distances = np.atleast_1d(dataset[DISTANCE].values).tolist()
+    return Request(names, tuple(distances), DISTANCE in dataset.dims, "counted" in plain)
 
-    Raises
-    ------
-    ArchiveError
-        If a variable of an archive is missing.
-    """
-    lacking = [item.name for item in fields(Solution) if item.name not in dataset]
-    if lacking:
-        raise ArchiveError(
-            f"{source}: an archive of another version of swtstudy, without {', '.join(lacking)}"
-        )
-    grid = grid_of(dataset)
-    points = unique_points(grid)
-    dataset = without_units(dataset) if has_units(dataset) else dataset
-    at = np.zeros(len(points.table), np.int64)
-    at[points.index] = np.arange(len(points.index))
-    flat = {
-        name: dataset[name].transpose(*dataset.s.dims).values.reshape(-1)[at]
-        for name in (*(item.name for item in fields(Solution)), "status", "run")
-    }
-    status, run = flat.pop("status").astype(np.int8), flat.pop("run").astype(np.int32)
+
+def found_in(dataset: xr.Dataset) -> Found:
+    """The values in an archive, by distinct point."""
+    grid, asked = grid_of(dataset), request_of(dataset)
+    points = Distinct.of(grid, asked)
+    plain = without_units(dataset) if has_units(dataset) else dataset
+    at = np.zeros(len(points.rows), np.int64)
+    at[points.index] = np.arange(grid.size)
+
+    def flat(name: str, own: Sequence[str] = ()) -> np.ndarray[Any, Any]:
+        values = plain[name].transpose(*dataset.s.dims, *own).values
+        return values.reshape(grid.size, *values.shape[len(dataset.s.dims) :])[at]
+
+    arrays = {name: flat(name) for name in (*SOLVED, "status", "run")}
+    arrays |= {name: flat(name, own) for name, own in asked.variables.items()}
+    for row in () if asked.is_axis else NONLOCAL.values():
+        arrays |= {name: arrays[name][:, None] for name in row.variables if name in arrays}
+    arrays = turned(arrays, points.mirrored[at], grid.cycles(at), np.divide)
+    arrays["message"] = flat("message").astype(object) if "message" in plain else np.full(at.size, "", object)
+    arrays["run"] = arrays["run"].astype(np.int32)
+    if asked.distances:
+        lost = np.isnan(arrays["s_volume"]) & np.isfinite(arrays["s"])[:, None]
+        arrays["distance"] = np.where(lost, np.nan, points.distances)
     runs = read_runs(dataset.attrs["runs"])
-    asked = request_of(dataset, made_by(runs))
-    if not asked.variables.keys() <= {*dataset.data_vars}:
-        asked = Request(asked.names, counts=asked.counts)  # means of before, about critical points alone
-    quantities = columns_back(grid, asked, points, columns_from(dataset, asked.items))
-    # Mirroring a second time gives the canonical point back.
-    solution = Solution(**arrays_of(Solution(**flat), points.mirrored[at]))
-    failures = read_failures(dataset.status.attrs["failures"])
-    reason = {tuple(failure["row"]): failure["message"] for failure in failures}
-    failed = np.flatnonzero(status == FAILED)
-    message = np.full(len(status), "", object)
-    message[failed] = [reason.get(row, "") for row in points.table[failed].tolist()]
-    found = Records(points.table, solution, status, run, message, runs, quantities)
-    return found.without_unknown()
+    each = [run["seconds"] / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
+    arrays |= {"row": points.rows, "seconds": np.array([*each, 0.0])[arrays["run"]]}
+    return Found(arrays, tuple(map(Run.from_json, runs)))

@@ -172,8 +172,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 
     for source, study in defined.items():
         target = targets[source]
-        with click.progressbar(length=min(points, study.grid.size), label=source) as bar:
-            dataset = audit_study(study, target, points, seed, workers, dense, progress=bar.update)
+        dataset = audit_study(study, target, points, seed, workers, dense)
         text = report(dataset)
         write_text(target.with_suffix(".md"), text)
         click.echo(of_markdown(text, line_length()))

@@ -72,9 +72,9 @@ def plot(archive: str, output: str | None, style: str | None, width: Any, **own:
     from swtstudy.archive.archive import open_results
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
-    from swtstudy.points.records import MISSING
     from swtstudy.study.figure import FigureLayout
     from swtstudy.vocabulary.files import check_writable
+    from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)
@@ -127,13 +127,14 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     """
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.netcdf import save
-    from swtstudy.archive.parts import keeping, kept_folder, known_records, parts_folder
+    from swtstudy.archive.parts import keeping, kept_folder, known_points, parts_folder
     from swtstudy.archive.paths import check_archive_path, locked
-    from swtstudy.archive.recall import records_of
-    from swtstudy.points.records import MISSING, made_by
-    from swtstudy.runner.workload import dropped_records
+    from swtstudy.archive.recall import grid_of, request_of
+    from swtstudy.points.canonical import Distinct
+    from swtstudy.runner.work import not_in
     from swtstudy.vocabulary.files import check_writable
     from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+    from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output)
     check_archive_path(target)
@@ -141,10 +142,10 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
         raise StudyError([Mistake("--output", literal(output), "a file that ends with .nc")])
     check_writable(target)
     with locked(parts_folder(target)):
-        before = known_records(target)
+        before = known_points(target)
         dataset = merge_archives([Path(archive) for archive in archives], sparse)
-        records = records_of(dataset)
-        dropped = dropped_records(records.table, before, records, made_by(records.runs))
+        asked = request_of(dataset)
+        dropped = not_in(Distinct.of(grid_of(dataset), asked), asked, before)
         with keeping(kept_folder(target), dropped):
             save(dataset, target)
     missing = int((dataset.status == MISSING).sum())

@@ -169,8 +169,7 @@ def _written(target: Path) -> int | None:
 
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
-    from swtstudy.archive.attributes import read_failures
-    from swtstudy.archive.describe import relative_errors
+    from swtstudy.archive.describe import failures, relative_errors
     from swtstudy.points.validity import validity_lines
 
     relative = relative_errors(dataset)
@@ -179,11 +178,11 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
     for line in validity_lines(dataset):
         click.echo(f"validity: {line}", err=True)
-    failures = read_failures(dataset.status.attrs["failures"])
-    for failure in failures[:_NAMED]:
-        click.echo(f"failed: {failure['point']}: {failure['message']}", err=True)
-    if len(failures) > _NAMED:
-        click.echo(f"failed: {len(failures) - _NAMED} more, see swtstudy info {target}", err=True)
-    if failures:
-        click.echo(f"{len(failures)} points failed; --retry-failed recomputes them", err=True)
-    return bool(failures)
+    failed = [*failures(dataset)]
+    for where, why in failed[:_NAMED]:
+        click.echo(f"failed: {where}: {why}", err=True)
+    if len(failed) > _NAMED:
+        click.echo(f"failed: {len(failed) - _NAMED} more, see swtstudy info {target}", err=True)
+    if failed:
+        click.echo(f"{len(failed)} points failed; --retry-failed recomputes them", err=True)
+    return bool(failed)

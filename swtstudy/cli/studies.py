@@ -13,7 +13,7 @@ from swtstudy.cli.terminal import cut, line_length, wrapped
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 if TYPE_CHECKING:
-    from swtstudy.runner.workload import Workload
+    from swtstudy.runner.work import Work
     from swtstudy.study.definition import Study
 
 
@@ -97,10 +97,10 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> list[str]:
     """Describe in lines what a run would do."""
-    from swtstudy.runner.workload import assess
+    from swtstudy.runner.work import assess
 
     work = assess(study, target)
-    grid, distinct, todo = study.grid, len(work.records), work.todo
+    grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
     panels = study.figure.panels if study.figure else None
     count = len(grid.values(panels)) if panels else 1
     return [
@@ -118,36 +118,37 @@ def describe(study: Study, target: Path, workers: int) -> list[str]:
 
 
 def _quantities(study: Study) -> Iterator[str]:
-    from swtstudy.vocabulary.quantities import DISTANCE, distance_of
+    from swtstudy.vocabulary.quantities import DISTANCE
     from swtstudy.vocabulary.wording import unit_words
 
     if study.asked.items:
         unit = unit_words(study.grid.row(DISTANCE).units)
-        asked = [f"{item}{unit}" if distance_of(item) else item for item in study.asked.items]
+        asked = [item for item in study.asked.items if item != DISTANCE]
+        asked += [f"{DISTANCE}={distance:.6g}{unit}" for distance in study.asked.distances]
         yield f"  quantities         {', '.join(asked)}"
 
 
-def _again(work: Workload) -> Iterator[str]:
+def _again(work: Work) -> Iterator[str]:
     """Which of the points to be computed are known in part."""
     if work.incomplete.any():
-        yield f"  without s          {int(work.incomplete.sum())} of them lack quantities alone"
+        yield f"  incomplete         {int(work.incomplete.sum())} of them lack quantities"
     if work.outdated:
         yield f"  recomputed         {work.outdated} come from another version of the solver"
     if work.coarse:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
 
 
-def _time(work: Workload, rtol: float, workers: int) -> Iterator[str]:
+def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
     """Estimate the time of a run from a few points that are solved."""
     from swtstudy.points.chunk import solve_points
-    from swtstudy.runner.workload import estimate
+    from swtstudy.runner.work import estimate
     from swtstudy.vocabulary.wording import duration
 
     seconds, timed = estimate(work, rtol, solve_points)
     of = f"{timed} point" + "s" * (timed > 1)
     yield (
         f"  time               about {duration(seconds / workers)} with {workers} workers "
-        f"({1e3 * seconds / work.todo:.3g} ms a point, from {of} timed)"
+        f"({1e3 * seconds / work.todo.sum():.3g} ms a point, from {of} timed)"
     )
 
 
@@ -174,7 +175,7 @@ def list_studies() -> None:
 
 def _points(study: Study) -> str:
     """Number of points to be computed; those of random boxes are drawn."""
-    from swtstudy.points.unique import LARGEST_GRID
+    from swtstudy.points.canonical import LARGEST_GRID
 
     return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"
 

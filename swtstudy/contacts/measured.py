@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.figures.quantity_words import Label
-from swtstudy.points.labelled import ATTRIBUTES, margins
-from swtstudy.points.unique import unique_points
+from swtstudy.points.canonical import Distinct
+from swtstudy.points.labelled import margins
 from swtstudy.points.validity import validity_lines
 from swtstudy.solving import solve_grid
 from swtstudy.units.at_rest import Contact
@@ -27,6 +27,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS, SHIFT
 from swtstudy.vocabulary.quantities import YIELD, Request
+from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ def _rows(contact: PhysicalContact) -> Iterator[tuple[str, str, str, str]]:
 
 def _margins(grid: PhysicalGrid) -> Iterator[tuple[str, str, str, str]]:
     """Say how far the contacts are from where the model ends, as far as that is known without solving."""
-    for name, values in margins(unique_points(grid), grid).items():
+    for name, values in margins(Distinct.of(grid), grid).items():
         if name not in ("stick_zone", "bulk_shift") and np.isfinite(values).any():
             largest = plain_words(float(np.nanmax(values)))
             yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]

@@ -17,12 +17,12 @@ from swtstudy.figures.sheet import Figure, Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_surfaces
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.requested import require
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
 from swtstudy.study.figure import LINE_KINDS, NO_AXIS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.variables import require
 from swtstudy.vocabulary.wording import axis_words
 
 #: Width of a colour bar on a screen, inches.

@@ -9,11 +9,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import SWT, SYMBOLS, family_of
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
+from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import as_text, place_words
 
 if TYPE_CHECKING:

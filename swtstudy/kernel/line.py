@@ -36,7 +36,8 @@ from swtstudy.kernel.planes import (
     survey_planes,
     unresolved,
 )
-from swtstudy.kernel.profile import coordinate_at, place_of
+from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.shift import centre_of
 
 MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
 #: A search ends after so many positions.
@@ -160,13 +161,15 @@ def innermost_front(C, P, largest):
 
 @jit
 def shifted(C, P, z, m):
-    """Append the ends of the stick zone about its own centre, of which the last of m cusps is the size."""
-    if C.shift == 0.0 or m + 2 > z.shape[0]:
+    """Make the last of m cusps, the size of a stick zone, the ends of that zone about its own centre."""
+    if C.shift == 0.0 or m + 1 > z.shape[0]:
         return m
-    s = z[m - 1]
-    off = min(abs(C.shift) * (C.largest - coordinate_at(P, s)), place_of(P, C.largest) - s)
-    z[m], z[m + 1] = s + off, abs(s - off)
-    return m + 2
+    s, largest = z[m - 1], place_of(P, C.largest)
+    off = abs(centre_of(P, C.shift, C.largest, largest, s))
+    if off == 0.0:
+        return m
+    z[m - 1], z[m] = s + off, max(abs(s - off), INNERMOST * largest)
+    return m + 1
 
 
 @jit

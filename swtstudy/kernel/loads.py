@@ -106,9 +106,9 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     load["fastest"] = max([1, fastest, *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
-    if not orders[0]:
-        own = (load[name][:, : len(moving)] for name in ("cosine", "sine"))
-        load["bulk_slope"] = _slope(*np.concatenate([*own], axis=1)[1:])
+    if orders[2] and not orders[0]:
+        own = [load[name][:, : len(moving)].tolist() for name in ("cosine", "sine")]
+        load["bulk_slope"] = _slope(*(own[0][which] + own[1][which] for which in (1, BULK)))
     for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
         load[name] = np.add(means[component], ends_of_sum(rows))
     return load
@@ -132,8 +132,8 @@ def polygon(normal, tangential, bulk=None, every=False):
     load["rest"] = vertices[0]
     load["normal_range"], load["bulk_range"] = (_ends(vertices[:, component]) for component in (0, BULK))
     load["bulk_moves"] = load["bulk_range"][0] < load["bulk_range"][1]
-    if load["normal_range"][0] == load["normal_range"][1]:
-        load["bulk_slope"] = _slope(*(vertices - vertices[0]).T[1:])
+    if load["bulk_moves"] and load["normal_range"][0] == load["normal_range"][1]:
+        load["bulk_slope"] = _slope(*(vertices - vertices[0]).T[1:].tolist())
     half = np.roll(vertices, -(sides // 2), axis=0) * (1.0, -1.0, 1.0)
     load["mirrored"] = sides % 2 == 0 and not load["bulk_moves"] and np.array_equal(half, vertices)
     return load
@@ -148,11 +148,13 @@ def leave_bulk_out(load):
 
 def _slope(tangential, bulk):
     """Factor by which the bulk stress follows the tangential load, 0 where it does not; of their changes."""
-    size = np.abs(tangential).max(initial=0.0)
+    size = max(map(abs, tangential))
     if size == 0.0:
         return 0.0
-    slope = float(bulk @ tangential / (tangential @ tangential))
-    return slope if np.abs(bulk - slope * tangential).max() <= PROPORTIONAL * abs(slope) * size else 0.0
+    square = sum(each * each for each in tangential)
+    slope = sum(one * other for one, other in zip(tangential, bulk, strict=True)) / square
+    off = max(abs(other - slope * one) for one, other in zip(tangential, bulk, strict=True))
+    return slope if off <= PROPORTIONAL * abs(slope) * size else 0.0
 
 
 def _ends(values):

@@ -8,6 +8,7 @@ whose shape is plain, the phase and the control of a load that stands still).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,8 +17,10 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, SHIFT, STRAIN_SHARE, Control
+from swtstudy.vocabulary.quantities import NOTHING, Request
 
 if TYPE_CHECKING:
+    from swtstudy.points.grid import Grid
     from swtstudy.solver.points import Points
     from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 
@@ -78,6 +81,11 @@ ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name i
 #: Canonical points, shape (n,) of `ROW`.
 Table = NDArray[np.void]
 
+#: More grid points than this need more memory than most machines have (about 0.3 kB each).
+LARGEST_GRID = 50_000_000
+#: Grid points that are made canonical at once.
+_SLAB = 100_000
+
 #: Digits to which values are told apart: 0.2 and 0.1 + 0.1 are one point.
 DIGITS = 12
 
@@ -115,16 +123,6 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[SHIFT])
     return table, _make_loads_canonical(table)
-
-
-def canonical_cycles(columns: Mapping[str, NDArray]) -> FloatArray:
-    """Number of load cycles of the canonical point in the common period 2πq/ω1 of each point, shape (n,).
-
-    The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times in
-    the common period. ``columns`` are those of `canonical_points`.
-    """
-    rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
-    return np.where(rests, columns["p"], 1.0)
 
 
 def _make_profiles_canonical(table: Table) -> None:
@@ -196,13 +194,58 @@ def _make_control_canonical(table: Table, normal_rests: BoolArray, tangential_re
     )
 
 
-def group_rows(table: Table) -> tuple[IntArray, IntArray]:
+@dataclass(frozen=True)
+class Distinct:
+    """The distinct points behind a grid, and the way back: what its values are computed, saved and found by.
+
+    Attributes
+    ----------
+    rows
+        Shape (m,) of `ROW`, in lexicographic order.
+    distances
+        Shape (m, k): the critical distances that are asked of each, in a_H.
+    index
+        Shape (grid.size,): the distinct point of every point of the grid.
+    mirrored
+        Shape (grid.size,): True where x is mirrored with respect to that point.
+    definitions
+        What the user has defined, by its code.
+    """
+
+    rows: Table
+    distances: FloatArray
+    index: IntArray
+    mirrored: BoolArray
+    definitions: Definitions
+
+    @classmethod
+    def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
+        """The points of a grid, or of n places of it; a ValueError beyond `LARGEST_GRID` points."""
+        if grid.size > LARGEST_GRID:
+            found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
+            raise ValueError(f"{found}; swtstudy audit samples them")
+        places = np.arange(grid.size) if places is None else places
+        rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
+        # In slabs: the working memory for a point is several times that of its row.
+        for start in range(0, len(places), _SLAB):
+            some = slice(start, start + _SLAB)
+            rows[some], mirrored[some] = grid.canonical(places[some])
+        distances = grid.distances(asked)[places]
+        first, index = group_rows(rows, *distances.T)
+        for name in ROW.names or ():  # in place: a million rows are 200 MB
+            rows[name][: len(first)] = rows[name][first]
+        return cls(rows[: len(first)], distances[first], index, mirrored, grid.definitions)
+
+
+def group_rows(table: Table, *more: FloatArray) -> tuple[IntArray, IntArray]:
     """The distinct rows of a table, in lexicographic order.
 
     Parameters
     ----------
     table
         Rows, without NaN, shape (n,): all columns of it are compared.
+    more
+        Further columns, each of shape (n,).
 
     Returns
     -------
@@ -213,16 +256,18 @@ def group_rows(table: Table) -> tuple[IntArray, IntArray]:
     """
     group = np.zeros(len(table), np.int64)
     first = np.zeros(min(len(table), 1), np.int64)
-    for name in table.dtype.names or ():
-        values, code = np.unique(table[name], return_inverse=True)
+    for column in (*(table[name] for name in table.dtype.names or ()), *more):
+        if len(first) == len(table) or not np.any(column != column[0]):
+            continue  # all are told apart, or none by this column
+        values, code = np.unique(column, return_inverse=True)
         # Column by column on integers: sorting whole rows takes ten times as long.
         _, first, group = np.unique(group * len(values) + code, return_index=True, return_inverse=True)
     return first, group
 
 
-def alike(table: Table, *more: str) -> list[IndexArray]:
-    """Indices of the rows that share `SHARED_COLUMNS`, and more columns, one array for each kind."""
-    _, group = group_rows(table[[*SHARED_COLUMNS, *more]])
+def alike(table: Table, *more: FloatArray) -> list[IndexArray]:
+    """Indices of the rows that share `SHARED_COLUMNS`, and further columns, one array for each kind."""
+    _, group = group_rows(table[[*SHARED_COLUMNS]], *more)
     order = np.argsort(group, kind="stable")
     return np.split(order, np.cumsum(np.bincount(group))[:-1]) if len(table) else []
 

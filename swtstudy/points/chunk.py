@@ -1,20 +1,20 @@
-"""Chunks of points: what a worker receives and returns, and how points are cut into them."""
+"""Chunks of points: how points are cut into them, and what a worker makes of one."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.points.canonical import COST, Definitions, Table, alike, points_from
-from swtstudy.points.records import COMPUTED, FAILED, Records, Run, join
-from swtstudy.points.unique import UniquePoints
+from swtstudy.points.canonical import COST, SHARED_COLUMNS, Definitions, Distinct, Table, alike, points_from
+from swtstudy.points.found import Found, join
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
-from swtstudy.vocabulary.quantities import YIELD, columns_of, distance_of
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
+from swtstudy.vocabulary.variables import COMPUTED, FAILED
 
 #: Solves points to a relative accuracy.
 Solver = Callable[[Points, float], Solution]
@@ -27,67 +27,32 @@ PIECES = 128
 
 
 @dataclass(frozen=True)
-class Asked:
-    """The values that are asked of points: s, and quantities beside it.
-
-    Attributes
-    ----------
-    quantities
-        As in `swtstudy.vocabulary.quantities.Request.items`.
-    known
-        The solution of the points, if that is known and the quantities alone are asked.
-    """
-
-    quantities: tuple[str, ...] = ()
-    known: Solution | None = None
-
-    @property
-    def most(self) -> int:
-        """Most points of a chunk."""
-        of_body = (item == YIELD or distance_of(item) is not None for item in self.quantities)
-        return MOST_OF_BODY if any(of_body) else MOST
-
-    def at(self, rows: IntArray | slice) -> Asked:
-        """Return the values asked of the points at the given rows."""
-        return self if self.known is None else Asked(self.quantities, self.known[rows])
-
-
-#: s alone.
-ONLY_S = Asked()
-
-
-@dataclass(frozen=True)
 class Chunk:
     """Points that are solved in one call: of one profile family, criterion, control and loop.
 
     Attributes
     ----------
+    places
+        Shape (n,): where the points are in the table of the run.
     rows
-        Shape (n,): indices of the points in the table of the run.
-    table
-        Their canonical rows, shape (n,).
+        What they are, shape (n,).
+    asked
+        What is asked of them beside s; distances in a_H.
     definitions
         What the user has defined, by its code.
-    asked
-        What is asked of them.
     """
 
-    rows: IntArray
-    table: Table
+    places: IntArray
+    rows: Table
+    asked: Request
     definitions: Definitions
-    asked: Asked = ONLY_S
-
-    @classmethod
-    def of(cls, points: UniquePoints, rows: IntArray, asked: Asked = ONLY_S) -> Chunk:
-        """The chunk of some rows of a table; ``asked`` of all points of it."""
-        return cls(rows, points.table[rows], points.definitions, asked.at(rows))
 
     def __len__(self) -> int:
-        return len(self.rows)
+        return len(self.places)
 
     def at(self, part: slice) -> Chunk:
         """The chunk of some of its points."""
-        return Chunk(self.rows[part], self.table[part], self.definitions, self.asked.at(part))
+        return replace(self, places=self.places[part], rows=self.rows[part])
 
     def halves(self) -> tuple[Chunk, Chunk]:
         """Its two halves."""
@@ -95,16 +60,45 @@ class Chunk:
         return self.at(slice(half)), self.at(slice(half, None))
 
 
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> Records:
-    """Solve a chunk, even if single points of it fail; runs in a worker."""
-    begin = time.perf_counter()
-    found = join(_isolated(chunk, rtol, solver))
-    return _of_run(chunk, found, rtol, time.perf_counter() - begin)
+def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IntArray]:
+    """Places of the wanted points of a table, cut into chunks, those of long cycles first.
+
+    So no worker waits for another's.
+
+    Parameters
+    ----------
+    points
+        The points of the study.
+    wanted
+        Shape (len(points.rows),): the points to be solved.
+    asked
+        What is asked of them beside s.
+    """
+    places = np.flatnonzero(wanted)
+    pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
+    most = MOST_OF_BODY if {YIELD, DISTANCE} & {*asked.items} else MOST
+    found = []
+    shared = points.rows[[*SHARED_COLUMNS]]  # a view, whose rows are copied in full
+    for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
+        own = places[own]
+        own = own[np.argsort(-pieces[own], kind="stable")]
+        begin = 0
+        while begin < len(own):
+            end = begin + min(most, max(PIECES // int(pieces[own[begin]]), 1))
+            found.append(own[begin:end])
+            begin = end
+    return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
 
-def given_up(chunk: Chunk, rtol: float, message: str) -> Records:
-    """The records of a chunk that could not be completed: every point failed."""
-    return _of_run(chunk, _failed(chunk, message), rtol, 0.0)
+def chunk_of(points: Distinct, places: IntArray, asked: Request = NOTHING) -> Chunk:
+    """The chunk of some points of a table, which have the same critical distances."""
+    own = replace(asked, distances=tuple(points.distances[places[0]].tolist()))
+    return Chunk(places, points.rows[places], own, points.definitions)
+
+
+def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Iterator[Chunk]:
+    """Chunks of the wanted points of a table; see `cut`."""
+    return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
 
 
 def solve_points(points: Points, rtol: float) -> Solution:
@@ -114,79 +108,42 @@ def solve_points(points: Points, rtol: float) -> Solution:
     return solve.solve_points(points, rtol)
 
 
-def _of_run(chunk: Chunk, records: Records, rtol: float, seconds: float) -> Records:
-    """Records of a chunk with what the worker knows of the run."""
+def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Found]:
+    """Version of the solver, and the values of a chunk, even if points of it fail; runs in a worker."""
     from swtstudy.vocabulary.version import SOLVER_VERSION
 
-    items = tuple(sorted(chunk.asked.quantities))
-    run = Run(SOLVER_VERSION, rtol, "", "", seconds=seconds, quantities=items)
-    return replace(records, run=np.zeros(len(chunk), np.int32), runs=(run,))
+    begin = time.perf_counter()
+    found = join(_isolated(chunk, rtol, solver))
+    found["seconds"][:] = (time.perf_counter() - begin) / len(chunk)
+    return SOLVER_VERSION, found
 
 
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> list[Records]:
-    """Records of the points, in order; a point that fails is isolated, with its message."""
+def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Iterable[Found]:
+    """Values of the points, in order; a point that fails is alone, with its message and what it has."""
+    found = Found.blank(chunk.rows, FAILED)
     try:
-        return [_checked(chunk, rtol, solver)]
+        fill(found, chunk, rtol, solver)
     except Exception as error:
-        if len(chunk) == 1:
-            return [_failed(chunk, f"{type(error).__name__}: {error}")]
-    return [found for half in chunk.halves() for found in _isolated(half, rtol, solver)]
+        if len(chunk) > 1:
+            return [part for half in chunk.halves() for part in _isolated(half, rtol, solver)]
+        found["message"][:] = f"{type(error).__name__}: {error}"
+    return [found]
 
 
-def _failed(chunk: Chunk, message: str) -> Records:
-    """Return records of points that failed: NaN in every column."""
-    found = Records.of(chunk.table, Solution.blank(len(chunk)), FAILED, message)
-    return replace(
-        found, quantities={name: found.quantity(name) for name in columns_of(chunk.asked.quantities)}
-    )
-
-
-def _checked(chunk: Chunk, rtol: float, solver: Solver) -> Records:
-    """Return records of points that all have a value."""
-    found = values_of(chunk, rtol, solver)
-    lost = np.isnan(found.solution.s)
-    lost &= ~np.isin(found.solution.regime, [REGIMES.index(name) for name in WITHOUT_S])
-    if lost.any():
-        raise ArithmeticError("the solver found no value")
-    return found
-
-
-def values_of(chunk: Chunk, rtol: float, solver: Solver) -> Records:
-    """Solve the points of a chunk, and find what else is asked of them."""
-    points, asked = points_from(chunk.table, chunk.definitions), chunk.asked
+def fill(found: Found, chunk: Chunk, rtol: float, solver: Solver = solve_points) -> None:
+    """Solve the points of a chunk, and find what else is asked of them; raises if one has no value."""
+    points, asked = points_from(chunk.rows, chunk.definitions), chunk.asked
     # The caller's np.seterr is not meant for the solver, in which NaN and inf are values.
     with np.errstate(all="ignore"):
-        solution = solver(points, rtol) if asked.known is None else asked.known
-        found = Records.of(chunk.table, solution, COMPUTED)
-        if not asked.quantities:
-            return found
-        from swtstudy.solver.quantities import quantities_of
+        solution = solver(points, rtol)
+        found.arrays.update(vars(solution))
+        lost = ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S]) & np.isnan(solution.s)
+        if lost.any():
+            raise ArithmeticError("the solver found no value")
+        if asked.items:
+            from swtstudy.solver.quantities import quantities_of
 
-        return replace(found, quantities=quantities_of(points, asked.quantities, solution))
-
-
-def chunks(points: UniquePoints, wanted: BoolArray, asked: Asked = ONLY_S) -> list[Chunk]:
-    """Chunks of the wanted points of a table, those of long cycles first: no worker waits for another's.
-
-    Parameters
-    ----------
-    points
-        The points of the study.
-    wanted
-        Shape (len(points.table),): the points to be solved.
-    asked
-        What is asked of the points.
-    """
-    rows = np.flatnonzero(wanted)
-    pieces = points.table["p"] + points.table["q"] + points.table[COST]
-    found = []
-    for group in alike(points.table[rows]):
-        own = rows[group]
-        own = own[np.argsort(-pieces[own], kind="stable")]
-        begin = 0
-        while begin < len(own):
-            end = begin + min(asked.most, max(PIECES // int(pieces[own[begin]]), 1))
-            found.append(own[begin:end])
-            begin = end
-    found.sort(key=lambda each: -int(pieces[each[0]]))
-    return [Chunk.of(points, each, asked) for each in found]
+            found.arrays.update(quantities_of(points, asked, solution))
+        if asked.distances:
+            found.arrays["distance"] = np.tile(asked.distances, (len(chunk), 1))
+    found["status"][:] = COMPUTED

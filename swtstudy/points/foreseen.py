@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import Grid
 from swtstudy.points.labelled import label, margins
-from swtstudy.points.unique import unique_points
 from swtstudy.vocabulary.choices import REGIMES
 
 #: Larger grids are not looked at: a point takes some 30 µs.
@@ -23,7 +23,7 @@ def foreseen(grid: Grid) -> tuple[str, ...]:
     """
     if grid.size > MOST_POINTS or not grid.margins:
         return ()
-    found = margins(unique_points(grid), grid, foreseen=True)
+    found = margins(Distinct.of(grid), grid, foreseen=True)
     unknown = dict.fromkeys(("s", "s_error", "critical_x", "critical_angle", "s_surface"))
     arrays = {name: np.full(grid.size, np.nan) for name in unknown}
     lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + _ROUNDING

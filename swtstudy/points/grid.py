@@ -26,19 +26,20 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import (
     AXES,
+    HARMONIC,
     LOOP_AMPLITUDE,
     PARAMETERS,
     STRAIN_SHARE,
     Control,
     replaced_by,
 )
-from swtstudy.vocabulary.quantities import Request, item_of
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.loads.loop import Loop
-    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
+    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.
@@ -126,13 +127,12 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, start: int = 0, stop: int | None = None) -> tuple[Table, BoolArray]:
-        """Canonical rows of the points start…stop of the grid in C order; see `canonical_points`."""
-        stop = self.size if stop is None else stop
-        columns = self.columns(start, stop)
+    def canonical(self, places: IndexArray) -> tuple[Table, BoolArray]:
+        """Canonical rows of the points at n places of the grid in C order; see `canonical_points`."""
+        columns = self.columns(places)
         force = (self.control.normal_force, self.control.tangential_force)
         columns["control"] = control_code(*map(np.array, force))
-        columns["profile"] = np.broadcast_to(columns["profile"], stop - start)
+        columns["profile"] = np.broadcast_to(columns["profile"], len(places))
         # What does not scale a loop does not matter for it.
         name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Definition)]
         if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
@@ -166,36 +166,39 @@ class Grid:
 
         Negative at points of the other body.
         """
-        return np.broadcast_to(self.columns(0, self.size)[STRAIN_SHARE], self.size)
+        return np.broadcast_to(self.columns(np.arange(self.size))[STRAIN_SHARE], self.size)
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """Results as users see them, with units if the grid has some."""
         return dataset
 
-    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
-        """The critical distances that are asked, as items, and which of these each point of the grid wants.
+    def distances(self, asked: Request) -> FloatArray:
+        """The critical distances that are asked of each point, in a_H, shape (size, k)."""
+        own = np.array([canonical_number(distance) for distance in asked.distances])
+        return np.broadcast_to(own, (self.size, own.size))
 
-        Returns
-        -------
-        items
-        wanted
-            Shape (len(asked.distances), size): indices of items.
+    def cycles(self, places: IndexArray) -> FloatArray:
+        """Load cycles of the canonical point in the common period 2πq/ω1 of n points, shape (n,).
+
+        The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times
+        in the common period.
         """
-        items = tuple(map(item_of, asked.distances))
-        return items, np.broadcast_to(np.arange(len(items))[:, None], (len(items), self.size))
+        columns = self.columns(places)
+        rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
+        return np.broadcast_to(np.where(rests, columns["p"], 1.0), len(places))
 
-    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
-        """A number for each of `GIVEN_COLUMNS` at the points start…stop, of shape (stop - start,) or (1,)."""
-        position = self._position(start, stop)
+    def columns(self, places: IndexArray) -> dict[str, NDArray]:
+        """A number for each of `GIVEN_COLUMNS` at n places of the grid in C order, of shape (n,) or (1,)."""
+        position = self._position(places)
         along = {name: self.dimension(self._source(name)) for name in GIVEN_COLUMNS}
         return {
             name: codes if (dim := along[name]) is None else codes[position[dim]]
             for name, codes in self._codes.items()
         }
 
-    def _position(self, start: int, stop: int) -> dict[str, IndexArray]:
-        places = np.unravel_index(np.arange(start, stop), self.shape) if self.dims else ()
-        return dict(zip(self.dims, places, strict=True))
+    def _position(self, places: IndexArray) -> dict[str, IndexArray]:
+        along = np.unravel_index(places, self.shape) if self.dims else ()
+        return dict(zip(self.dims, along, strict=True))
 
     @cached_property
     def _codes(self) -> dict[str, NDArray]:

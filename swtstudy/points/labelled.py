@@ -5,27 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import fields
 from fractions import Fraction
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points import requested
-from swtstudy.points.canonical import alike, points_from
+from swtstudy.points.canonical import Distinct, alike, points_from
+from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.records import STATES, Records
-from swtstudy.points.unique import UniquePoints, columns_at
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.solver.points import Solution
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray
-from swtstudy.vocabulary.choices import BENEATH, MEANING, REGIMES, SWT, WORDS, is_plane, with_values_of
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
+from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTROLS, SHIFT
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, attributes_of
+from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, STICK_ENDS, Request, attributes_of
+from swtstudy.vocabulary.variables import ATTRIBUTES, FAILED, SOLVED
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -33,129 +30,8 @@ _LONGEST_NAME = 24
 #: Points whose margins are found together: the working memory for one is some kB.
 _TOGETHER = 2000
 
-#: Where the stick zone is in s, under a bulk stress that moves.
-ZONES = ("in_place", "moved", "moved_approximately")
-#: Data variables that results have where something is given that they are about.
-MARGINS = (
-    "stick_zone",
-    "bulk_shift",
-    "bulk_shift_ratio",
-    "prescribed_force_ratio",
-    "radius_ratio",
-    "slide_ratio",
-)
-#: Attributes of the data variables, following the CF conventions. Long names are short, since xarray's plots
-#: use them as labels. The unit 1 is left out of a Dataset.
-ATTRIBUTES: dict[str, dict[str, Any]] = {
-    "s": {
-        "long_name": "SWT parameter SWT/SWT0",
-        "units": "1",
-        "symbol": r"s",
-        "ancillary_variables": "s_error regime s_surface",
-        "comment": (
-            "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R; "
-            "one elastic half-space with E*, G* against a rigid indenter"
-        ),
-    },
-    "s_error": {
-        "long_name": "absolute error of s",
-        "comment": "estimated",
-        "units": "1",
-        "symbol": r"\Delta s",
-    },
-    "s_surface": {
-        "long_name": "s on the surface circle",
-        "comment": "s over the circle on the surface through the critical point and over all planes; "
-        "in plane contacts s itself",
-        "units": "1",
-        "symbol": r"s_\mathrm{surface}",
-    },
-    "stick_zone": {
-        "long_name": "stick zone in s",
-        "comment": "whether s and all beside it have the stick zone moved by the bulk stress: exactly, of a "
-        "cylinder, or approximately, of a paraboloid, where the rise of the stress at the edge in tension is "
-        "right within 4 %; it is in place where that is asked for, and where its motion is not known",
-        "flag_values": np.arange(len(ZONES), dtype=np.int8),
-        "flag_meanings": " ".join(ZONES),
-    },
-    "bulk_shift": {
-        "long_name": "shift of the stick zone",
-        "comment": "by the strain of the bulk stress, in a_H: where stick_zone is in_place, s leaves it out "
-        "and is too low at the edge in tension, see bulk_shift_ratio; NaN for other profiles than the "
-        "paraboloid and the cylinder, without friction or stick, and where it exceeds the width of the slip "
-        "zone",
-        "units": "1",
-        "symbol": r"e/a_H",
-    },
-    "bulk_shift_ratio": {
-        "long_name": "shift over slip zone",
-        "comment": "shift of the stick zone by the strain of the bulk stress over the width of the slip "
-        "zone, however large: where stick_zone is in_place, s leaves it out and is too low at the edge in "
-        "tension, it should be up to 6 % at 0.1, 24 % at 0.5 and 38 % at 1 higher for Q >= 0.2 mu P; NaN as "
-        "the shift, without a permanent stick zone",
-        "units": "1",
-        "symbol": r"e/(a - c)",
-    },
-    "prescribed_force_ratio": {
-        "long_name": "prescribed force ratio",
-        "comment": "largest |F_x| over mu F_N that is prescribed in a cycle: above 1 there is no equilibrium",
-        "units": "1",
-        "symbol": r"\max |F_x|/(\mu F_N)",
-    },
-    "radius_ratio": {
-        "long_name": "contact radius over R",
-        "comment": "largest contact radius of a cycle, half the width in plane contacts, over the radius R; "
-        "of a table over that of the paraboloid with its contact radius and depth at rest",
-        "units": "1",
-        "symbol": r"a_\mathrm{max}/R",
-    },
-    "slide_ratio": {
-        "long_name": "slide over contact radius",
-        "comment": "by how much the tangential displacement exceeds the limit of partial slip, over the "
-        "largest contact radius of a cycle; 0 without gross slip, NaN where the bodies part",
-        "units": "1",
-        "symbol": r"(u_\mathrm{A} - u_\mathrm{slip})/a_\mathrm{max}",
-    },
-    "critical_x": {
-        "long_name": "critical point x/a_H",
-        "comment": "position of the critical point on the surface, in units of a_H = sqrt(R delta0); NaN "
-        "where s is 0, not finite or that of the bulk stress alone: no point is critical there",
-        "units": "1",
-        "symbol": r"x/a_H",
-    },
-    "critical_angle": {
-        "long_name": "critical plane angle",
-        "comment": "angle of the normal of the critical plane against the x axis, in (-90, 90]; NaN where "
-        "s is 0 or not finite: no plane is critical there",
-        "units": "degree",
-        "symbol": r"\varphi",
-    },
-    "regime": {
-        "long_name": "regime of the contact",
-        "comment": "over the stationary cycle; in Python dataset.swt.words() gives its words",
-        "flag_values": np.arange(len(REGIMES), dtype=np.int8),
-        "flag_meanings": " ".join(REGIMES),
-    },
-    "status": {
-        "long_name": "state of the point",
-        "comment": "whether the point has been computed",
-        "flag_values": np.arange(len(STATES), dtype=np.int8),
-        "flag_meanings": " ".join(STATES),
-    },
-    "run": {
-        "long_name": "run that made the value",
-        "comment": "an index into the attribute runs; -1 if missing",
-        "units": "1",
-    },
-}
 
-
-def label(
-    grid: Grid,
-    arrays: dict[str, NDArray],
-    asked: Request = NOTHING,
-    columns: Mapping[str, NDArray] = MappingProxyType({}),
-) -> xr.Dataset:
+def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHING) -> xr.Dataset:
     """The Dataset of a grid.
 
     Parameters
@@ -163,11 +39,10 @@ def label(
     grid
         Names and values of the dimensions.
     arrays
-        Data variables by name, each of shape (grid.size,) in C order.
+        Data variables by name, each of shape (grid.size, …) in C order, or that of the grid; quantities over
+        critical distances have these next.
     asked
         What was asked beside s.
-    columns
-        Its values by `swtstudy.vocabulary.quantities.columns_of`, each of shape (grid.size,).
 
     Returns
     -------
@@ -189,13 +64,17 @@ def label(
         if says or not grid.row(name).goes_without_saying(value):
             coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
     coordinates["control"] = control_coordinate(grid)
-    variables = {
-        name: (grid.dims, array.reshape(grid.shape), dict(ATTRIBUTES[name])) for name, array in arrays.items()
-    }
-    for name, (dims, values) in requested.variables(asked, columns).items():
-        shaped = values.reshape((*grid.shape, *values.shape[1:]))
-        variables[name] = (*grid.dims, *dims), shaped, attributes_of(name)
-    dataset = xr.Dataset(variables, coordinates | requested.coordinates(asked, grid.row(DISTANCE)))
+    if asked.distances:
+        own = {DISTANCE: grid.row(DISTANCE), "direction": QUANTITY_AXES["direction"]}
+        coordinates |= {name: _coordinate_of_quantities(row, asked) for name, row in own.items()}
+    of_quantities = asked.variables
+    variables: dict[str, Any] = {}
+    for name, values in arrays.items():
+        dims = of_quantities.get(name, ())
+        attributes = attributes_of(name) if name in of_quantities else dict(ATTRIBUTES[name])
+        tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
+        variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes
+    dataset = xr.Dataset(variables, coordinates)
     _name_criteria(dataset, grid, asked)
     dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
@@ -206,14 +85,72 @@ def label(
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
-def label_records(
-    grid: Grid, points: UniquePoints, records: Records, asked: Request, of_runs: bool = True
+def label_found(
+    grid: Grid, points: Distinct, found: Found, asked: Request, of_runs: bool = True
 ) -> xr.Dataset:
-    """The Dataset of a grid whose distinct points have these records; ``of_runs`` with status and run."""
-    arrays = arrays_of(records.solution[points.index], points.mirrored) | margins(points, grid)
+    """The Dataset of a grid whose distinct points have these values; ``of_runs`` with their states."""
+    arrays = values_at(grid, points, found, asked, np.arange(grid.size))
     if of_runs:
-        arrays |= {"status": records.status[points.index], "run": records.run[points.index]}
-    return label(grid, arrays, asked, columns_at(grid, asked, points, records.quantity))
+        names = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
+        arrays |= {name: found[name][points.index] for name in names}
+    return label(grid, arrays | margins(points, grid), asked)
+
+
+def values_at(
+    grid: Grid, points: Distinct, found: Found, asked: Request, places: IndexArray
+) -> dict[str, NDArray[Any]]:
+    """Values at n places of a grid, and what is asked beside s, NaN where that is not known.
+
+    ``points`` are the distinct ones of these places.
+    """
+    sizes, own = asked.sizes, {name: row.dims for row in asked.rows for name in row.variables}
+    for name in (name for name in own if name not in found.arrays):
+        found.arrays[name] = np.full((len(found), *(sizes[dim] for dim in own[name])), np.nan)
+    arrays = {name: found[name][points.index] for name in (*SOLVED, *own)}
+    return turned(arrays, points.mirrored, grid.cycles(places) if _per_cycle(own) else 1.0)
+
+
+def turned(
+    arrays: Mapping[str, NDArray[Any]],
+    mirrored: BoolArray,
+    cycles: NDArray[Any] | float,
+    per_cycle: np.ufunc = np.multiply,
+) -> dict[str, NDArray[Any]]:
+    """Values of points from those of distinct points; and back, with ``np.divide``.
+
+    Where a point is mirrored, places and angles have the other sign; what counts per load cycle is that of
+    the common period of the point's own frequencies. + 0.0 removes the sign of zero.
+    """
+    found = dict(arrays)
+    for name in ("critical_x", "critical_angle", *(n for n, row in QUANTITIES.items() if row.is_place)):
+        if name in found:
+            flips = mirrored.reshape(-1, *(1,) * (found[name].ndim - 1))
+            found[name] = np.where(flips, -found[name], found[name]) + 0.0
+    if {*STICK_ENDS} <= found.keys():
+        left, right = (found[name] for name in STICK_ENDS)
+        ends = np.where(mirrored, -right, left) + 0.0, np.where(mirrored, -left, right) + 0.0
+        found |= zip(STICK_ENDS, ends, strict=True)
+    angle = found["critical_angle"]
+    found["critical_angle"] = np.where(angle <= -90, angle + 180, angle)
+    for name in _per_cycle(found):
+        times = np.broadcast_to(cycles, len(mirrored)).reshape(-1, *(1,) * (found[name].ndim - 1))
+        found[name] = per_cycle(found[name], times)
+    return found
+
+
+def _per_cycle(arrays: Mapping[str, object]) -> list[str]:
+    """Names of those that grow with the number of load cycles."""
+    return [n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in arrays]
+
+
+def _coordinate_of_quantities(row: Parameter, asked: Request) -> Any:
+    """The coordinate of a dimension of quantities: the critical distances, or directions."""
+    words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
+    if row.name == "direction":
+        return row.name, np.array(DIRECTIONS, dtype=object), words
+    words |= {"units": row.units, "symbol": row.symbol}
+    values = np.array(asked.distances)
+    return (DISTANCE, values, words) if asked.is_axis else ((), values[0], words)
 
 
 def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
@@ -253,20 +190,6 @@ def control_coordinate(grid: Grid) -> xr.Variable:
     return xr.Variable((), grid.control.name, attributes)
 
 
-def arrays_of(solution: Solution, mirrored: BoolArray) -> dict[str, NDArray]:
-    """Data variables of points, from the solutions of their canonical points, mirrored back where needed."""
-    angle = np.where(mirrored, -solution.critical_angle, solution.critical_angle)
-    return {
-        "s": solution.s,
-        "s_error": solution.s_error,
-        # + 0.0 removes the sign of zero.
-        "critical_x": np.where(mirrored, -solution.critical_x, solution.critical_x) + 0.0,
-        "critical_angle": np.where(angle <= -90, angle + 180, angle) + 0.0,
-        "regime": solution.regime,
-        "s_surface": solution.s_surface,
-    }
-
-
 def _values(values: tuple[Value, ...]) -> NDArray:
     if any(isinstance(value, str | Definition) for value in values):
         return np.array([str(value) for value in values], dtype=object)
@@ -287,7 +210,7 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
+def margins(points: Distinct, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
     ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
@@ -299,11 +222,11 @@ def margins(points: UniquePoints, grid: Grid, foreseen: bool = False) -> dict[st
     if not names:
         return {}
     of = Margins.foreseen if foreseen else Margins.of
-    every = np.full((len(fields(Margins)), len(points.table)), np.nan)
-    for rows in alike(points.table):
+    every = np.full((len(fields(Margins)), len(points.rows)), np.nan)
+    for rows in alike(points.rows):
         for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
             with np.errstate(all="ignore"):
-                found_here = of(points_from(points.table[some], points.definitions))
+                found_here = of(points_from(points.rows[some], points.definitions))
             every[:, some] = list(vars(found_here).values())
     radius, stick, shift, ratio, slide, moved = every[:, points.index]
     width = radius - stick  # of the slip zone

@@ -127,7 +127,7 @@ def _refused(grid: Grid, profile: str, shapes: Grid) -> tuple[int, tuple[dict[st
     largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
     for start in range(0, shapes.size, _SLAB):
         stop = min(start + _SLAB, shapes.size)
-        columns = shapes.columns(start, stop)
+        columns = shapes.columns(np.arange(start, stop))
         shape = {name: np.broadcast_to(columns[name], stop - start) for name in names}
         own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
         depth = largest_depths(

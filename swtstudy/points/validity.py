@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel import INNERMOST
-from swtstudy.points.requested import has_units, require
 from swtstudy.points.values import index_at
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
+from swtstudy.vocabulary.variables import has_units, require
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.

@@ -14,7 +14,6 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
 from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
 from swtstudy.results.evaluate import extrema
@@ -25,6 +24,7 @@ from swtstudy.units.results import measures
 from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
 
 #: The parameter whose values have an s of another kind each.

@@ -8,12 +8,9 @@ from html import escape
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_failures
-from swtstudy.archive.describe import accuracy, completeness, regime_counts, relative_errors
+from swtstudy.archive.describe import accuracy, completeness, failures, regime_counts, relative_errors
 from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.records import COMPUTED
-from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.points.values import index_at
 from swtstudy.reports.findings import along, extreme_points, levers, measured, measured_at, parameters_of
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
@@ -22,6 +19,7 @@ from swtstudy.results.sensitivity import sensitivity
 from swtstudy.units.reading import read_contact
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words
 
 #: Most rows of a table of extrema, failed points and values of an axis that are listed one by one.
@@ -212,11 +210,11 @@ def _capital(words: str) -> str:
 
 
 def _failed(dataset: xr.Dataset) -> str:
-    failures = read_failures(dataset.status.attrs.get("failures", "[]"))
-    if not failures:
+    failed = [*failures(dataset)]
+    if not failed:
         return ""
-    rows = [(escape(each["point"]), escape(each["message"])) for each in failures[:_FAILURES]]
-    more = f'<p class="note">and {len(failures) - _FAILURES} more.</p>' if len(failures) > _FAILURES else ""
+    rows = [(escape(where), escape(why)) for where, why in failed[:_FAILURES]]
+    more = f'<p class="note">and {len(failed) - _FAILURES} more.</p>' if len(failed) > _FAILURES else ""
     return f"<h3>Failed points</h3>{table(('point', 'why'), rows)}{more}"
 
 

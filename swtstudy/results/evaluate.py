@@ -14,12 +14,12 @@ import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.records import COMPUTED
 from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
+from swtstudy.vocabulary.variables import COMPUTED
 from swtstudy.vocabulary.wording import coordinate_words
 
 #: Values of an axis that a message lists one by one; of longer axes the first and the last.

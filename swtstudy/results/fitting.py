@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
-from swtstudy.points.unique import unique_points
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
@@ -32,6 +32,7 @@ from swtstudy.vocabulary.mistakes import (
     plain_number,
 )
 from swtstudy.vocabulary.parameters import DIRECTIONS
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
@@ -107,12 +108,12 @@ def fit(
     if friction and not 0.0 < own < MOST_FRICTION:
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
-    model = _Model.of(grid, np.log10(observed), y, friction)
-    start = model.start()
-    low, high = model.bounds()
-    found = least_squares(
-        model.residuals, np.clip(start, low, high), jac=model.slopes, bounds=(low, high), xtol=XTOL, ftol=XTOL
-    )
+    with Progress(None, "fit"):
+        model = _Model.of(grid, np.log10(observed), y, friction)
+        low, high = model.bounds()
+        start = np.clip(model.start(), low, high)
+        options = {"jac": model.slopes, "bounds": (low, high), "xtol": XTOL, "ftol": XTOL}
+        found = least_squares(model.residuals, start, **options)
     if not low[0] + STEP < found.x[0] < high[0] - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
@@ -170,7 +171,7 @@ class _Model:
         """Least and greatest logarithms: friction must bear the tangential forces."""
         low, high = [self.distances[0]], [self.distances[-1]]
         if self.friction is not None:
-            ratios = margins(unique_points(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
+            ratios = margins(Distinct.of(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
             least = max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3)
             if not least < MOST_FRICTION:
                 found = f"tangential forces that need {least:.3g} at least"

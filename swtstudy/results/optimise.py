@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.labelled import ATTRIBUTES, MARGINS
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
@@ -29,7 +28,9 @@ from swtstudy.vocabulary.mistakes import (
     literal,
     nearest,
 )
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import NAMED, Request
+from swtstudy.vocabulary.variables import ATTRIBUTES, MARGINS
 
 _NOT_ALWAYS = ("s_error", "run", *MARGINS)
 #: The data variables that may be made least: those with values that are not flags, and what may be asked.
@@ -160,10 +161,13 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
     turn = -1 if minimise in LIVES else 1
     solve = partial(solve_grid, rtol=rtol, asked=asked)
     objectives = [Objective(box, solve, minimise, turn * sign) for sign in CASES.values()]
-    found = {case: least(each, len(box.names), seed) for case, each in zip(CASES, objectives, strict=True)}
+    with Progress(None, "optimise"):
+        found = {
+            case: least(each, len(box.names), seed) for case, each in zip(CASES, objectives, strict=True)
+        }
+        dataset = dataset_of(box, found, minimise, solve)
     without = sum(int(np.isinf(objective.values).sum()) for objective in objectives)
-    words = {"minimise": minimise, "seed": seed, "without_value": without}
-    return dataset_of(box, found, minimise, solve).assign_attrs(words)
+    return dataset.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 
 
 def check_asked(report: Report, minimise: object, rtol: object, seed: object, known: Collection[str]) -> None:

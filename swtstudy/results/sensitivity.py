@@ -23,6 +23,7 @@ from swtstudy.vocabulary.mistakes import (
     literal,
 )
 from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.wording import value_words
 
 #: Bootstrap samples: the ends of a confidence interval of 95 % are then known to a tenth of its width.
@@ -86,12 +87,9 @@ def sensitivity(
     for each in values:
         axes = [str(dim) for dim in each.dims if dim != SAMPLE]
         flat = each.transpose(*axes, SAMPLE).values.astype(float)
-        found = np.array(
-            [
-                _indices(row.reshape(len(names) + 2, size), float(confidence), seed)
-                for row in flat.reshape(-1, flat.shape[-1])
-            ]
-        )
+        rows = flat.reshape(-1, len(names) + 2, size)
+        with Progress(len(rows) * (_RESAMPLES + 2), "sensitivity", "resamples") as progress:
+            found = np.array([_indices(row, float(confidence), seed, progress) for row in rows])
         shape = flat.shape[:-1]
         keys = [(name, end) for end in _ENDS for name in _MEANINGS]
         indices = {
@@ -156,7 +154,7 @@ def _check(name: str, values: xr.DataArray, dataset: xr.Dataset, report: Report)
     report(name, found, "a number at every point: other ranges, or another quantity")
 
 
-def _indices(rows: NDArray[Any], confidence: float, seed: int) -> NDArray[Any]:
+def _indices(rows: NDArray[Any], confidence: float, seed: int, progress: Progress) -> NDArray[Any]:
     """First-order and total indices, and the lower and upper ends of their intervals, shape (6, d).
 
     Parameters
@@ -165,6 +163,8 @@ def _indices(rows: NDArray[Any], confidence: float, seed: int) -> NDArray[Any]:
         Shape (d + 2, n): values at the two samples, and at the first with one parameter of the second.
     confidence, seed
         As for `sensitivity`.
+    progress
+        Counts resamples.
     """
     from scipy.stats import bootstrap, sobol_indices
 
@@ -172,6 +172,7 @@ def _indices(rows: NDArray[Any], confidence: float, seed: int) -> NDArray[Any]:
 
     def both(chosen: NDArray[np.int64]) -> NDArray[Any]:
         some = rows[:, chosen]
+        progress.add()
         found = sobol_indices(func={"f_A": some[0], "f_B": some[1], "f_AB": some[2:, None]}, n=n)
         return np.array([found.first_order, found.total_order])
 

@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Any
 from distributed.comm import CommClosedError
 from distributed.scheduler import KilledWorker
 
-from swtstudy.runner.engine import WorkerError
-
 if TYPE_CHECKING:
     from distributed import Client
 
@@ -34,7 +32,7 @@ class ClusterPool:
         Client of the cluster; it stays open.
     """
 
-    lost = KilledWorker
+    lost, gone = KilledWorker, (CancelledError, CommClosedError)
 
     def __init__(self, client: Client) -> None:
         self._client = client
@@ -47,9 +45,8 @@ class ClusterPool:
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self._ended.set()
-        if kind is not None and issubclass(kind, CancelledError | CommClosedError):
-            raise WorkerError("the dask scheduler is gone") from None
-        self._executor.shutdown(wait=False)
+        if kind is None or not issubclass(kind, OSError):  # without a scheduler there is nothing to end
+            self._executor.shutdown(wait=False)
 
     def size(self) -> int:
         """See `Pool`."""

@@ -8,12 +8,14 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any, NoReturn, Protocol
 
-from swtstudy.points.chunk import Chunk, Solver, given_up, solve_chunk
-from swtstudy.points.records import Records
+from swtstudy.points.chunk import Chunk, Solver, solve_chunk
+from swtstudy.points.found import Found
 from swtstudy.vocabulary.arrays import IntArray
+from swtstudy.vocabulary.variables import FAILED
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
-#: Receives every result as soon as it arrives.
-Deliver = Callable[[IntArray, Records], None]
+#: Receives places, version of the solver and values of every chunk as soon as they arrive.
+Deliver = Callable[[IntArray, str, Found], None]
 
 #: Chunks per worker that dask receives at a time: it holds on to their results.
 _WAVE = 256
@@ -39,6 +41,10 @@ class Pool(Protocol):
     def lost(self) -> type[Exception]:
         """Exception that a future raises if its task was lost with a worker."""
 
+    @property
+    def gone(self) -> tuple[type[Exception], ...]:
+        """Exceptions that say that all workers are lost."""
+
     def size(self) -> int:
         """Number of tasks that run at the same time, at least 1."""
 
@@ -52,7 +58,7 @@ class Pool(Protocol):
 class ThreadPool(ThreadPoolExecutor):
     """Threads of this process; see `Pool`. The compiled solver lets them run side by side."""
 
-    lost = NeverLostError
+    lost, gone = NeverLostError, ()
 
     def __exit__(self, *_: object) -> None:
         self.shutdown(wait=True, cancel_futures=True)
@@ -110,7 +116,7 @@ class _Tasks:
         if not lost:
             return
         if len(chunk) == 1:
-            self.deliver(chunk.rows, given_up(chunk, self.rtol, LOST_WORKER))
+            self.deliver(chunk.places, SOLVER_VERSION, Found.blank(chunk.rows, FAILED, LOST_WORKER))
             return
         for half in chunk.halves():
             self.alone(half)
@@ -130,8 +136,8 @@ class _Tasks:
         def submitted(name: str, *_: object) -> None:
             in_flight[name] = waiting.pop(name)
 
-        def done(name: str, found: Records, *_: object) -> None:
-            self.deliver(in_flight[name].rows, found)
+        def done(name: str, found: tuple[str, Found], *_: object) -> None:
+            self.deliver(in_flight[name].places, *found)
             del in_flight[name]
 
         in_threads = isinstance(self.pool, ThreadPool)
@@ -150,6 +156,8 @@ class _Tasks:
             )
         except self.pool.lost:
             self.pool.renew()
+        except self.pool.gone as error:
+            raise WorkerError("the dask scheduler is gone") from error
         return list(waiting.values()), list(in_flight.values())
 
 

@@ -1,4 +1,4 @@
-"""One study on its way to its archive: what is known, what is computed, and the file."""
+"""One study on its way to its archive: what is known, what is computed and saved, and the file."""
 
 from __future__ import annotations
 
@@ -10,19 +10,26 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swtstudy.points.chunk import Solver, chunks
-from swtstudy.points.records import Records, Run
-from swtstudy.runner.collector import Collector
+import numpy as np
+
+from swtstudy.points.chunk import Solver
+from swtstudy.points.found import Found, Run, join
 from swtstudy.runner.engine import Pool, WorkerError, solve
-from swtstudy.runner.workload import Workload, assess
+from swtstudy.runner.work import Work, assess
 from swtstudy.study.definition import Study, require_study
+from swtstudy.vocabulary.arrays import IntArray
 from swtstudy.vocabulary.files import check_writable
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _log = logging.getLogger(__name__)
+
+#: Seconds after which results are saved, and the share of a long run that this may be instead: so much is
+#: lost with the process, and a run of any length leaves some hundred files.
+PART_SECONDS, PART_SHARE = 0.5, 0.01
 
 
 class Stopped(KeyboardInterrupt):
@@ -49,43 +56,81 @@ class Job:
         require_study(study)
         check_archive_path(path)
         check_writable(path)
-        self.study, self.path = study, path
-        self._held = ExitStack()
-        self._held.enter_context(locked(parts_folder(path)))
-        try:
-            clear_unfinished(parts_folder(path))
+        self.study, self.path, self._folder = study, path, parts_folder(path)
+        with ExitStack() as held:
+            held.enter_context(locked(self._folder))
+            clear_unfinished(self._folder)
             self._begin = time.perf_counter()
             self.work = assess(study, path, retry_failed)
-            self._known = _finished(self.work, study, path)
-            self._what = _words(self.work)
-            self._records = self.work.records
-            if self._known is None:
-                _log_known(self.work)
-        except BaseException:
-            self._held.close()
-            raise
+            self._known = self._finished()
+            self._what = self._told()
+            self.close = held.pop_all().close
 
-    def __enter__(self) -> Job:
-        return self
+    def _finished(self) -> xr.Dataset | None:
+        """The archive, if it is that of exactly this study and nothing is left to do."""
+        from swtstudy.archive.parts import clear_parts, read_parts
 
-    def __exit__(self, *_: object) -> None:
-        self._held.close()
+        if self.work.todo.any() or not self.path.exists() or len(read_parts(self._folder)):
+            return None
+        from swtstudy.archive.netcdf import read_archive
+
+        archive = read_archive(self.path)
+        if archive.attrs["study"] != self.study.text:
+            return None
+        clear_parts(self._folder)  # parts that could not be read
+        return archive
+
+    def _told(self) -> str:
+        """Say in the log what is known; what the run does, for the history."""
+        work, count = self.work, len(self.work.found)
+        todo, more = int(work.todo.sum()), int(work.incomplete.sum())
+        if work.outdated:
+            _log.warning(
+                "%d points come from another version of the solver and are recomputed", work.outdated
+            )
+        if work.coarse:
+            _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
+        if more:
+            _log.info("%d points are computed, but lack quantities that the study asks", more)
+        if 0 < todo < count:
+            _log.info("%d of %d distinct points are already computed", count - todo, count)
+        words = f"{todo} of {count} distinct points computed"
+        return f"{words}, {more} of them for quantities that they lacked" if more else words
 
     def compute(self, pool: Pool, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
-        with self.reporting():
-            self._records = _compute(self.work, self.study, self.path, pool, solver)
+        if not self.work.todo.any():
+            return
+        from swtstudy.archive.attributes import versions
+
+        now, study = datetime.now(UTC).isoformat(timespec="seconds"), self.study
+        run = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, self.work.asked.items)
+        with self.reporting(), _Saving(self, run) as saving:
+            solve(self.work.chunks(), study.rtol, solver, saving.add, pool)
 
     def finish(self) -> xr.Dataset:
-        """Write the archive, and return it."""
-        from swtstudy.archive.archive import build
+        """Write the archive, which replaces the parts, and return it; what is not in it is kept."""
+        from swtstudy.archive.archive import build, history_line
+        from swtstudy.archive.netcdf import read_archive, save
+        from swtstudy.archive.parts import clear_parts, keeping, kept_folder
 
         if self._known is not None:
             return self._known
+        work, kept = self.work, kept_folder(self.path)
         with self.reporting():
-            history, seconds = _history(self._what, self.path), time.perf_counter() - self._begin
-            dataset = build(self.study, self.work.points, self._records.trimmed(), history, seconds)
-            return _leave(dataset, self.work.dropped, self.path)
+            before = [read_archive(self.path).attrs["history"]] if self.path.exists() else []
+            history = "\n".join([history_line(self._what), *before])
+            seconds = time.perf_counter() - self._begin
+            dataset = build(self.study, work.points, work.found.take(slice(None)), history, seconds)
+            try:
+                with keeping(kept, work.others):
+                    save(dataset, self.path, beside=self._folder)
+            except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
+                raise OSError(f"cannot write the archive ({error})") from error
+            clear_parts(self._folder)
+            if len(work.others):
+                _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
+            return read_archive(self.path)
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
@@ -99,89 +144,51 @@ class Job:
             raise Stopped(words) from None
         except OSError as error:
             kind = WorkerError if isinstance(error, WorkerError) else OSError
-            reason = error.strerror or str(error)
             advice = "once that is fixed, the same command continues from there"
-            raise kind(f"{reason}; {_saved(self.work, self.path)}; {advice}") from error
+            raise kind(f"{error.strerror or error}; {_saved(self.work, self.path)}; {advice}") from error
 
 
-def _finished(work: Workload, study: Study, path: Path) -> xr.Dataset | None:
-    """The archive, if it is that of exactly this study and nothing is left to do."""
-    from swtstudy.archive.parts import clear_parts, parts_folder, read_parts
-
-    if work.todo or not path.exists() or len(read_parts(parts_folder(path))):
-        return None
-    from swtstudy.archive.netcdf import read_archive
-
-    archive = read_archive(path)
-    if archive.attrs["study"] != study.text:
-        return None
-    clear_parts(parts_folder(path))  # parts that could not be read
-    return archive
+def _saved(work: Work, path: Path) -> str:
+    """Say how much is saved."""
+    count = len(work.found)
+    return f"{count - work.todo.sum()} of {count} distinct points are saved beside {path}"
 
 
-def _words(work: Workload) -> str:
-    """The action of a run in the past tense, for the history."""
-    words = f"{int(work.missing.sum())} of {len(work.records)} distinct points computed"
-    more = int(work.incomplete.sum())
-    return f"{words}, and quantities that {more} others lacked" if more else words
+class _Saving:
+    """Saves the results of a run as parts, inside a with block; only then they count."""
 
+    def __init__(self, job: Job, run: Run) -> None:
+        self._work, self._folder, self._run = job.work, job._folder, run
+        self._progress = Progress(int(job.work.todo.sum()), job.path.stem, delay=0.0)
+        self._unsaved: list[tuple[IntArray, Found]] = []
+        self._begin = self._saved = time.monotonic()
 
-def _log_known(work: Workload) -> None:
-    if work.outdated:
-        _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
-    if work.coarse:
-        _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
-    if work.incomplete.any():
-        _log.info("%d points are computed, but lack quantities that the study asks", work.incomplete.sum())
-    if 0 < work.todo < len(work.records):
-        known = len(work.records) - work.todo
-        _log.info("%d of %d distinct points are already computed", known, len(work.records))
+    def __enter__(self) -> _Saving:
+        return self
 
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        self._progress.close()
+        if kind is None or not issubclass(kind, OSError):
+            self._save()
 
-def _saved(work: Workload, path: Path) -> str:
-    # A run fills its records in place.
-    saved = len(work.records) - work.todo
-    return f"{saved} of {len(work.records)} distinct points are saved beside {path}"
+    def add(self, places: IntArray, version: str, found: Found) -> None:
+        """Take what a worker has found of the points in some places."""
+        if version != SOLVER_VERSION:
+            words = f"a worker has version {version} of the solver"
+            raise WorkerError(f"{words}, this machine {SOLVER_VERSION}")
+        found["run"][:] = 0
+        self._unsaved.append((places, Found(found.arrays, (self._run,))))
+        now = time.monotonic()
+        if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
+            self._save()
+        self._progress.add(len(places))
 
+    def _save(self) -> None:
+        from swtstudy.archive.parts import save_part
 
-def _compute(work: Workload, study: Study, path: Path, pool: Pool, solver: Solver) -> Records:
-    """The records, with the missing points computed."""
-    from swtstudy.archive.attributes import versions
-    from swtstudy.archive.parts import PartsWriter, parts_folder
-
-    if not work.todo:
-        return work.records
-    writer = PartsWriter(parts_folder(path))
-    now = datetime.now(UTC).isoformat(timespec="seconds")
-    own = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now)
-    todo = [chunk for wanted, asked in list(work.tasks()) for chunk in chunks(work.points, wanted, asked)]
-    collector = Collector(work.records, own, writer, work.todo, path.stem)
-    with collector:
-        solve(todo, study.rtol, solver, collector.add, pool)
-    return collector.records
-
-
-def _history(what: str, path: Path) -> str:
-    """Return the line of this run, followed by the history of the archive that is replaced."""
-    from swtstudy.archive.archive import history_line
-    from swtstudy.archive.netcdf import read_archive
-
-    before = [read_archive(path).attrs["history"]] if path.exists() else []
-    return "\n".join([history_line(what), *before])
-
-
-def _leave(dataset: xr.Dataset, dropped: Records, path: Path) -> xr.Dataset:
-    """Write the archive, which replaces the parts, and keep the records that are not in it."""
-    from swtstudy.archive.netcdf import read_archive, save
-    from swtstudy.archive.parts import clear_parts, keeping, kept_folder, parts_folder
-
-    folder, kept = parts_folder(path), kept_folder(path)
-    try:
-        with keeping(kept, dropped):
-            save(dataset, path, beside=folder)
-    except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
-        raise OSError(f"cannot write the archive ({error})") from error
-    clear_parts(folder)
-    if len(dropped):
-        _log.info("%d points are not in this study: %s keeps them", len(dropped), kept)
-    return read_archive(path)
+        if self._unsaved:
+            places, parts = zip(*self._unsaved, strict=True)
+            part = join(parts)
+            save_part(self._folder, part)
+            self._work.found = self._work.found.put(np.concatenate(places), part)
+            self._unsaved, self._saved = [], time.monotonic()

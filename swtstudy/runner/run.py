@@ -219,7 +219,7 @@ def run_several(
                 if before is not None:
                     _finish(before, finished)
                 raise
-            held.callback(job.__exit__)
+            held.callback(job.close)
             writing = None if before is None else background.submit(_finish, before, finished)
             try:
                 job.compute(pool, solver)
@@ -246,7 +246,7 @@ def _pool(workers: int, processes: bool, client: Client | None) -> AbstractConte
 def _finish(job: Job, finished: Finished) -> None:
     """Write the archive of a job, and release it."""
     dataset = job.finish()
-    job.__exit__()
+    job.close()
     finished(job.study, job.path, dataset)
 
 

@@ -29,7 +29,7 @@ class LocalPool:
         Number of worker processes.
     """
 
-    lost = BrokenProcessPool
+    lost, gone = BrokenProcessPool, ()
 
     def __init__(self, count: int) -> None:
         self._count = count

@@ -247,6 +247,6 @@ def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
     else:
         _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
         index = index[np.sort(first)]
-    rows = np.concatenate([grid.canonical(i, i + 1)[0] for i in map(int, index)])
+    rows, _ = grid.canonical(index)
     first, _ = group_rows(rows)
     return rows[np.sort(first)[:points]]

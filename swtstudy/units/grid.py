@@ -23,12 +23,13 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, STRAIN_SHARE
-from swtstudy.vocabulary.quantities import Request, item_of
+from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.vocabulary.arrays import FloatArray, IntArray
+    from swtstudy.units.at_rest import Contact
+    from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 
 
 @dataclass(frozen=True)
@@ -218,11 +219,11 @@ class PhysicalGrid(ContactDetails, Grid):
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
         return found
 
-    def columns(self, start: int, stop: int) -> dict[str, NDArray]:
+    def columns(self, places: IndexArray) -> dict[str, NDArray]:
         """See `Grid.columns`."""
-        position = self._position(start, stop)
+        position = self._position(places)
         return {
-            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], stop - start)
+            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], len(places))
             for name, (dims, values) in self._codes_over.items()
         }
 
@@ -263,7 +264,15 @@ class PhysicalGrid(ContactDetails, Grid):
         """The same over the dimensions that it depends on: that of the body with the bulk stress."""
         body = self.bulk_stress_body
         share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
-        return share.where(self.bodies == body, -share) if self.values("body") else share
+        if not self.values("body"):
+            return share
+
+        def over_own(contact: Contact) -> float:
+            """Number of the other body over that of this one, by which a shift in `a_H` is divided."""
+            of_both = [1.0 if contact.plane else (1.0 + ν) * (4.0 - 3.0 * ν) for ν in contact.moduli.poisson]
+            return of_both[1 - body] / of_both[body]
+
+        return share.where(self.bodies == body, -share * self.at_rest.each(over_own))
 
     def _of_points(self, over: xr.DataArray) -> FloatArray:
         """Values over some of the dimensions for each point, shape (size,)."""
@@ -277,18 +286,12 @@ class PhysicalGrid(ContactDetails, Grid):
 
         return with_units(dataset, self, asked)
 
-    def items(self, asked: Request) -> tuple[tuple[str, ...], IntArray]:
-        """See `Grid.items`: the same length is another critical distance in a_H from contact to contact."""
-        length = self.at_rest.scale("a_H")
-        names: dict[str, int] = {}
-        at = np.empty((len(asked.distances), self.size), np.int64)
-        position = self._position(0, self.size) if len(length.dims) else {}
-        for row, distance in zip(at, asked.distances, strict=True):
-            items = [item_of(distance / each) for each in length.values.flat]
-            numbers = np.array([names.setdefault(item, len(names)) for item in items])
-            over = numbers.reshape(length.shape)
-            row[:] = over[tuple(position[str(dim)] for dim in length.dims)]
-        return tuple(names), at
+    def distances(self, asked: Request) -> FloatArray:
+        """See `Grid.distances`: the same length is another one in a_H from contact to contact."""
+        if not asked.distances:
+            return super().distances(asked)
+        length = self._of_points(self.at_rest.scale("a_H"))
+        return rounded(np.array(asked.distances) / length[:, None])
 
 
 def _over(values: xr.DataArray, scale: xr.DataArray) -> xr.DataArray:

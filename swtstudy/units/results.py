@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.points.requested import CONTACT, has_units
 from swtstudy.units.blocks import miner
 from swtstudy.units.bodies import LABELS
 from swtstudy.units.variables import KINDS, LIVES, NORMALISED, variables
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.variables import CONTACT, has_units
 
 if TYPE_CHECKING:
     from swtstudy.units.grid import PhysicalGrid

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 import time
+from contextvars import ContextVar, Token
 from typing import Any, Self, TextIO
 
 _log = logging.getLogger(__name__)
@@ -13,10 +14,14 @@ _log = logging.getLogger(__name__)
 PATIENCE = 2.0
 #: Seconds between two lines in a log.
 LINE_SECONDS = 30.0
+#: That of the search, or the fit, in which something is solved.
+_OUTER: ContextVar[Progress | None] = ContextVar("_OUTER", default=None)
 
 
 class Progress:
     """Counts what is finished inside a with block, and shows its rate and the time left.
+
+    What is counted inside of the block of another one counts there.
 
     Parameters
     ----------
@@ -36,19 +41,28 @@ class Progress:
         self._total, self._name, self._unit = total, name, unit
         self._delay, self._done = delay, 0
         self._bar: Any = None
+        self._outer = _OUTER.get()
+        self._token: Token[Progress | None] | None = None
         self._begin = self._told = time.monotonic()
         self._hidden = total == 0
-        if not delay:
+        if not delay and self._outer is None:
             self._show()
 
     def __enter__(self) -> Self:
+        if self._outer is None:
+            self._token = _OUTER.set(self)
         return self
 
     def __exit__(self, *_: object) -> None:
+        if self._token is not None:
+            _OUTER.reset(self._token)
         self.close()
 
     def add(self, finished: int = 1) -> None:
         """Count more as done."""
+        if self._outer is not None:
+            self._outer.add(finished)
+            return
         self._done += finished
         now = time.monotonic()
         if self._bar is not None:
@@ -69,7 +83,7 @@ class Progress:
     def _show(self) -> None:
         """Show the bar where there is somebody to see it; importing tqdm takes a while."""
         notebook = _in_notebook()
-        self._hidden = not self._total or not (notebook or _is_terminal(sys.stderr))
+        self._hidden = self._total == 0 or not (notebook or _is_terminal(sys.stderr))
         if self._hidden:
             return
         if notebook:

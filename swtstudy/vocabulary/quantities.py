@@ -6,7 +6,7 @@ name, a symbol or a meaning. A quantity is the same at a point and at its mirror
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -209,7 +209,7 @@ class Request:
     names
         Of `NAMED`.
     distances
-        Critical distances ℓ/a_H, for which all of `NONLOCAL` are asked.
+        Critical distances ℓ/a_H, for which all of `NONLOCAL` are asked; of real contacts lengths.
     is_axis
         Whether these distances are a dimension.
     counts
@@ -221,95 +221,34 @@ class Request:
     is_axis: bool = False
     counts: bool = False
 
-    @classmethod
-    def of(cls, items: Iterable[str], is_axis: bool = False) -> Request:
-        """From its items, in ascending order; several distances are an axis always."""
-        items = sorted(items)
-        distances = sorted(distance for item in items if (distance := distance_of(item)) is not None)
-        names = tuple(item for item in items if item in NAMED)
-        return cls(names, tuple(distances), is_axis or len(distances) > 1, COUNTS in items)
-
     @property
     def items(self) -> tuple[str, ...]:
-        """The items that are computed one by one, as runs record them: distances are single ones."""
-        return (*self.same, *map(item_of, self.distances))
+        """Names of all that is asked, as runs record it: the names, `COUNTS` and `DISTANCE`."""
+        return (*self.names, *(COUNTS,) * self.counts, *(DISTANCE,) * bool(self.distances))
 
     @property
-    def same(self) -> tuple[str, ...]:
-        """The items that are the same for all points."""
-        return (*self.names, COUNTS) if self.counts else self.names
+    def rows(self) -> tuple[Quantity, ...]:
+        """The quantities that are asked."""
+        tables = ({name: NAMED[name] for name in self.names}, COUNTED if self.counts else {})
+        return tuple(row for table in (*tables, NONLOCAL if self.distances else {}) for row in table.values())
 
     @property
     def variables(self) -> dict[str, tuple[str, ...]]:
         """Data variables, with their dimensions beside those of the points."""
-        rows = [row for item in (*self.same, *self.items[len(self.same) :][:1]) for row in rows_of(item)]
         return {
             variable: tuple(dim for dim in row.dims if dim != DISTANCE or self.is_axis)
-            for row in rows
+            for row in self.rows
             for variable in row.variables
         }
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Lengths of the dimensions that quantities have beside those of the points."""
+        return {DISTANCE: len(self.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
 
 
 #: Nothing but s.
 NOTHING = Request()
-
-
-def item_of(distance: float) -> str:
-    """A critical distance as an item: to 12 digits, as canonical points."""
-    return f"{DISTANCE}={distance:.12g}"
-
-
-def distance_of(item: str) -> float | None:
-    """The critical distance that an item is; None for others.
-
-    Examples
-    --------
-    >>> distance_of("critical_distance=0.05"), distance_of("dissipation")
-    (0.05, None)
-    """
-    name, _, number = item.partition("=")
-    try:
-        return float(number) if name == DISTANCE else None
-    except ValueError:
-        return None
-
-
-def is_item(raw: object) -> bool:
-    """Return whether something is an item of a request."""
-    return isinstance(raw, str) and (raw in NAMED or raw == COUNTS or distance_of(raw) is not None)
-
-
-def rows_of(item: str) -> tuple[Quantity, ...]:
-    """The quantities that an item of a request asks for."""
-    if item in NAMED:
-        return (NAMED[item],)
-    return (*(COUNTED if item == COUNTS else NONLOCAL).values(),)
-
-
-def columns_of(items: Iterable[str]) -> tuple[str, ...]:
-    """Names of the numbers that every point has for items of a request.
-
-    Examples
-    --------
-    >>> columns_of(["dissipation", "critical_distance=0.5"])[:4]
-    ('dissipation', 'dissipation_error', 's_volume@0.5', 's_volume_error@0.5')
-    """
-    columns: list[str] = []
-    for item in items:
-        for row in rows_of(item):
-            columns += (name for variable in row.variables for name in columns_in(row, variable, item))
-    return tuple(columns)
-
-
-def columns_in(row: Quantity, variable: str, item: str) -> tuple[str, ...]:
-    """Return the columns of a data variable, along its own dimensions but the critical distance."""
-    if item in NAMED:
-        return (variable,)
-    if item == COUNTS:
-        places, cycles = map(range, COUNTED_SIZES.values())
-        return tuple(f"{variable}@{place}@{cycle}" for place in places for cycle in cycles)
-    name = f"{variable}@{item.partition('=')[2]}"
-    return tuple(f"{name}@{each}" for each in DIRECTIONS) if "direction" in row.dims else (name,)
 
 
 def error_of(name: str) -> str:

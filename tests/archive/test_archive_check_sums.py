@@ -2,7 +2,6 @@
 
 import random
 import re
-import shutil
 import struct
 from collections.abc import Iterator
 from functools import partial
@@ -14,11 +13,9 @@ import pytest
 import stand_in
 import xarray as xr
 from click.testing import CliRunner
-from folders import DATA
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.merge import merge
-from swtstudy.archive.netcdf import has_its_own, load_file, write_check_sums
+from swtstudy.archive.netcdf import load_file, write_check_sums
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 
@@ -148,45 +145,6 @@ def write_check_sums_of(dataset: xr.Dataset, saved: xr.Dataset, path: Path) -> N
     """A file of one Dataset with the check sums of another."""
     saved.to_netcdf(path)
     write_check_sums(path, dataset)
-
-
-def test_an_archive_with_check_sums_of_single_values_alone_opens_as_ever(tmp_path):
-    """They were the only ones once."""
-    path = tmp_path / "small.nc"
-    dataset = run(Study.from_text(NAMED), path, solver=stand_in.smooth, workers=1)
-    with netCDF4.Dataset(path, "a") as file:
-        group = file.groups["check_sums"]
-        assert {*group.ncattrs()} == {*dataset.variables}
-        for name in group.ncattrs():
-            if has_its_own(dataset[name]):
-                group.delncattr(name)
-        assert {"friction", "profile"} <= {*group.ncattrs()}
-    xr.testing.assert_identical(open_results(path), dataset)
-
-
-def test_an_archive_without_check_sums_opens_as_ever(tmp_path):
-    path = DATA / "without_check_sums.nc"
-    dataset = open_results(path)
-    assert dataset.s.dims == ("profile", "phase")
-    np.testing.assert_array_equal(dataset.phase, [0.0, np.pi / 2])
-    np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
-    assert dataset.run.attrs["long_name"].startswith("run that made the value")
-    xr.testing.assert_equal(merge([path]), dataset)
-
-
-def test_an_archive_that_does_not_say_what_is_prescribed_opens_as_ever(tmp_path):
-    """It is from before forces could be; its points are those of today."""
-    path = tmp_path / "old.nc"
-    shutil.copy(DATA / "without_control.nc", path)
-    with netCDF4.Dataset(path) as file:
-        assert "control" not in file.variables
-    dataset = open_results(path)
-    assert dataset.control.item() == "displacements"
-    np.testing.assert_allclose(dataset.s, [[0.155137, 0.151461], [0.122635, 0.118161]], atol=1e-6)
-    xr.testing.assert_equal(merge([path]), dataset)
-    again = run(Study.from_text(dataset.attrs["study"]), path, workers=1)
-    np.testing.assert_allclose(again.s, dataset.s, rtol=1e-4)
-    assert again.control.item() == "displacements"
 
 
 def test_what_xarray_makes_of_results_can_be_saved_and_opened(small, tmp_path):

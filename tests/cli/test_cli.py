@@ -660,7 +660,7 @@ def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
     def refuse(*_):
         raise MemoryError("Unable to allocate 4.85 GiB")
 
-    monkeypatch.setattr("swtstudy.runner.workload.assess", refuse)
+    monkeypatch.setattr("swtstudy.runner.work.assess", refuse)
     result = call("plan", "figure3")
     assert result.exit_code == 2
     assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"

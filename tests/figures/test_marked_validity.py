@@ -6,10 +6,10 @@ from made_up import made_up
 
 from swtstudy import Study
 from swtstudy.figures.draw import draw
-from swtstudy.points.requested import CONTACT
 from swtstudy.points.validity import outside
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.variables import CONTACT
 
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 10), np.linspace(0.2, 0.8, 7)
 

@@ -9,10 +9,10 @@ from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
 
 from swtstudy.figures.quantity_words import title_words
-from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
+from swtstudy.vocabulary.variables import ATTRIBUTES
 
 PHASE = np.linspace(0, np.pi, 13)
 FRICTION = np.array([0.1, 0.2, 0.4])

@@ -6,7 +6,7 @@ from solved import REGIMES
 
 import swtstudy
 from swtstudy.paper.audit.point import VERDICTS
-from swtstudy.points.labelled import ATTRIBUTES
+from swtstudy.vocabulary.variables import ATTRIBUTES
 
 STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}
 PLACES = {name: (f"{name}/a_H", "1") for name in "xyz"}
@@ -195,6 +195,7 @@ def test_every_variable_of_results_has_a_comment():
         "regime": "over the stationary cycle",
         "status": "whether the point has been computed",
         "run": "an index into the attribute runs; -1 if missing",
+        "message": "there if points failed",
     }
     assert words.keys() == ATTRIBUTES.keys()
     for name, attributes in ATTRIBUTES.items():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -311,3 +313,26 @@ def test_work_of_friction_is_that_of_the_march() -> None:
     # Over μP · μδ0: P in E* δ0 is π/4, displacements are in δ0.
     assert work / (FRICTION * force * FRICTION) == pytest.approx(moved, rel=0.05)
     assert moved > 1.5 * still
+
+
+def test_an_archive_from_before_is_one_with_the_stick_zone_in_place(tmp_path: Path) -> None:
+    text = """
+        title = "pulled"
+        rtol = 1e-2
+        [fixed]
+        profile = "cylinder"
+        normal_force_amplitude = 0
+        tangential_force_amplitude = 0.5
+        [axes]
+        bulk_stress_amplitude = [0, 0.1]
+    """
+    path = tmp_path / "pulled.nc"
+    in_place = text.replace("[axes]", 'stick_zone_shift = "none"\n[axes]')
+    before = swtstudy.run(swtstudy.Study.from_text(in_place), path)
+    assert before.stick_zone.values.tolist() == [0, 0]
+    moved = swtstudy.run(swtstudy.Study.from_text(text), path)
+    assert moved.stick_zone.values.tolist() == [0, 1]
+    assert float(moved.s[0]) == float(before.s[0])
+    assert float(moved.s[1]) > 1.05 * float(before.s[1])
+    # Without the coordinate nothing is taken for what it is not.
+    assert swtstudy.open_results(path).stick_zone_shift == "moved"

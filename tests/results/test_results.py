@@ -8,10 +8,10 @@ from matplotlib.figure import Figure
 from xarray.plot.utils import label_from_attrs
 
 import swtstudy
-from swtstudy.points.labelled import ATTRIBUTES
 from swtstudy.results.evaluate import slice_at, to_table
 from swtstudy.study.figure import VARIABLES
 from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
+from swtstudy.vocabulary.variables import ATTRIBUTES
 
 PHASE = np.linspace(0, np.pi, 37)
 
@@ -73,6 +73,7 @@ def test_what_a_reader_is_told_of_each_variable():
         "stick_zone": None,
         "status": None,
         "run": "1",
+        "message": None,
     }
     symbols = {
         name: attributes["symbol"] for name, attributes in ATTRIBUTES.items() if "symbol" in attributes

@@ -1,4 +1,3 @@
-import json
 import os
 import re
 import socket
@@ -82,8 +81,7 @@ def test_a_point_that_kills_the_workers_of_a_cluster_fails(client, tmp_path):
     study = Study.from_text('title = "t"\n[fixed]\nfriction = 0.3')
     client.run_on_scheduler(lambda dask_scheduler: setattr(dask_scheduler, "allowed_failures", 0))
     dataset = run(study, tmp_path / "t.nc", client=client, solver=partial(stand_in.kill_at, 0.3))
-    (failure,) = json.loads(dataset.status.attrs["failures"])
-    assert failure["message"] == LOST_WORKER
+    assert dataset.message == LOST_WORKER
 
 
 def free_port() -> int:

@@ -19,11 +19,12 @@ from solved import COMPUTED, FAILED
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive import parts as archive_parts
+from swtstudy.archive.describe import failures
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
-from swtstudy.runner import collector, workload
 from swtstudy.runner import job as job_module
+from swtstudy.runner import work
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -136,7 +137,7 @@ def test_an_interrupted_study_is_kept_while_another_is_run(line, tmp_path):
         run(other, path, solver=stand_in.smooth, workers=1)
         assert points_saved(kept_folder(path)) == saved > 0
         assert not parts_folder(path).exists()
-        assert int(workload.assess(line, path).missing.sum()) == 400 - saved
+        assert int(work.assess(line, path).missing.sum()) == 400 - saved
 
 
 def test_points_that_are_kept_outlive_a_kill_at_any_moment(tmp_path, monkeypatch):
@@ -155,7 +156,7 @@ def test_points_that_are_kept_outlive_a_kill_at_any_moment(tmp_path, monkeypatch
                 run(study, path, solver=stand_in.smooth)
             monkeypatch.undo()
             counting = stand_in.Counting()
-            assert int(workload.assess(wide, path).missing.sum()) == 0
+            assert int(work.assess(wide, path).missing.sum()) == 0
         run(study, path, solver=counting)
         assert counting.points == 0
     assert points_saved(kept_folder(path)) == len(read_parts(kept_folder(path))) == 2
@@ -177,7 +178,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
-    for module in (job_module, collector, workload):
+    for module in (job_module, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
@@ -190,20 +191,18 @@ def test_a_failed_point_is_one_point(tmp_path, line):
     path = tmp_path / "line.nc"
     dataset = run(line, path, solver=partial(stand_in.fail_at, 0.3), workers=1)
     assert int(np.isfinite(dataset.s).sum()) == 399
-    (failure,) = json.loads(dataset.status.attrs["failures"])
-    assert failure["message"] == "ZeroDivisionError: an injected failure"
-    assert "friction=0.3" in failure["point"]
+    assert [*failures(dataset)] == [("friction=0.3", "ZeroDivisionError: an injected failure")]
     assert dataset.status.sel(friction=0.3, method="nearest").item() == FAILED
     # It is not tried again unless that is asked for, and its message is not lost.
     counting = stand_in.Counting()
     text = LINE.replace("title", "# grown\ntitle")
     dataset = run(Study.from_text(text), path, solver=counting, workers=1)
     assert counting.points == 0
-    assert len(json.loads(dataset.status.attrs["failures"])) == 1
+    assert len([*failures(dataset)]) == 1
     dataset = run(line, path, solver=counting, retry_failed=True, workers=1)
     assert counting.points == 1
     assert np.isfinite(dataset.s).all()
-    assert json.loads(dataset.status.attrs["failures"]) == []
+    assert [*failures(dataset)] == []
 
 
 def test_a_damaged_part_is_computed_again(line, tmp_path, caplog):
@@ -250,7 +249,7 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
             raise OSError(28, "No space left on device")
         fsync(handle)
 
-    monkeypatch.setattr(collector, "PART_SECONDS", 0.05)
+    monkeypatch.setattr(job_module, "PART_SECONDS", 0.05)
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match=r"No space left on device; \d+ of 400 distinct points are saved"):
         run(line, path, solver=stand_in.slow, workers=1)
@@ -305,7 +304,7 @@ def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, seconds
     path = tmp_path / "line.nc"
     before = (
         "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))\n"
-        f"from swtstudy.runner import collector; collector.PART_SECONDS = {seconds}\n"
+        f"from swtstudy.runner import job; job.PART_SECONDS = {seconds}\n"
     )
     done = subprocess.run(command_of(tmp_path, LINE, before), timeout=60, capture_output=True, text=True)
     assert done.returncode == 2
@@ -423,12 +422,10 @@ def test_workers_end_with_their_parent(tmp_path):
     gone(workers)
 
 
-def test_an_archive_of_before_a_quantity_came_says_so(line, tmp_path):
+def test_an_archive_without_one_of_the_variables_says_so(line, tmp_path):
     path = tmp_path / "line.nc"
     run(line, path, solver=stand_in.smooth, workers=1).drop_vars("s_surface").to_netcdf(path)
-    with pytest.raises(
-        ValueError, match=r"line.nc: an archive of another version .* without s_surface; move"
-    ):
+    with pytest.raises(ValueError, match=r"line.nc: s_surface: found nothing; allowed: .*; move"):
         run(line, path, solver=stand_in.smooth, workers=1)
 
 

@@ -1,5 +1,4 @@
 import io
-import json
 import os
 import re
 import subprocess
@@ -18,6 +17,7 @@ from solved import FAILED
 
 import swtstudy
 from swtstudy import Study, StudyError, run
+from swtstudy.archive.describe import failures
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.runner.engine import LOST_WORKER, WorkerError
 from swtstudy.runner.run import run_several
@@ -102,8 +102,7 @@ def test_a_point_that_kills_its_worker_is_alone_in_failing(tmp_path):
     study = Study.from_text('title = "t"\n[axes]\nfriction = [0.1, 0.2, 0.3, 0.4]')
     solver = partial(stand_in.kill_at, 0.3)
     dataset = run(study, tmp_path / "t.nc", solver=solver, workers=1, processes=True)
-    (failure,) = json.loads(dataset.status.attrs["failures"])
-    assert failure["message"] == LOST_WORKER
+    assert dataset.message.values.tolist() == ["", "", LOST_WORKER, ""]
     assert np.flatnonzero(np.isnan(dataset.s)).tolist() == [2]
 
 
@@ -113,8 +112,8 @@ def test_one_failure_is_one_point(tmp_path, solver):
     dataset = run(study, tmp_path / "t.nc", solver=partial(solver, 0.3))
     assert np.flatnonzero(dataset.status == FAILED).tolist() == [2]
     assert np.flatnonzero(np.isnan(dataset.s)).tolist() == [2]
-    (failure,) = json.loads(dataset.status.attrs["failures"])
-    assert "friction=0.3" in failure["point"]
+    ((where, _),) = failures(dataset)
+    assert where == "friction=0.3"
 
 
 def test_rooms_import_only_what_lies_before_them():

@@ -11,8 +11,6 @@ from asking import study
 from numpy.testing import assert_allclose
 
 import swtstudy
-from swtstudy.archive.netcdf import save
-from swtstudy.runner.workload import assess
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}
@@ -50,7 +48,7 @@ def test_values_that_join_a_jump_of_the_critical_point_have_none() -> None:
 
 
 @pytest.mark.slow
-def test_places_go_with_their_points_and_archives_of_before_open(tmp_path: Path) -> None:
+def test_places_go_with_their_points(tmp_path: Path) -> None:
     own = study(
         "[fixed]\ncritical_distance = 0.1\n", "phase = [1.55, 4.6915926535897932]\nnormal_amplitude = [0.3]"
     )
@@ -60,17 +58,6 @@ def test_places_go_with_their_points_and_archives_of_before_open(tmp_path: Path)
     # The mean is larger about a local maximum on the other side.
     assert_allclose(np.sign(found.volume_x), -np.sign(found.critical_x))
     assert_allclose(swtstudy.open_results(tmp_path / "a.nc").line_x, found.line_x)
-    before = found.drop_vars(["volume_x", "point_x", "line_x"])
-    before["s_volume"] = 0.5 * before.s_volume.assign_attrs(before.s_volume.attrs)
-    save(before, tmp_path / "before.nc")
-    assert_allclose(swtstudy.open_results(tmp_path / "before.nc").s_volume, 0.5 * found.s_volume)
-    # What is about critical points alone is made anew, but s is known.
-    work = assess(own, tmp_path / "before.nc")
-    assert not work.missing.any()
-    assert work.incomplete.all()
-    again = swtstudy.run(own, tmp_path / "before.nc")
-    assert_allclose(again.s_volume, found.s_volume, rtol=1e-12)
-    assert_allclose(again.volume_x, found.volume_x, rtol=1e-12)
 
 
 def test_with_units_places_are_lengths() -> None:

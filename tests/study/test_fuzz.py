@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from mutated import mutated
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.parts import PartsWriter, known_records, parts_folder, read_parts
+from swtstudy.archive.parts import known_points, parts_folder, read_parts, save_part
 from swtstudy.cli import main
 from swtstudy.solving import solve_grid
 from swtstudy.study.definition import study_from
@@ -197,7 +197,7 @@ def part_of(folder: Path) -> Path:
     run(Study.from_text(SMALL), folder / "small.nc", solver=stand_in.smooth)
     parts = parts_folder(folder / "small.nc")
     parts.mkdir()
-    PartsWriter(parts).add(known_records(folder / "small.nc"))
+    save_part(parts, known_points(folder / "small.nc"))
     (folder / "small.nc").unlink()
     (part,) = parts.glob("*.npz")
     return part

@@ -113,9 +113,9 @@ KILLED = """
 import os, signal, sys, time
 import swtstudy
 from swtstudy.solver.solve import solve_points
-from swtstudy.runner import collector
+from swtstudy.runner import job
 
-collector.PART_SECONDS = 0.0
+job.PART_SECONDS = 0.0
 left = [2]
 
 def solver(points, rtol):

@@ -103,7 +103,7 @@ def test_the_columns_of_a_loop_are_in_newtons_and_megapascals(tmp_path):
     stress = numbers["bulk_stress_amplitude"]
     p0 = physical(**RIG, tangential_amplitude=0, normal_force=150.0).peak_pressure
     np.testing.assert_allclose(stress[0], 1 / (np.pi * p0 / 2))
-    np.testing.assert_allclose(numbers["bulk_strain_share"], [1.0, -1.0])  # that of the first body
+    assert (numbers["bulk_strain_share"] == [1.0, -1.0]).all()  # that of the first body
     found = run(study, tmp_path / "loop.nc", workers=1)
     vertices = np.array([[0, -60, 10], [20, -60, 30], [20, 60, 30], [0, 60, -10]])
     alone = physical(

@@ -10,7 +10,7 @@ import stand_in
 from click.testing import CliRunner
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.parts import PartsWriter, kept_folder, known_records, parts_folder
+from swtstudy.archive.parts import kept_folder, known_points, parts_folder, save_part
 from swtstudy.cli import main
 from swtstudy.vocabulary.files import read_table, replacing, write_text
 
@@ -49,7 +49,7 @@ def test_files_of_the_users_own_in_a_folder_of_parts_stay(tmp_path: Path) -> Non
     path = computed(tmp_path)
     parts = parts_folder(path)
     parts.mkdir()
-    PartsWriter(parts).add(known_records(path))
+    save_part(parts, known_points(path))
     path.unlink()
     kept = kept_folder(path)
     kept.mkdir()

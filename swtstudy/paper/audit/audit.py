@@ -17,6 +17,7 @@ from swtstudy.paper.audit.report import audit_dataset, audited_points, open_audi
 from swtstudy.points.canonical import ROW, Definitions
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
+from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
@@ -80,8 +81,6 @@ def audit_study(
         return point is None or (dense and bool(np.isnan(point.s_dense) and np.isfinite(point.s)))
 
     missing = [key for key in keys if lacks(key)]
-    count = progress or (lambda finished: None)
-    count(len(keys) - len(missing))
 
     def dataset(some: Iterable[tuple[float, ...]]) -> xr.Dataset:
         done = [key for key in some if key in known]
@@ -91,10 +90,14 @@ def audit_study(
 
     saved = time.monotonic()
     try:
-        with start_workers(workers) as pool:
+        with start_workers(workers) as pool, Progress(len(keys), Path(path).stem) as shown:
+            told = (shown.add, *((progress,) if progress else ()))
+            for count in told:
+                count(len(keys) - len(missing))
             for key, point in zip(missing, pool.map(audit, missing), strict=True):
                 known[key] = point
-                count(1)
+                for count in told:
+                    count(1)
                 if time.monotonic() - saved > _SAVE_EVERY:
                     save(dataset(known), path)
                     saved = time.monotonic()

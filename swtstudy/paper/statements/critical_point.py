@@ -13,7 +13,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.audit.point import VERDICTS
 from swtstudy.paper.statements.statement import Finding, Statement
-from swtstudy.points.canonical import RATIO_COLUMNS, alike, points_from
+from swtstudy.points.canonical import alike, points_from
 from swtstudy.solver.margins import Margins
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES
@@ -28,9 +28,9 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
         With the dimensions of ``dataset.s``; 0 where the whole contact slides, or is lost, once a cycle.
         Where a flat face only just sticks, the radius of the face.
     """
-    rows, _ = grid_of(dataset).canonical()
+    rows, _ = grid_of(dataset).canonical(np.arange(dataset.s.size))
     radius = np.empty(len(rows))
-    for members in alike(rows, *RATIO_COLUMNS):
+    for members in alike(rows, rows["p"], rows["q"]):
         radius[members] = np.nan_to_num(Margins.of(points_from(rows[members], {})).stick_radius)
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 

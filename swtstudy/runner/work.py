@@ -1,0 +1,156 @@
+"""The work that is left for a study: the points it needs, which are known, and how long the rest takes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from swtstudy.points.canonical import Distinct, group_rows
+from swtstudy.points.chunk import Chunk, Solver, chunk_of, chunks, cut, solve_chunk
+from swtstudy.points.found import Found, look_up, matching
+from swtstudy.study.definition import Study
+from swtstudy.vocabulary.arrays import BoolArray
+from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.variables import MISSING
+from swtstudy.vocabulary.version import SOLVER_VERSION
+
+
+@dataclass
+class Work:
+    """The points that a study needs, and which of them are known.
+
+    Attributes
+    ----------
+    points
+        The distinct points of the study.
+    asked
+        What it asks of them beside s.
+    found
+        What is known of these points; a run fills in the others.
+    others
+        What is known of points, or of quantities, that the study does not have.
+    outdated, coarse
+        Number of points known only from another version of the solver, or only with less accuracy.
+    """
+
+    points: Distinct
+    asked: Request
+    found: Found
+    others: Found
+    outdated: int
+    coarse: int
+
+    @property
+    def missing(self) -> BoolArray:
+        """Of which points s is not known, shape (n,)."""
+        return np.asarray(self.found["status"] == MISSING)
+
+    @property
+    def incomplete(self) -> BoolArray:
+        """Of which points s is known, but not all that is asked, shape (n,): they are computed again."""
+        return self.found.lacking(self.asked)
+
+    @property
+    def todo(self) -> BoolArray:
+        """Which points are to be computed, shape (n,)."""
+        return np.asarray(self.missing | self.incomplete)
+
+    def chunks(self) -> Iterator[Chunk]:
+        """The chunks that are to be computed."""
+        return chunks(self.points, self.todo, self.asked)
+
+
+def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
+    """Find the work that is left of a study whose archive is at `path`; this computes no point."""
+    from swtstudy.archive.parts import known_points
+
+    points = Distinct.of(study.grid, study.asked)
+    known = known_points(path)
+    found = matching(points, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
+    there = known["status"] != MISSING
+    lost = points.rows[(found["status"] == MISSING) & bool(len(known))]
+    own = known.usable(np.inf, SOLVER_VERSION)
+    coarse = look_up(lost, known, own & ~known.usable(study.rtol, SOLVER_VERSION)) >= 0
+    outdated = look_up(lost, known, there & ~own) >= 0
+    others = not_in(points, study.asked, known)
+    return Work(points, study.asked, found, others, int(outdated.sum()), int(coarse.sum()))
+
+
+def not_in(points: Distinct, asked: Request, known: Found) -> Found:
+    """All that is known of points that are not among these, or of more quantities than are asked."""
+    if not len(known):
+        return known
+    own = Found.blank(points.rows)
+    elsewhere = look_up(known["row"], own, np.ones(len(own), bool)) < 0
+    elsewhere |= np.array([*(not {*run.quantities} <= {*asked.items} for run in known.runs), False])[
+        known["run"]
+    ]
+    others = known.take(elsewhere & (known["status"] != MISSING))
+    # A kill may have left a value in two places.
+    first, _ = group_rows(others["row"], others["run"])
+    return others.take(np.sort(first))
+
+
+#: Seconds that timing points may take, since a plan is quick, and groups of chunks that are timed.
+_BUDGET, _TIMED = 4.0, 16
+#: A loop of more vertices is timed by one with some of its own, no more than so many.
+_VERTICES = 200
+
+
+def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
+    """Computing time of what is left in seconds, and how many points have been timed to estimate it.
+
+    Chunks are timed at even distances of the list of all, which is sorted by the length of their cycles; each
+    stands for its neighbours.
+    """
+    lean, growth = _thinned(work.points)
+    todo = cut(lean, work.todo, work.asked)
+    if not todo:
+        return 0.0, 0
+    last = chunk_of(lean, todo[-1], work.asked)
+    solve_chunk(last.at(slice(1)), rtol, solver)  # imports, and compiles
+    ends = np.linspace(0, len(todo), min(_TIMED, len(todo)) + 1).astype(int)
+    begin, seconds = time.perf_counter(), 0.0
+    timed = counted = left = 0
+    # The middle one first, then its neighbours: if time is up, those that are timed stand for all.
+    order = np.argsort(np.abs(np.arange(len(ends) - 1) - (len(ends) - 1) // 2), kind="stable")
+    for number in order.tolist():
+        own = todo[ends[number] : ends[number + 1]]
+        count = sum(map(len, own))
+        spent = time.perf_counter() - begin
+        if timed and spent > _BUDGET:
+            left += count
+            continue
+        middle = chunk_of(lean, own[len(own) // 2], work.asked)
+        one = _seconds(middle.at(slice(1)), rtol, solver)
+        timed += 1
+        if len(middle) > 1 and len(middle) * one < (_BUDGET - spent) / len(order):
+            one = _seconds(middle, rtol, solver) / len(middle)
+            timed += len(middle) - 1
+        seconds += growth.get(int(middle.rows["load"][0]), 1.0) * one * count
+        counted += count
+    return seconds * (1.0 + left / counted), timed
+
+
+def _seconds(chunk: Chunk, rtol: float, solver: Solver) -> float:
+    """Time that a chunk takes."""
+    return float(solve_chunk(chunk, rtol, solver)[1]["seconds"].sum())
+
+
+def _thinned(points: Distinct) -> tuple[Distinct, Mapping[int, float]]:
+    """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
+    from swtstudy.loads.load_path import LoadPath
+
+    lean, growth = dict(points.definitions), {}
+    for code, loop in points.definitions.items():
+        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
+            thin = loop.thinned(_VERTICES)
+            lean[code] = thin
+            # As k log k: results/vertices.md.
+            many, few = (len(each.vertices) for each in (loop, thin))
+            growth[code] = many * np.log(many) / (few * np.log(few))
+    return replace(points, definitions=lean), growth
