@@ -28,7 +28,6 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from nonlocal_means import dense_means
 from overlooked import CHUNK, SCENES
-from swtstudy.solver.nonlocal_swt import nonlocal_swt
 
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
