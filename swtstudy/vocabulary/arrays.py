@@ -23,7 +23,7 @@ class Columns:
     __match_args__: ClassVar[tuple[str, ...]]
 
     def __getitem__(self, index: Any) -> Self:
-        """The rows at an index of NumPy's, repetitions allowed."""
+        """The values at an index of NumPy's, repetitions allowed."""
         return type(self)(*(_at(getattr(self, name), index) for name in self.__match_args__))
 
     def __setitem__(self, index: Any, other: Self) -> None:
