@@ -16,7 +16,7 @@ from swtstudy.solver.points import Points
 from swtstudy.solver.quantities import quantities_of
 from swtstudy.solver.solve import solve_points
 from swtstudy.vocabulary.parameters import Control
-from swtstudy.vocabulary.quantities import NAMED, NONLOCAL, columns_in, error_of, item_of
+from swtstudy.vocabulary.quantities import Request, error_of
 
 SEED = 5
 #: Values of some points at a tolerance, and their errors as far as they are known.
@@ -116,25 +116,21 @@ def in_body(points: Points, rtol: float) -> Values:
 
 def nonlocal_means(points: Points, rtol: float) -> Values:
     """Means of every eighth point over two distances, and their errors."""
-    return _quantities(points[np.arange(0, len(points), 8)], rtol, [item_of(0.05), item_of(0.2)])
+    return _quantities(points[np.arange(0, len(points), 8)], rtol, Request(distances=(0.05, 0.2)))
 
 
 def work_and_force_ratio(points: Points, rtol: float) -> Values:
     """The dissipated work and its error, and the largest force ratio."""
-    return _quantities(points, rtol, ["dissipation", "force_ratio"])
+    return _quantities(points, rtol, Request(("dissipation", "force_ratio")))
 
 
-def _quantities(points: Points, rtol: float, items: list[str]) -> Values:
-    columns = quantities_of(points, items, solve_points(points, rtol))
+def _quantities(points: Points, rtol: float, asked: Request) -> Values:
+    columns = quantities_of(points, asked, solve_points(points, rtol))
     values, errors = [], []
-    for item in items:
-        for row in [NAMED[item]] if item in NAMED else NONLOCAL.values():
-            found = [columns[name] for name in columns_in(row, row.name, item)]
-            values += found
-            if row.has_error:
-                errors += [columns[name] for name in columns_in(row, error_of(row.name), item)]
-            else:
-                errors += [np.full_like(value, np.inf) for value in found]
+    for row in asked.rows:
+        value = columns[row.name]
+        values.append(value.ravel())
+        errors.append((columns[error_of(row.name)] if row.has_error else np.full_like(value, np.inf)).ravel())
     return np.concatenate(values), np.concatenate(errors)
 
 
