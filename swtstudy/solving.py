@@ -75,7 +75,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     >>> lazy.s.chunks
     ((10, 10),)
     >>> round(float(lazy.s.max()), 3)
-    0.153
+    0.157
     """
     report = Report()
     lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]

@@ -140,8 +140,11 @@ class AtRest:
         """The largest pressure of the first profile at the depth δ0; inf at the edge of a sharp face."""
         if self.singular[0, 0]:
             return np.inf
+        n = float(self._values[0][0, 0])
+        if self._form.density is power_law and not self._table and n <= 2.0:
+            # At the centre; of a sharp tip it rises within any radius.
+            return (MEAN_LOAD if self.plane else 1.0) / np.pi * n / (n - 1.0)
         edge = self.radius(np.ones_like(self.flat_radius))[:1]
-        # Towards a sharp tip it rises within any radius.
         low, high, best = 0.0, 1.0, 0.0
         for _ in range(LOOKS):
             share = np.linspace(low, high, RADII)

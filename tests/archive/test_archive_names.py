@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 import stand_in
 from click.testing import CliRunner
-from folders import DATA
 
 from swtstudy import StudyError, run
 from swtstudy.cli import main
@@ -33,7 +32,7 @@ def test_a_name_that_no_archive_can_have_is_found_out_before(
         return  # no command is given that
     monkeypatch.chdir(tmp_path)
     Path(f"{stem}.toml").write_text(small_text)
-    Path("good.nc").write_bytes((DATA / "without_check_sums.nc").read_bytes())
+    run(small, Path("good.nc"), solver=stand_in.smooth)
     before = sorted(tmp_path.iterdir())
     for arguments in (
         ["validate", f"{stem}.toml"],

@@ -97,8 +97,8 @@ def test_what_a_reader_is_told_of_each_variable():
     assert ATTRIBUTES["status"]["flag_values"].tolist() == [0, 1, 2]
     assert "a_H = sqrt(R delta0)" in ATTRIBUTES["critical_x"]["comment"]
     assert "SWT0 = E* delta0 / R" in ATTRIBUTES["s"]["comment"]
-    # What is there with a bulk stress, with forces or with units alone.
-    assert {*ATTRIBUTES} - {*MARGINS, "stick_zone"} == {*VARIABLES}
+    # What is there with a bulk stress, with forces, with units or where points failed alone.
+    assert {*ATTRIBUTES} - {*MARGINS, "stick_zone", "message"} == {*VARIABLES}
 
 
 def test_extrema_are_values_of_s_and_places_of_the_dimension(waves):

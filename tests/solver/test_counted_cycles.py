@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 
 import numpy as np
@@ -12,10 +11,7 @@ from real import ALUMINIUM, BODIES, STUDY, plain, without
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
-from swtstudy.archive.describe import describe
-from swtstudy.archive.netcdf import save
 from swtstudy.runner.work import assess
-from swtstudy.units.life import UNCOUNTED
 
 CONTACT = {
     "young_modulus": 73.1e3,
@@ -121,26 +117,6 @@ def test_without_a_material_nothing_is_counted() -> None:
         Study.from_text('title = "t"\nquantities = ["counted"]\n')
     with pytest.raises(ValueError, match="several values at a point"):
         Study.from_text(STUDY.replace('"SWT", "cycles"', '"counted"'))
-
-
-def test_archives_of_before_say_that_they_are_uncounted_and_a_run_counts(two, tmp_path) -> None:
-    study, found = Study.from_text(TWO), two[0]
-    (words,) = [line for line in describe(found) if "strain cycles" in line]
-    assert words.endswith("several in 1 of 2 points")
-    runs = json.loads(found.attrs["runs"])
-    for run in runs:
-        run["quantities"].remove("strain_cycles")
-    before = found.drop_vars(["counted", "counted_number"]).assign_attrs(runs=json.dumps(runs))
-    for name in ("cycles", "cycles_volume", "cycles_point", "cycles_line"):
-        before[name] = before[name].copy(data=ALUMINIUM.cycles(before[f"SWT{name[6:]}"]))
-        before[name].attrs.pop("comment")
-    save(before, tmp_path / "before.nc")
-    opened = swtstudy.open_results(tmp_path / "before.nc")
-    assert opened.cycles.comment == opened.cycles_line.comment == UNCOUNTED
-    assert any("uncounted" in line for line in describe(opened))
-    again = swtstudy.run(study, tmp_path / "before.nc")
-    assert_allclose(again.cycles, found.cycles, rtol=1e-12)
-    assert_allclose(again.SWT, found.SWT, rtol=0)
 
 
 @pytest.mark.parametrize("size", [1e-12, 1e-13, 1e-14])
