@@ -147,7 +147,7 @@ class TabulatedProfile(Definition):
         return radius * found if self.plane else found
 
     def density(self, s: FloatArray) -> FloatArray:
-        """dG/ds at s, between `RADII` places by cubics."""
+        """dG/ds at s, by cubics between 4,001 places."""
         inside = np.minimum(s, self.end)
         return np.asarray(self._density(inside) * np.maximum(s / self.end, 1.0))
 
