@@ -83,12 +83,14 @@ def largest_chunk(log: Path) -> int:
 
 def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> None:
     """Kill runs of a study repeatedly, and let each of them finish at last."""
-    begin = time.perf_counter()
-    expected = run(Study.from_text(text), folder / "undisturbed.nc")
-    seconds = time.perf_counter() - begin
+    for name in ("first", "undisturbed"):  # the first one may compile
+        begin = time.perf_counter()
+        expected = run(Study.from_text(text), folder / f"{name}.nc")
+        seconds = time.perf_counter() - begin
     print(f"undisturbed run of {expected.s.size} points on {WORKERS} workers: {seconds:.1f} s")
     print(
-        f"{limit} kills, each at a random moment up to 1.5 s after the first points of a run were computed;"
+        f"{limit} kills, each at a random moment up to {0.5 * seconds:.1f} s after the first points of a run "
+        "were computed;"
     )
     print(f"in flight are {IN_FLIGHT} chunks: with a worker, on the way to one, or on the way back")
     kills = rounds = all_lost = 0
@@ -100,7 +102,7 @@ def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> N
             before, done = saved, computed(log)
             Path(f"{log}-chunks").unlink(missing_ok=True)
             whom = "a worker" if kills % 3 == 2 else "the parent"
-            if not kill_one(text, path, log, whom, dice) or path.exists():
+            if not kill_one(text, path, log, whom, dice.uniform(0, 0.5 * seconds), dice) or path.exists():
                 break  # it had finished before, but for the end of its process perhaps
             kills += 1
             saved = points_saved(parts_folder(path))
@@ -122,8 +124,8 @@ def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> N
     print(f"{limit} kills: {all_lost} points lost, {all_lost / limit:.0f} a kill, and never a saved one\n")
 
 
-def kill_one(text: str, path: Path, log: Path, whom: str, dice: random.Random) -> bool:
-    """Start a run, and kill it, or first one of its workers, at a random moment after its first block.
+def kill_one(text: str, path: Path, log: Path, whom: str, wait: float, dice: random.Random) -> bool:
+    """Start a run, and kill it, or first one of its workers, some seconds after its first chunk.
 
     Returns whether it was still there to be killed.
     """
@@ -131,7 +133,7 @@ def kill_one(text: str, path: Path, log: Path, whom: str, dice: random.Random) -
     at = computed(log)
     while computed(log) == at and process.poll() is None:
         time.sleep(0.01)
-    time.sleep(dice.uniform(0, 1.5))
+    time.sleep(wait)
     if whom == "a worker":
         workers = workers_of(process.pid)
         if workers:
