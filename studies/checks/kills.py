@@ -47,7 +47,7 @@ def child(what: str, text: str, path: str, log: str) -> None:
     cut = work.chunks
 
     def noted(*arguments: Any) -> list[Chunk]:
-        found = cut(*arguments)
+        found = list(cut(*arguments))
         with open(f"{log}-chunks", "a") as file:
             file.writelines(f"{len(chunk)}\n" for chunk in found)
         return found
