@@ -28,7 +28,7 @@ class Scene:
 
     def batch(self) -> Points:
         """As many neighbours of the point as a study solves at a time, itself first."""
-        neighbours = self.point.take(np.zeros(BATCH, dtype=int))
+        neighbours = self.point[np.zeros(BATCH, dtype=int)]
         return replace(neighbours, phase=neighbours.phase + PHASE_STEP * np.arange(BATCH))
 
     def reference(self) -> float:

@@ -21,12 +21,22 @@ def texts(notebook) -> dict[str, str]:
     }
 
 
+BAR = "application/vnd.jupyter.widget-view+json"
+
+
 def printed(notebook) -> list[tuple[str, list[str]]]:
-    """What every cell prints, in however many pieces it came, and shows as text: of a picture its size."""
+    """What every cell prints, in however many pieces it came, and shows as text: of a picture its size.
+
+    Bars of progress, which are widgets, are left out.
+    """
     return [
         (
             "".join(output.get("text", "") for output in cell.outputs),
-            [output["data"].get("text/plain", "") for output in cell.outputs if "data" in output],
+            [
+                output["data"].get("text/plain", "")
+                for output in cell.outputs
+                if "data" in output and BAR not in output["data"]
+            ],
         )
         for cell in notebook.cells
         if cell.cell_type == "code"
