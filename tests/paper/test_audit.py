@@ -310,3 +310,13 @@ def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_p
     save(open_audit(path).assign_attrs(solver_version="1"), path)
     audit_study(study, path, points=1, seed=2, workers=1)
     assert open_audit(path).sizes["sample"] == 1
+
+
+def test_an_audit_of_before_stick_zones_moved_is_not_computed_again(tmp_path, monkeypatch):
+    monkeypatch.setattr("swtstudy.paper.audit.point.audit_point", made_up_audit_point)
+    study, path, counted = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc", []
+    first = audit_study(study, path, points=5, workers=1)
+    save(open_audit(path).drop_vars("bulk_strain_share"), path)
+    again = audit_study(study, path, points=5, workers=1, progress=counted.append)
+    assert counted == [5]
+    assert audited_points(again).keys() == audited_points(first).keys()

@@ -26,7 +26,7 @@ from swtstudy.points.canonical import (
 )
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS, STRAIN_SHARE
 
 _LENGTH = "in units of a_H = sqrt(R delta0)"
 _MEANINGS = {
@@ -117,7 +117,8 @@ def canonical_rows(dataset: xr.Dataset) -> Table:
     known = defined_in(dataset.attrs)
     rows = np.zeros(dataset.sizes["sample"], ROW)
     for name in COLUMNS:
-        # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria.
+        # What an older audit lacks is what it did not have: forces, loops, bulk stresses, other criteria, a
+        # stick zone that moves, for which a strain share of 0 stands.
         if name in dataset.coords:
             values = dataset[name].values
             own = known.get(name, {})
@@ -125,7 +126,12 @@ def canonical_rows(dataset: xr.Dataset) -> Table:
             rows[name] = [code_of(own.get(value, value), name) for value in values] if codes else values
             if name == "load":
                 rows[COST] = [own[value].cost if value in own else 0 for value in values]
-        elif name in PARAMETERS and PARAMETERS[name].kind == "number" and PARAMETERS[name].optional:
+        elif (
+            name != STRAIN_SHARE
+            and name in PARAMETERS
+            and PARAMETERS[name].kind == "number"
+            and PARAMETERS[name].optional
+        ):
             rows[name] = PARAMETERS[name].default
     return rows
 
