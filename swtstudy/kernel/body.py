@@ -126,7 +126,7 @@ def sample_ends(S, B, H, C, P, L, k, nu, mu):
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
     near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
-    z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
+    z = add_part(H, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
     m, mirrored = H.instants, L.mirrored
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
         m -= 1
@@ -164,7 +164,7 @@ def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
             sample_ends(S, B, H, C, P, L, k, nu, mu)
             continue
         before = H.parts
-        split(H, C, R, P, K, L, k, nu, mu)
+        split(H, C, P, K, L, k, nu, mu)
         for part in range(before, H.parts):
             sample_part(S, B, H, part, coarsest, C, P, L, nu, mu, FOR_BOTH)
     if L.mirrored:
@@ -200,7 +200,7 @@ def refine_part(S, B, H, z, C, P, L, nu, mu):
     k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
     t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
     edge, front = places_at(C, P, L, k, t, H.weight)
-    y = add_part(H, C, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
+    y = add_part(H, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
     H.mirror[y] = H.mirror[z]
     H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
     H.places[z, 1, 0], H.places[z, 1, 1] = edge, front

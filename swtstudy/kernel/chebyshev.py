@@ -119,7 +119,7 @@ def vertex(y0, y1, y2, f0, f1, f2):
 
 @jit
 def vertex_at_end(values, intervals, end):
-    """Place and height of the maximum of a parabola from end 0 or `intervals` on; the end where it falls.
+    """Place of the maximum of a parabola from end 0 or `intervals` on; the end where it falls.
 
     The parabola has the series' value and slope at the end, and its value at the point beside it.
     """
@@ -132,14 +132,14 @@ def vertex_at_end(values, intervals, end):
         share = 1.0 if i == intervals else 2.0
         inwards += sign * share * (f - values[j]) / abs(LOBATTO[j * step] - y)
     if inwards <= 0.0:
-        return y, f
+        return y
     beside = 1 if end == 0 else intervals - 1
     width = LOBATTO[beside * step] - y
     drop = f - values[beside] + inwards * abs(width)  # bend times width² is minus that
     if drop <= 0.0:
-        return y, f
+        return y
     share = 0.5 * inwards * abs(width) / drop
-    return y + min(share, 1.0) * width, f + 0.5 * share * inwards * abs(width)
+    return y + min(share, 1.0) * width
 
 
 @jit
@@ -152,7 +152,7 @@ def peak(values, intervals, node, weight, tolerance):
     step = FINEST // intervals
     best_y, best = LOBATTO[node * step], values[node]
     if node == 0 or node == intervals:
-        y = vertex_at_end(values, intervals, node)[0]
+        y = vertex_at_end(values, intervals, node)
         if y == best_y:
             return best_y, best
         beside = LOBATTO[(1 if node == 0 else intervals - 1) * step]

@@ -98,7 +98,7 @@ def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
         if H.parts + 7 >= H.first.shape[0]:
             C.overflow = 1
             return
-        split(H, C, R, P, K, L, k, nu, mu)
+        split(H, C, P, K, L, k, nu, mu)
 
 
 @jit

@@ -251,7 +251,7 @@ def refine(H, z, C, P, L, K, nu, mu):
     k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
     t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
     edge, front = places_at(C, P, L, k, t, H.weight)
-    y = add_part(H, C, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
+    y = add_part(H, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
     H.mirror[y] = H.mirror[z]
     H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
     H.places[z, 1, 0], H.places[z, 1, 1] = edge, front
@@ -289,7 +289,7 @@ def sample_ends(H, C, P, L, K, k, nu, mu):
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
     near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
-    z = add_part(H, C, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
+    z = add_part(H, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
     m = H.instants
     if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
         m -= 1
@@ -309,7 +309,7 @@ def approaches(G, at_begin, at_end):
 
 
 @jit
-def add_part(H, C, k, begin, end, edge_begin, edge_end, front_begin, front_end, cusps):
+def add_part(H, k, begin, end, edge_begin, edge_end, front_begin, front_end, cusps):
     """A new part of stretch k, not yet sampled; returns its index."""
     z = H.parts
     H.parts += 1
@@ -321,7 +321,7 @@ def add_part(H, C, k, begin, end, edge_begin, edge_end, front_begin, front_end, 
 
 
 @jit
-def split_towards_face(H, C, R, P, K, L, k, nu, mu):
+def split_towards_face(H, C, P, K, L, k, nu, mu):
     """Append the parts of stretch k whose front goes to the singular edge of the face, next to which x is.
 
     The stress goes like the logarithm of the front's place, and the front passes x within rounding of the
@@ -335,9 +335,9 @@ def split_towards_face(H, C, R, P, K, L, k, nu, mu):
         e, f = solved_places(C, P, L, k, stop)
         if f <= 16.0 * H.X or f >= front:
             break
-        add_part(H, C, k, t, stop, edge, e, front, f, cusps)
+        add_part(H, k, t, stop, edge, e, front, f, cusps)
         t, edge, front, cusps = stop, e, f, 0
-    z = add_part(H, C, k, t, end, edge, C.place[k, FINEST, 0], front, H.X, MONOTONE)
+    z = add_part(H, k, t, end, edge, C.place[k, FINEST, 0], front, H.X, MONOTONE)
     m = H.instants
     stress(H, m, C, P, K, k, edge, front, nu, mu)
     stress(H, m + 1, C, P, K, k, C.place[k, FINEST, 0], H.X, nu, mu)
@@ -346,14 +346,14 @@ def split_towards_face(H, C, R, P, K, L, k, nu, mu):
 
 
 @jit
-def split(H, C, R, P, K, L, k, nu, mu):
+def split(H, C, P, K, L, k, nu, mu):
     """Append the parts of stretch k: it is cut where its edge and its front pass x."""
     begin, end = C.time[k, 0], C.time[k, 1]
     push, i, G = C.push[k], C.piece[k], H.G
     edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
     edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
     if push == OPEN:
-        add_part(H, C, k, begin, end, edge, edge_end, front, front_end, 0)
+        add_part(H, k, begin, end, edge, edge_end, front, front_end, 0)
         return
     if (
         P.singular
@@ -363,7 +363,7 @@ def split(H, C, R, P, K, L, k, nu, mu):
         and H.all_outside == 0
         and NEXT_TO_FACE * front > H.X
     ):
-        split_towards_face(H, C, R, P, K, L, k, nu, mu)
+        split_towards_face(H, C, P, K, L, k, nu, mu)
         return
     at_edge, at_front, near = end, end, approaches(G, C.edge[k, 0], C.edge[k, 1])
     if (C.edge[k, 0] - G) * (C.edge[k, 1] - G) < 0.0:
@@ -404,7 +404,7 @@ def split(H, C, R, P, K, L, k, nu, mu):
                 e = H.X
             if stop == at_front or (stop == at_edge and push == STICK):
                 f = H.front_X
-        add_part(H, C, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
+        add_part(H, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
         t, edge, front, cusps = stop, e, f, 1
 
 
@@ -442,7 +442,7 @@ def sample_cycle(H, C, R, P, K, L, place, largest, nu, mu, side):
             sample_ends(H, C, P, L, K, k, nu, mu)
             continue
         before = H.parts
-        split(H, C, R, P, K, L, k, nu, mu)
+        split(H, C, P, K, L, k, nu, mu)
         for z in range(before, H.parts):
             if H.intervals[z] == 0:
                 sample(H, z, COARSEST, C, P, L, K, nu, mu)

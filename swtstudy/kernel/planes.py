@@ -147,7 +147,7 @@ def find_peaks(H, W, Q, C, S):
 def rise_beside(H, W, Q, z, which, C, S):
     """Bound of the rise of a curve within part z above its largest instant, from those beside it."""
     i, first, last = W.highest[z, which], H.first[z], H.first[z] + H.intervals[z]
-    f = curve_at(W, Q, i, which, C, S)
+    f = W.height[z, which]
     if first < i < last:
         before, after = curve_at(W, Q, i - 1, which, C, S), curve_at(W, Q, i + 1, which, C, S)
         return 0.5 * (f - before + f - after)

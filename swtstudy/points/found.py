@@ -114,16 +114,20 @@ class Found:
         more = [(0, most - size) for most, size in zip(tail, own.shape[1:], strict=True)]
         return np.pad(own, [(0, 0), *more], constant_values=np.nan)
 
+    def of_runs(self, values: Iterable[Any], without: Any) -> NDArray[Any]:
+        """A value of each run at every point of it, and what stands where there is no run; shape (n,)."""
+        return np.array([*values, without])[self["run"]]
+
     def usable(self, rtol: float, solver_version: str, retry_failed: bool = False) -> BoolArray:
         """Which values can be used for a study with this accuracy and solver, shape (n,)."""
-        good = [run.rtol <= rtol and run.solver_version == solver_version for run in self.runs]
+        good = (run.rtol <= rtol and run.solver_version == solver_version for run in self.runs)
         worst = COMPUTED if retry_failed else FAILED
-        return np.array([*good, False])[self["run"]] & (self["status"] <= worst)
+        return self.of_runs(good, False) & (self["status"] <= worst)
 
     def lacking(self, asked: Request) -> BoolArray:
         """Which computed points do not have all quantities that are asked, shape (n,)."""
-        lacks = np.array([*({*asked.items} > {*run.quantities} & {*asked.items} for run in self.runs), False])
-        lacks = lacks[self["run"]]
+        less = ({*asked.items} > {*run.quantities} & {*asked.items} for run in self.runs)
+        lacks = self.of_runs(less, False)
         if asked.distances:
             lacks |= np.isnan(self.arrays["distance"]).any(axis=1) if "distance" in self.arrays else True
         return lacks & (self["status"] == COMPUTED)
@@ -154,9 +158,8 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
     index = np.flatnonzero(candidates)
     if not len(index) or not len(rows):
         return np.full(len(rows), -1)
-    runs = found["run"][index]
-    tolerance = np.array([*(run.rtol for run in found.runs), np.inf])[runs]
-    count = np.array([*(len(run.quantities) for run in found.runs), 0])[runs]
+    tolerance = found.of_runs((run.rtol for run in found.runs), np.inf)[index]
+    count = found.of_runs((len(run.quantities) for run in found.runs), 0)[index]
     index = index[np.lexsort((-index, tolerance, -count, found["status"][index]))]
     # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
     first, group = group_rows(np.concatenate([found["row"][index], rows]))

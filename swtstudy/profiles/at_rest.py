@@ -148,7 +148,7 @@ class AtRest:
         low, high, best = 0.0, 1.0, 0.0
         for _ in range(LOOKS):
             share = np.linspace(low, high, RADII)
-            r = edge * np.maximum(np.sin(0.5 * np.pi * share), 1e-100)
+            r = edge * np.sin(0.5 * np.pi * share)
             found = self.pressure(r, edge)[0]
             k = int(found.argmax())
             best, step = max(best, float(found[k])), share[1] - share[0]

@@ -86,9 +86,7 @@ def not_in(points: Distinct, asked: Request, known: Found) -> Found:
         return known
     own = Found.blank(points.rows)
     elsewhere = look_up(known["row"], own, np.ones(len(own), bool)) < 0
-    elsewhere |= np.array([*(not {*run.quantities} <= {*asked.items} for run in known.runs), False])[
-        known["run"]
-    ]
+    elsewhere |= known.of_runs((not {*run.quantities} <= {*asked.items} for run in known.runs), False)
     others = known.take(elsewhere & (known["status"] != MISSING))
     # A kill may have left a value in two places.
     first, _ = group_rows(others["row"], others["run"])
