@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import read_runs
+from swtstudy.archive.outcome import outcome
 from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
@@ -38,6 +39,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     Those of `swtstudy.solve` have neither study nor versions.
     """
     yield str(dataset.attrs.get("title", "Results"))
+    for line in outcome(dataset):
+        yield f"  {line}"
     for label, words in facts(dataset):
         yield f"{f'  {label}':<{INDENT}}{words}"
 
