@@ -41,7 +41,7 @@ def outcome(dataset: xr.Dataset) -> Iterator[str]:
     s = 0.08612 (friction = 0.2; x/a_H = −1.32) to 0.2443 (friction = 0.4; x/a_H = −1.32).
     """
     found = [_values(dataset, name) for name in measures(dataset)] or [*_of_criteria(dataset)]
-    yield f"{'; '.join([*found, *_lives(dataset)])}.".replace("= -", "= −")
+    yield f"{'; '.join([*found, *life_words(dataset)])}.".replace("= -", "= −")
     if words := outside_words(dataset):
         yield words
 
@@ -85,7 +85,7 @@ def _position(dataset: xr.Dataset, flat: int) -> str:
     return f"{symbol} = {number_words(x, 3)}{unit}" if math.isfinite(x) else ""
 
 
-def _lives(dataset: xr.Dataset) -> Iterator[str]:
+def life_words(dataset: xr.Dataset) -> Iterator[str]:
     """The life by each criterion that has one, at the worst point and as a mean over critical distances."""
     if not has_units(dataset):
         return
@@ -111,9 +111,13 @@ def asked_means(dataset: xr.Dataset, life: str) -> list[str]:
         Name of the life at the worst point, which those begin with.
     """
     means = [name for name in LIVES if name in dataset and name.startswith(f"{life}_")]
+    return [y for y in shown_in(dataset) if y in means] or [n for n in means if n == f"{life}_volume"]
+
+
+def shown_in(dataset: xr.Dataset) -> list[str]:
+    """Data variables that the figure of the study shows; none without a figure."""
     text: Any = dataset.attrs.get("figure")
-    shown = [y for y in FigureLayout.from_json(text).y if y in means] if text else []
-    return shown or [name for name in means if name == f"{life}_volume"]
+    return [y for y in FigureLayout.from_json(text).y if y in dataset.data_vars] if text else []
 
 
 def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:

@@ -107,7 +107,7 @@ LIMITS = (
         0.1,
         "shift of the stick zone by bulk strain too large to be left out",
         "shift over the width of the slip zone",
-        "bulk strain",
+        "stick-zone shift",
         "of the slip zone",
         f"s is too low at the edge in tension, it should be up to {_MISSING} higher for Q ≥ 0.2 μP",
     ),

@@ -127,6 +127,7 @@ class FigureTable(Table):
     title: Text = _key("Title over the figure.", None)
     regimes: Flag = _key("Whether to mark where a regime of the contact begins along a line.", False)
     caption: Text = _key("What there is to say beneath the figure, in reports.", None)
+    message: Text = _key("Headline of reports, instead of what the results say first.", None)
     validity: Flag = _key(
         "Whether to mark points outside of what the model holds for, such as beyond first yield.", False
     )
