@@ -101,6 +101,7 @@ class FigureTable(Table):
     title: Text = key("Title over the figure.", None)
     regimes: Flag = key("Whether to mark where a regime of the contact begins along a line.", False)
     caption: Text = key("What there is to say beneath the figure, in reports.", None)
+    message: Text = key("Headline of reports, instead of what the results say first.", None)
     validity: Flag = key(
         "Whether to mark points outside of what the model holds for, such as beyond first yield.", False
     )
