@@ -85,9 +85,10 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     """Fit the critical distance, and friction, to the lives of TESTS.
 
     STUDY is a study file with units and the constants of the material: what all tests have in common. TESTS
-    is a CSV file with a row for each test: parameters, in the units of the study, and life, the rounds to a
-    crack. Least squares of the logarithms of predicted over observed lives. Writes the fit as netCDF and the
-    figure of predicted over observed lives: NAME_fit.
+    is a CSV file with a row for each test: parameters, in the units of the study, and life, the load cycles
+    to a crack; of a run-out the cycles that it survived, as >1e7 or with 1 in a column runout. Maximum
+    likelihood of the logarithms of the lives. Writes the fit as netCDF and the figure of predicted over
+    observed lives: NAME_fit.
     """
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.evaluated import draw_fit, fit_lines

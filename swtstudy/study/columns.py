@@ -441,13 +441,20 @@ def _doubt(
 
 
 def _units(below: list[tuple[int, list[str]]], columns: list[int], form: FileTable) -> list[str]:
-    """The row beneath the header if it is one of units: no number in any column, and numbers beneath."""
+    """The row beneath the header if it is one of units: it has no number, and numbers are beneath."""
     if not below or form.units_row is False:
         return []
-    rows = [[cells[k] if k < len(cells) else "" for k in columns] for _, cells in below]
-    numbers = [[any(math.isfinite(number(cell, sign)) for sign in ".,") for cell in row] for row in rows]
-    is_one = any(rows[0]) and not any(numbers[0]) and len(rows) > 1 and all(numbers[1])
-    return below[0][1] if form.units_row or is_one else []
+    (_, first), *others = below
+    needed = [[cells[k] for k in columns if k < len(cells)] for _, cells in below]
+    if form.units_row or (
+        others and any(needed[0]) and all(map(_is_number, needed[1])) and not any(map(_is_number, first))
+    ):
+        return first
+    return []
+
+
+def _is_number(cell: str) -> bool:
+    return any(math.isfinite(number(cell, sign)) for sign in ".,")
 
 
 def _cells(
