@@ -52,6 +52,8 @@ LEAST_USED = 0.7
 INNERMOST, LEAST = 0.1, 5
 #: Share of the largest rise up to which heights are 0, and of the largest radius up to which a face is none.
 ROUND, LEAST_FACE = 1e-5, 0.05
+#: Share of the radii up to which a trace is smoothed to one contact area: contacts are smaller as a rule.
+COMPACT = 0.5
 #: Share of its largest rise that a trace has at both of its ends.
 LEAST_RISE = 0.02
 
@@ -137,8 +139,16 @@ def _profile(
         raise StudyError([Mistake("", found, allowed, str(own))])
     for line in _doubts(position, fold):
         warnings.warn(f"{name}: {line}", stacklevel=2)
-    smoothing = fold.noise if smoothing is None else smoothing
-    return TabulatedProfile(name, fold.radius, fold.height, smoothing, geometry)
+    given = fold.noise if smoothing is None else smoothing
+    profile = TabulatedProfile(name, fold.radius, fold.height, given, geometry)
+    compact = COMPACT * fold.radius[-1]
+    if smoothing is not None or profile.compact_radius >= compact:
+        return profile
+    if (least := profile.least_smoothing(compact)) is None:
+        return profile
+    found = f"smoothing = {least:.3g}, {least / given:.2g} times the r.m.s. difference of both sides"
+    warnings.warn(f"{name}: {found}: with less it touches in several places", stacklevel=2)
+    return TabulatedProfile(name, fold.radius, fold.height, least, geometry)
 
 
 def _one_sided(position: FloatArray, height: FloatArray) -> bool:
