@@ -15,7 +15,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.study.columns import FileTable, UserTable, read_table
 from swtstudy.study.contacts import read_given
 from swtstudy.study.definition import tables_of
-from swtstudy.study.keys import read_keys, with_keys
+from swtstudy.study.keys import sound_keys, with_keys
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ShearConstants
@@ -59,9 +59,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     StudyError
         A ValueError with what is wrong, and where in the file.
     """
-    given, mistakes = read_keys(FileTable, {name: each for name, each in form.items() if each is not None})
-    if given is None:
-        raise StudyError(mistakes)
+    given = sound_keys(FileTable, form)
     if order not in (None, *ORDERS):
         raise StudyError([Mistake("order", literal(order), nearest(str(order), ORDERS, {}))])
     table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)

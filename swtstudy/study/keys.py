@@ -9,7 +9,7 @@ from typing import Any, ClassVar, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from swtstudy.vocabulary.mistakes import Mistake, literal, nearest, plain
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain
 from swtstudy.vocabulary.naming import Function, with_arguments
 
 
@@ -54,6 +54,14 @@ def read_keys(
     except ValidationError as error:
         found = {_mistake(model, detail, source) for detail in error.errors(include_url=False)}
         return None, sorted(found, key=lambda mistake: mistake.key)
+
+
+def sound_keys(model: type[AnyTable], given: Mapping[str, Any]) -> AnyTable:
+    """The table with the keys that are not None; a StudyError with every mistake in them."""
+    found, mistakes = read_keys(model, {name: value for name, value in given.items() if value is not None})
+    if found is None:
+        raise StudyError(mistakes)
+    return found
 
 
 def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:

@@ -17,6 +17,7 @@ from swtstudy.study.design import DESIGNS, DesignName
 from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, Kind
 from swtstudy.study.keys import Allowed, Table, key, read_keys
 from swtstudy.study.signal import SignalTable
+from swtstudy.study.trace import TraceTable
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL, Mistake
 
 AxisName = Annotated[str, Allowed("the name of an axis")]
@@ -153,7 +154,7 @@ class BlockTable(Table):
     )
 
 
-class ProfileTable(FileTable):
+class ProfileTable(TraceTable):
     """A profile as a table: its radii and heights, or the file that has them."""
 
     allowed = "a table with radius and height, or file"
@@ -163,15 +164,8 @@ class ProfileTable(FileTable):
     file: File = key(
         "Path of a CSV file, relative to the study, with a header and the columns radius and height.", None
     )
-    smoothing: Any = key("Root mean square of what the fit may miss of the heights; 0 to miss none.", None)
-    geometry: Any = key(
-        '"axisymmetric", or "plane" for a long body: its radii are then half-widths.', "axisymmetric"
-    )
     two_sided: Flag = key(
         "Whether the file is a trace across the body, with the columns position and height.", False
-    )
-    level: Flag = key(
-        "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.", True
     )
 
 
