@@ -127,6 +127,8 @@ class UserTable:
             found = literal(text) if text else "nothing"
             if not text:
                 allowed += "; with the header of the time, time = ..., such rows are left out"
+            elif "," in text and self.form.decimal == ".":
+                allowed += "; a comma in numbers is decimal = ','"
             elif wrong[0] == 0:
                 allowed += "; lines above the header are skip_rows, a row of units is units_row = true"
             place = f"line {self.cells.index[wrong[0]]}, {self.form.header(name)}"
@@ -220,7 +222,7 @@ def read_columns(
 def _check_unit(table: UserTable, name: str, kind: str, labels: Mapping[str, Any]) -> None:
     """Refuse a column in another unit than the study's, unless it is scaled."""
     unit = table.unit(name, kind) if kind and name not in table.form.scale else None
-    factor = KNOWN[kind][unit] / KNOWN[kind].get(labels.get(kind, ""), math.nan) if unit else 1.0
+    factor = KNOWN[kind][unit] / KNOWN[kind].get(str(labels.get(kind)), math.nan) if unit else 1.0
     if factor != 1.0 and math.isfinite(factor):
         header, label = literal(table.form.header(name)), labels[kind]
         found = f"{header} in {unit} as {name}, while [units] has {kind} in {label}"

@@ -208,7 +208,13 @@ def _check_given(
         report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     mean = mean_of_loads(everything, measured)
     if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        report.of(MEAN_LOADS, *wrong)
+        loads = [load for load in measured if isinstance(load, Loop) and load.is_absolute]
+        hint = (
+            f"; or absolute = true under [loads.{loads[0]}], whose normal column is far from 0"
+            if loads
+            else ""
+        )
+        report.of(MEAN_LOADS, wrong[0], wrong[1] + hint)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
