@@ -4,7 +4,8 @@ from math import nan, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.circle import at_singular_edge, needs_circle
+from swtstudy.kernel import NEAREST
+from swtstudy.kernel.circle import beside_singular_edge, needs_circle
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
@@ -22,12 +23,12 @@ from swtstudy.vocabulary.choices import REGIMES
 FINEST_GROWTH = 1e-11
 #: Places of slip fronts are rounded to some 4e-14, and those of a moving edge to some 4e-16. Shear tractions,
 #: over μ, and pressures follow their roots.
-OF_FRONT, OF_EDGE = 2e-7, 2e-8
-#: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
-NEAREST = 1e-9
+OF_FRONT, OF_EDGE = 4e-7, 4e-8
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
 #: there is no continuum that small.
 TEARS = 0.995
+#: Nearer to the singular edge of a face than this share of it the circle may be higher at any ν.
+BESIDE_EDGE = 1e-3
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
 SAME = 1e-7
 #: The regimes by number.
@@ -175,7 +176,9 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
-    out.s_surface = nan if at_singular_edge(P, out.critical_x) else out.s
+    if beside_singular_edge(P, out.critical_x, BESIDE_EDGE):
+        out.circle = not P.plane
+    out.s_surface = nan if beside_singular_edge(P, out.critical_x, NEAREST) else out.s
 
 
 @jit

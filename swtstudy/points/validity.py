@@ -106,7 +106,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     if not dataset.s.size:
         return ()
     lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
-    lines += _unknown_shift(dataset)
+    lines += [*_unknown_shift(dataset), *_at_face_edge(dataset)]
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -170,6 +170,15 @@ def _unknown_shift(dataset: xr.Dataset) -> Iterator[str]:
         if lost.any():
             words = "known of the paraboloid and the cylinder alone"
             yield f"shift of the stick zone by bulk strain unknown{_where(lost)}: {words}"
+
+
+def _at_face_edge(dataset: xr.Dataset) -> Iterator[str]:
+    """Say where the circle through the critical point is the singular edge of a face."""
+    if "s_surface" in dataset:
+        out = np.isfinite(dataset.s.values) & np.isnan(dataset.s_surface.values)
+        if out.any():
+            words = "off the line y = 0 swt may have no bound there"
+            yield f"critical point at the singular edge of the face{_where(out)}: {words}"
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
