@@ -186,8 +186,8 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
     )
     assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
     own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style", "width"}
-    # A caption is the study's.
-    assert own == {field.name for field in dataclasses.fields(FigureLayout)} - {"caption"}
+    # A caption and a message are the study's.
+    assert own == {field.name for field in dataclasses.fields(FigureLayout)} - {"caption", "message"}
 
 
 def test_results_of_solve():

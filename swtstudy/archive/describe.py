@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_runs
+from swtstudy.archive.attributes import defined_in, read_runs
+from swtstudy.archive.outcome import outcome
 from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
@@ -19,7 +21,7 @@ from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS
+from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
 from swtstudy.vocabulary.wording import listed, number_words, numbers_words, unit_words, value_words
@@ -28,6 +30,12 @@ from swtstudy.vocabulary.wording import listed, number_words, numbers_words, uni
 _LISTED = 8
 #: Letters to the left of the words of a line.
 INDENT = 17
+#: What scales the columns of a loop: one of these each.
+_COLUMNS = (
+    ("normal_force_amplitude", "normal_amplitude"),
+    ("tangential_force_amplitude", "tangential_amplitude"),
+    ("bulk_stress_amplitude",),
+)
 #: Of an error that is rtol of s.
 _ROUNDING = 1e-9
 
@@ -38,6 +46,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     Those of `swtstudy.solve` have neither study nor versions.
     """
     yield str(dataset.attrs.get("title", "Results"))
+    for line in outcome(dataset):
+        yield f"  {line}"
     for label, words in facts(dataset):
         yield f"{f'  {label}':<{INDENT}}{words}"
 
@@ -82,8 +92,10 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ").replace("_", " ")
             words = names or _axis_words(name, dataset[name].values)
             yield "axis", f"{name}: {words}{_unit(dataset[name])}"
+    for load, words in recorded_loads(dataset):
+        yield "load", f"{load}: {words}"
     for name in (*PARAMETERS, *CONTACT_AXES):
-        if name not in dataset.coords or name in dataset.dims:
+        if name not in dataset.coords or name in dataset.dims or name in unsaid(dataset):
             continue
         values, unit = dataset[name].values, _unit(dataset[name])
         if not values.ndim:
@@ -92,6 +104,46 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "of each body", f"{name}: {_axis_words(name, values)}{unit}"
         else:
             yield "sampled", f"{name}: {_range_words(name, values)}{unit}"
+
+
+def unsaid(dataset: xr.Dataset) -> set[str]:
+    """Names of coordinates without a meaning: of loops the phase, of recorded loads the factors of 1."""
+    loads = _loops(dataset)
+    if not loads:
+        return set()
+    factors = {
+        name
+        for name in map(str, dataset.coords)
+        if name.endswith("_amplitude") and np.all(dataset[name].values == LOOP_AMPLITUDE)
+    }
+    recorded = all(each.mean_normal is not None for each in loads)
+    return {"frequency_ratio", "phase"} | (factors if recorded else set())
+
+
+def _loops(dataset: xr.Dataset) -> list[Any]:
+    """The loads of results if all of them are loops, else none."""
+    known = defined_in(dataset.attrs).get("load", {})
+    names = np.atleast_1d(dataset["load"].values).tolist() if "load" in dataset.coords else []
+    return [known[name] for name in names] if {*names} <= {*known} else []
+
+
+def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
+    """Names of loads that were recorded, each with the ranges that its columns have in a cycle."""
+    for load in _loops(dataset) if has_units(dataset) else ():
+        if load.mean_normal is None:
+            continue
+        said = []
+        for symbol, column, place in zip(("F_N", "F_x", "σ_B"), load.course().T, _COLUMNS, strict=False):
+            name = next((each for each in place if each in dataset.coords), None)
+            if name is None or dataset[name].ndim:
+                continue
+            mean = load.mean_normal if symbol == "F_N" else float(dataset.get("bulk_stress_mean", 0.0))
+            mean = 0.0 if symbol == "F_x" else mean
+            symbol = {"normal_amplitude": "δ", "tangential_amplitude": "u"}.get(name, symbol)
+            ends = mean + float(dataset[name]) * np.array([column.min(), column.max()])
+            low, high = (number_words(end).replace("-", "−") for end in ends)
+            said.append(f"{symbol} {low} to {high}{_unit(dataset[name])}")
+        yield str(load), ", ".join(said)
 
 
 def _quantities(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -171,10 +223,12 @@ def _stresses(values: tuple[float, ...], units: Units) -> str:
 
 def _counted_words(dataset: xr.Dataset) -> str:
     if is_uncounted(dataset, "cycles"):
-        return "uncounted: in rounds, as if each had one strain cycle"
+        return "uncounted: in load cycles, as if each had one strain cycle"
     several = (dataset.counted_number.sum("counted_cycle") > 1.0).any("counted_place")
     lacking = dataset.counted.isnull().all(["counted_place", "counted_cycle"]) & (dataset.s > 0.0)
-    words = f"in rounds, of counted strain cycles: several in {int(several.sum())} of {several.size} points"
+    words = (
+        f"in load cycles, of counted strain cycles: several in {int(several.sum())} of {several.size} points"
+    )
     return words + f"; uncounted in {int(lacking.sum())}" * bool(lacking.any())
 
 

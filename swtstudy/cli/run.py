@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from swtstudy.cli.options import examples, study_completion, with_width, with_workers
+from swtstudy.cli.terminal import line_length, wrapped
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -170,14 +171,14 @@ def _written(target: Path) -> int | None:
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
     from swtstudy.archive.describe import failures, relative_errors
-    from swtstudy.points.validity import validity_lines
+    from swtstudy.archive.outcome import outcome
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
-    for line in validity_lines(dataset):
-        click.echo(f"validity: {line}", err=True)
+    for line in outcome(dataset):
+        click.echo(wrapped(line, line_length(), 2))
     failed = [*failures(dataset)]
     for where, why in failed[:_NAMED]:
         click.echo(f"failed: {where}: {why}", err=True)

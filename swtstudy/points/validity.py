@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -19,6 +19,7 @@ from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
+_KNOWN = " to ".join(numbers_words(KNOWN_LIVES, 3))
 #: Positions nearer to a sharp tip than this, in a_H, are the innermost ones, or next to them.
 BESIDE_TIP = 10.0 * INNERMOST
 #: By how much s of a cylinder and, approximately, of a sphere is too low with the stick zone in place, by
@@ -45,8 +46,8 @@ class Limit:
         What is beyond it.
     value
         What the variable is, in words.
-    short
-        What the limit is, in a word or two.
+    short, of
+        What the limit is, and what the variable is a share of, in a word or two.
     consequence
         On which side of the truth s is beyond it, and by how much; nothing if that is not known.
     """
@@ -56,7 +57,23 @@ class Limit:
     words: str
     value: str
     short: str
+    of: str
     consequence: str = ""
+
+
+class Excess(NamedTuple):
+    """One way in which points are outside of the model.
+
+    Attributes
+    ----------
+    short
+        A few words with the number of points and the worst value; empty where another one says it.
+    line
+        The same in a line, with the point that is worst.
+    """
+
+    short: str
+    line: str
 
 
 _MISSING = ", ".join(f"{100 * max(both):.0f} % at {ratio:g}" for ratio, both in BULK_SHIFT_ERRORS.items())
@@ -67,21 +84,31 @@ LIMITS = (
         "beyond first yield",
         "largest von Mises stress over the yield strength",
         "first yield",
+        "of the strength",
     ),
-    Limit("radius_ratio", 0.1, "contact too large for half-spaces", "contact radius over R", "half-spaces"),
+    Limit(
+        "radius_ratio",
+        0.1,
+        "contact too large for half-spaces",
+        "contact radius over R",
+        "half-spaces",
+        "of R",
+    ),
     Limit(
         "slide_ratio",
         0.1,
         "slide too long for a contact that stays in place",
         "slide over contact radius",
         "slide",
+        "of the contact radius",
     ),
     Limit(
         "bulk_shift_ratio",
         0.1,
         "shift of the stick zone by bulk strain too large to be left out",
         "shift over the width of the slip zone",
-        "bulk strain",
+        "stick-zone shift",
+        "of the slip zone",
         f"s is too low at the edge in tension, it should be up to {_MISSING} higher for Q ≥ 0.2 μP",
     ),
 )
@@ -102,11 +129,31 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     StudyError
         A ValueError, if the results have been left without s or regime.
     """
+    excesses, within = _found(dataset)
+    return (*(each.line for each in excesses), *(within if inside else ()))
+
+
+def outside_words(dataset: xr.Dataset) -> str:
+    """Say in one line what results are outside of; empty if they are inside of all limits.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> forces = {"normal_force_amplitude": 0.5, "tangential_force_amplitude": [0.5, 1.4]}
+    >>> outside_words(swtstudy.solve(rtol=1e-2, **forces))
+    'Outside of the model: no equilibrium at 1 of 2 points.'
+    """
+    words = "; ".join(filter(None, (each.short for each in _found(dataset)[0])))
+    return f"Outside of the model: {words}." if words else ""
+
+
+def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
+    """What points are outside of, and lines on the limits that all are inside of."""
     require(dataset, "s", "regime")
     if not dataset.s.size:
-        return ()
-    lines = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
-    lines += [*_unknown_shift(dataset), *_at_face_edge(dataset)]
+        return [], []
+    found = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
+    found += [*_unknown_shift(dataset), *_at_face_edge(dataset)]
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -115,16 +162,17 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
         out = values > limit.largest
         if not np.isfinite(values).any() and not out.any():
             continue
-        found = f"{limit.value} up to {_number(np.nanmax(values))}, limit {limit.largest:g}"
+        worst = _number(np.nanmax(values))
+        line = f"{limit.value} up to {worst}, limit {limit.largest:g}"
         if out.any():
             place = _place(dataset, values)
-            found += f",{place}" if place else ""
-            lines.append(f"{limit.words}{_where(out)}: {'; '.join(filter(None, (found, limit.consequence)))}")
+            line += f",{place}" if place else ""
+            line = f"{limit.words}{_where(out)}: {'; '.join(filter(None, (line, limit.consequence)))}"
+            found.append(Excess(f"{limit.short}{_where(out)} ({worst} {limit.of})", line))
         else:
-            within.append(found)
-    lines += _mixed_zones(dataset)
-    within += [*_approximate_zones(dataset), *_unknown_yield(dataset)]
-    return (*lines, *(within if inside else ()))
+            within.append(line)
+    found += _mixed_zones(dataset)
+    return found, [*within, *_approximate_zones(dataset), *_unknown_yield(dataset)]
 
 
 def _limited(dataset: xr.Dataset, limit: Limit) -> xr.DataArray:
@@ -135,14 +183,15 @@ def _limited(dataset: xr.Dataset, limit: Limit) -> xr.DataArray:
     return values.where(dataset.stick_zone == IN_PLACE)
 
 
-def _mixed_zones(dataset: xr.Dataset) -> Iterator[str]:
+def _mixed_zones(dataset: xr.Dataset) -> Iterator[Excess]:
     """Say that the stick zone is moved at some points and in place at others, where it should move."""
     if "stick_zone" not in dataset:
         return
     moved = _over_points(dataset, dataset.stick_zone) != IN_PLACE
     left = ~moved & (_over_points(dataset, dataset.bulk_shift_ratio) > 0.0)
     if moved.any() and left.any():
-        yield f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
+        words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
+        yield Excess(words, words)
 
 
 def _approximate_zones(dataset: xr.Dataset) -> Iterator[str]:
@@ -162,23 +211,23 @@ def _unknown_yield(dataset: xr.Dataset) -> Iterator[str]:
         yield f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";")
 
 
-def _unknown_shift(dataset: xr.Dataset) -> Iterator[str]:
+def _unknown_shift(dataset: xr.Dataset) -> Iterator[Excess]:
     """Say where the shift of the stick zone by the bulk stress, which s leaves out, is not known."""
     if "bulk_shift_ratio" in dataset:
         slips = dataset.regime.values == REGIMES.index("partial_slip")
         lost = slips & np.isnan(_over_points(dataset, dataset.bulk_shift_ratio))
         if lost.any():
-            words = "known of the paraboloid and the cylinder alone"
-            yield f"shift of the stick zone by bulk strain unknown{_where(lost)}: {words}"
+            words = f"shift of the stick zone by bulk strain unknown{_where(lost)}"
+            yield Excess(words, f"{words}: known of the paraboloid and the cylinder alone")
 
 
-def _at_face_edge(dataset: xr.Dataset) -> Iterator[str]:
+def _at_face_edge(dataset: xr.Dataset) -> Iterator[Excess]:
     """Say where the circle through the critical point is the singular edge of a face."""
     if "s_surface" in dataset:
         out = np.isfinite(dataset.s.values) & np.isnan(dataset.s_surface.values)
         if out.any():
-            words = "off the line y = 0 swt may have no bound there"
-            yield f"critical point at the singular edge of the face{_where(out)}: {words}"
+            words = f"critical point at the singular edge of the face{_where(out)}"
+            yield Excess(words, f"{words}: off the line y = 0 swt may have no bound there")
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
@@ -210,16 +259,18 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
 
 
-def _without_s(dataset: xr.Dataset) -> Iterator[str]:
+def _without_s(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points in no equilibrium, with how much is lacking, and those at which s is not finite."""
     state = dataset.regime.values
     computed = dataset.status.values == 0 if "status" in dataset else np.ones(state.shape, bool)
     lost = computed & (state == REGIMES.index("no_equilibrium"))
     if lost.any():
-        yield f"no equilibrium{_where(lost)}{_lacking(dataset, lost)}"
+        words = f"no equilibrium{_where(lost)}"
+        yield Excess(words, f"{words}{_lacking(dataset, lost)}")
     infinite = computed & (state == REGIMES.index("not_finite"))
     if infinite.any():
-        yield f"s is not finite{_where(infinite)}: swt grows without bound towards an edge"
+        words = f"s is not finite{_where(infinite)}"
+        yield Excess(words, f"{words}: swt grows without bound towards an edge")
 
 
 def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
@@ -254,7 +305,7 @@ def _above_line(dataset: xr.Dataset) -> xr.DataArray:
     return dataset.s_surface > dataset.s + dataset.s_error
 
 
-def _off_line(dataset: xr.Dataset) -> Iterator[str]:
+def _off_line(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points at which s is not the largest value."""
     out = _above_line(dataset).values
     if out.any():
@@ -263,33 +314,39 @@ def _off_line(dataset: xr.Dataset) -> Iterator[str]:
         worst = factor.max()
         times = f"s_surface is up to {_number(worst)} times as large"
         found = times if np.isfinite(worst) else "s is 0, and s_surface is not,"
-        yield f"s is not the largest value{_where(out)}: {found}{_place(dataset, factor)}"
+        words = f"s is not the largest value{_where(out)}"
+        yield Excess(words, f"{words}: {found}{_place(dataset, factor)}")
 
 
-def _beside_tip(dataset: xr.Dataset) -> Iterator[str]:
+def _beside_tip(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points at which swt rises up to a sharp tip."""
     if "exponent" in dataset.coords and "critical_x" in dataset:
         is_sharp = _over_points(dataset, dataset.exponent) < 2.0
         out = is_sharp & (np.abs(_over_points(dataset, dataset.critical_x)) < BESIDE_TIP)
         if out.any():
             nearer = f"s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
-            yield f"swt rises up to the tip{_where(out)}: {nearer}"
+            words = f"swt rises up to the tip{_where(out)}"
+            yield Excess(words, f"{words}: {nearer}")
 
 
-def _lives(dataset: xr.Dataset) -> Iterator[str]:
+def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points with lives beyond those of which constants are known."""
-    for name in map(str, dataset.data_vars):
-        if not _is_life(dataset, name):
-            continue
+    beyond: dict[str, BoolArray] = {}
+    lines = []
+    for name in (each for each in map(str, dataset.data_vars) if _is_life(dataset, each)):
         # A point may have several, such as those over critical distances.
         lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
         out = _beyond(lives)
         if out.any():
+            beyond[name] = np.asarray(out.any(axis=-1))
             ends = dict.fromkeys((float(lives[out].min()), float(lives[out].max())))
             found = " to ".join(numbers_words(ends, 3))
-            known = " to ".join(numbers_words(KNOWN_LIVES, 3))
-            where = _where(np.asarray(out.any(axis=-1)))
-            yield f"{name} extrapolated{where}: {found}, while the constants are known for {known}"
+            where = _where(beyond[name])
+            lines.append(f"{name} extrapolated{where}: {found}, while the constants are known for {_KNOWN}")
+    if lines:
+        where = _where(np.logical_or.reduce([*beyond.values()]))
+        short = f"{', '.join(beyond)} extrapolated{where} (beyond {_KNOWN})"
+        yield from (Excess(short * (k == 0), line) for k, line in enumerate(lines))
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
@@ -318,8 +375,14 @@ def _where(out: BoolArray) -> str:
 
 def _place(dataset: xr.Dataset, values: FloatArray, besides: tuple[str, ...] = ()) -> str:
     """At which point values in the shape of s are largest, but for some dimensions."""
+    words = point_words(dataset, int(np.nan_to_num(values, nan=-np.inf).argmax()), besides)
+    return f" at {words}" if words else ""
+
+
+def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -> str:
+    """Where one of the flattened points lies, such as "friction = 0.5, normal_force = 100 N"."""
     words = []
-    for dim, number in index_at(dataset.s, int(np.nan_to_num(values, nan=-np.inf).argmax())).items():
+    for dim, number in index_at(dataset.s, flat).items():
         if dim in besides:
             continue
         if dim not in dataset.coords:
@@ -329,7 +392,7 @@ def _place(dataset: xr.Dataset, values: FloatArray, besides: tuple[str, ...] = (
         attributes = dataset[dim].attrs
         named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
         words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
-    return f" at {', '.join(words)}" if words else ""
+    return ", ".join(words)
 
 
 def _number(value: float) -> str:

@@ -1,9 +1,8 @@
-"""Findings in results, from their extrema: which parameter moves swt by how much, and where."""
+"""Findings in results: what the study asked for, which parameter changes it by how much, and where."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from html import escape
 from typing import Any
@@ -11,38 +10,52 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.outcome import life_words, outcome, shown_in
 from swtstudy.archive.recall import grid_of
 from swtstudy.contacts.contact import PhysicalContact
+from swtstudy.figures.draw import layout_of
+from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
-from swtstudy.reports.values import is_number, place_html, symbol_of, unit_of, value_text, with_unit
+from swtstudy.reports.values import (
+    is_number,
+    place_html,
+    symbol_html,
+    symbol_of,
+    unit_of,
+    value_text,
+    with_unit,
+)
 from swtstudy.results.evaluate import extrema
-from swtstudy.units.blocks import sequence_words
+from swtstudy.results.sensitivity import sensitivity
+from swtstudy.study.figure import FigureLayout
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.reading import read_contact
 from swtstudy.units.results import measures
-from swtstudy.units.variables import KINDS
+from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
+from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
-from swtstudy.vocabulary.variables import CONTACT, has_units
+from swtstudy.vocabulary.variables import has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
 
 #: The parameter whose values have an s of another kind each.
 CRITERION = "criterion"
-#: A parameter that changes swt by less goes unmentioned in the sentences.
-_MOVES = 1.005
+#: A parameter that changes the quantity by less goes unmentioned in the sentences.
+_CHANGES = 1.005
+#: Beginnings of the names of quantities whose ratios say nothing: places and their planes.
+_PLACES = "critical_"
 
 
 @dataclass(frozen=True)
 class Lever:
-    """A dimension, and what it does where it does most.
+    """A dimension, and by how much it changes a quantity at most.
 
     Attributes
     ----------
     name
         The dimension.
     table
-        Its extrema, as of `swtstudy.results.evaluate.extrema`, of swt where results have units.
+        Extrema of the quantity along it, as of `swtstudy.results.evaluate.extrema`.
     there
         The place along the other dimensions at which the ratio of the extrema is largest.
     """
@@ -53,84 +66,132 @@ class Lever:
 
     @property
     def ratio(self) -> float:
-        """Greatest over least."""
+        """Maximum over minimum."""
         return float(self.there.ratio)
 
     @property
     def chosen(self) -> bool:
-        """True if it is a parameter of the load, of which there may be a better and a worse one."""
+        """True for a parameter of the load, of which there may be a better and a worse one."""
         return AXES[self.name].part == "load"
 
 
 def measured(dataset: xr.Dataset) -> xr.DataArray:
-    """s; of real contacts the value of the criterion, since the unit of s differs from contact to contact.
+    """The quantity that a study asks for.
 
-    Of several criteria each has its own unit.
+    It is a life where the figure shows one, else the first number in the figure; without a figure a life over
+    a critical distance, the life at the worst point, or the value of the criterion. Several criteria have
+    values of their own units.
     """
-    own = [dataset[name] for name in measures(dataset)]
-    if len(own) < 2:
-        return own[0] if own else dataset.s
-    values = own[0]
-    for other in own[1:]:
-        values = values.fillna(other)
-    return values.drop_attrs(deep=False).assign_attrs(symbol=r"\text{value}", units="").rename("value")
+    own = measures(dataset)
+    if len(own) > 1:
+        values = dataset[own[0]]
+        for other in own[1:]:
+            values = values.fillna(dataset[other])
+        return values.drop_attrs(deep=False).assign_attrs(symbol=r"\text{value}", units="").rename("value")
+    usual = [name for name in ("cycles_volume", *LIVES) if name in dataset]
+    shown = [y for y in shown_in(dataset) if not y.startswith(_PLACES) and not flag_words(dataset[y])]
+    lives = [y for y in shown if is_life(dataset[y].attrs)]
+    return dataset[[*lives, *shown, *usual[: not shown], *own, "s"][0]]
 
 
 def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
     """The quantity that the criterion of a place measures."""
-    own = {CRITERION: place[CRITERION].item()} if CRITERION in dataset.dims else {}
-    return measured(dataset.sel(own))
+    if CRITERION not in dataset.dims:
+        return measured(dataset)
+    part = dataset.sel({CRITERION: place[CRITERION].item()})
+    return part[[*measures(part), "s"][0]]
 
 
 def levers(dataset: xr.Dataset) -> list[Lever]:
-    """Every dimension of more than one value: the phase first, which costs nothing to choose, then by ratio.
+    """Every dimension of more than one value: the figure's x first, then by ratio.
 
-    None of a sample, whose points differ in all that is sampled; nor the criterion, whose values are not of
-    one kind.
+    Without a figure the phase is first, which costs nothing to choose. A sample has none, since its points
+    differ in all that is sampled; nor has the criterion, whose values are not of one kind.
     """
-    swt = measured(dataset)
+    values = measured(dataset)
+    first = layout_of(dataset).x if "figure" in dataset.attrs else "phase"
     found = []
-    for name in map(str, swt.dims):
-        if swt.sizes[name] < 2 or SAMPLE in swt.dims or name == CRITERION:
+    for name in map(str, values.dims):
+        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name == CRITERION:
             continue
-        table = extrema(dataset.assign(s=swt), name)
+        table = extrema(dataset.assign(measured=values), name, "measured")
         ratio = table.ratio.where(np.isfinite(table.ratio))
         if not ratio.notnull().any():
             continue
         found.append(Lever(name, table, table.isel(index_at(ratio, int(np.nanargmax(ratio.values))))))
-    return sorted(found, key=lambda lever: (lever.name != "phase", -lever.ratio))
+    return sorted(found, key=lambda lever: (lever.name != first, -lever.ratio))
 
 
-def sentences(dataset: xr.Dataset) -> list[str]:
-    """List the findings as HTML; the most important sentence first."""
-    said = [
+def sentences(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None = None) -> list[str]:
+    """List the findings as HTML: the study's own message, then the answer to its question.
+
+    The latter begins with the Sobol indices, as from `indices_of`, if these are given.
+    """
+    text = dataset.attrs.get("figure")
+    own = FigureLayout.from_json(text).message if text else None
+    said = [escape(own)] if own else []
+    said += [_most_sensitive(indices)] if isinstance(indices, xr.Dataset) else []
+    values = measured(dataset)
+    if values.size == 1 and has_units(dataset):
+        return [*said, escape(next(outcome(dataset)))]
+    moved = [
         _sentence(lever, _symbol(measured_at(dataset, lever.there), dataset))
         for lever in levers(dataset)
-        if lever.ratio > _MOVES
+        if lever.ratio > _CHANGES
     ]
-    if SAMPLE in dataset.s.dims or not said:
+    said += moved
+    if SAMPLE in values.dims or not moved:
         if CRITERION in dataset.dims:
-            parts = [dataset.isel({CRITERION: k}) for k in range(dataset.sizes[CRITERION])]
-            said += [f"{value_text(CRITERION, p.criterion.item(), {})}: {_range(p)}" for p in parts]
+            for k in range(dataset.sizes[CRITERION]):
+                one = dataset.isel({CRITERION: k})
+                words = _range(measured_at(dataset, one), dataset)
+                said.append(f"{value_text(CRITERION, one.criterion.item(), {})}: {words}")
         else:
-            said.append(_range(dataset))
-    return [*said, *_lives(dataset)]
+            said.append(_range(values, dataset))
+    return [*said, *(f"{escape(words)}." for words in life_words(dataset))]
+
+
+def _most_sensitive(indices: xr.Dataset) -> str:
+    """Say which sampled parameter has the largest Sobol index, and which the second largest."""
+    total = indices.total.isel(quantity=0)
+    mean = total.mean([dim for dim in total.dims if dim != "parameter"])
+    first, second = (indices.isel(parameter=int(k), quantity=0) for k in np.argsort(-mean.values)[:2])
+    said = []
+    for one in (first, second):
+        ends = dict.fromkeys(f"{float(end):.2f}" for end in (one.total.min(), one.total.max()))
+        symbol, meaning = symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning
+        said.append((f"the {escape(meaning)} {symbol}", " to ".join(ends)))
+    (most, index), (next_one, lower) = said
+    words = f"{most[0].upper()}{most[1:]} matters most, with a Sobol index of <b>{index}</b>"
+    return f"{words}; next is {next_one}, {lower}."
+
+
+def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
+    """Sobol indices of what a study asks for; why there are none; None without the design for them."""
+    if SAMPLE not in dataset.coords or dataset[SAMPLE].attrs.get("design") != "saltelli":
+        return None
+    try:
+        return sensitivity(dataset, str(measured(dataset).name))
+    except StudyError as error:
+        return error
 
 
 def _symbol(values: xr.DataArray, dataset: xr.Dataset) -> str:
     return symbol_of(values) if has_units(dataset) else "<i>s</i>"
 
 
-def _sentence(lever: Lever, swt: str) -> str:
-    there = lever.there
+def _sentence(lever: Lever, symbol: str) -> str:
+    there, life = lever.there, is_life(lever.table.minimum.attrs)
     where = place_words(there.drop_vars(["at_minimum", "at_maximum"]), lever.table)
-    words = ("best", "worst") if lever.chosen else ("least", "greatest")
-    least, greatest = (_at(lever.name, there[f"at_{end}"]) for end in ("minimum", "maximum"))
+    words = ("best", "worst") if lever.chosen else ("longest", "shortest") if life else ("lowest", "highest")
+    ends = ("maximum", "minimum") if life else ("minimum", "maximum")
+    first, second = (_at(lever.name, there[f"at_{end}"]) for end in ends)
     named = f"The {re.split('[,:]', AXES[lever.name].meaning)[0]}"
     if is_number(there.at_minimum):
         named += f" {symbol_of(there.at_minimum.rename(lever.name))}"
-    moves = f"{named} moves {swt} by <b>{number_words(lever.ratio, 3)} times</b>"
-    return f"{moves}{where}: {words[0]} {least}, {words[1]} {greatest}."
+    factor = f"by a factor of <b>{number_words(lever.ratio, 3)}</b>"
+    changed = f"{named} changes {'the life ' * life}{symbol} {factor}{where}"
+    return f"{changed}: {words[0]} {first}, {words[1]} {second}."
 
 
 def along(name: str, place: xr.DataArray) -> str:
@@ -156,9 +217,8 @@ def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
     return f" for {' and '.join(names)}" * bool(names) + f" at {', '.join(numbers)}" * bool(numbers)
 
 
-def _range(dataset: xr.Dataset) -> str:
+def _range(values: xr.DataArray, dataset: xr.Dataset) -> str:
     """From where to where the values of one criterion go."""
-    values = measured(dataset)
     swt = _symbol(values, dataset)
     known = values.values[np.isfinite(values.values)]
     if not known.size:
@@ -167,24 +227,9 @@ def _range(dataset: xr.Dataset) -> str:
     if known.size == 1:
         return f"{swt} is <b>{number_words(float(known[0]))}</b>{unit}{_alone(values)}."
     low, middle, high = numbers_words((known.min(), np.median(known), known.max()))
-    if known.max() <= _MOVES * known.min():
-        return f"At all {known.size} points {swt} is {low}{unit}: nothing that was varied moves it."
+    if known.max() <= _CHANGES * known.min():
+        return f"At all {known.size} points {swt} is {low}{unit}: nothing that was varied changes it."
     return f"Over {known.size} points {swt} goes from {low} to {high}, median {middle}{unit}."
-
-
-def _lives(dataset: xr.Dataset) -> Iterator[str]:
-    """The lives to a crack, by each criterion that has a life."""
-    blocks = read_contact(dataset.attrs[CONTACT]).blocks if has_units(dataset) else ()
-    if sequence := sequence_words(dataset, blocks):
-        yield f"The sequence of blocks: {escape(sequence)}."
-        return
-    names = {kind.life: kind.name for kind in KINDS.values() if kind.life in dataset}
-    for name, criterion in names.items():
-        lives = dataset[name].values[np.isfinite(dataset[name].values)]
-        if lives.size:
-            rounds = " to ".join(dict.fromkeys(numbers_words((lives.min(), lives.max()), 2)))
-            by = f" by {criterion}" if len(names) > 1 else ""
-            yield f"A crack starts after {rounds} rounds of the load{by}, at the worst place."
 
 
 def _alone(values: xr.DataArray) -> str:
@@ -192,20 +237,25 @@ def _alone(values: xr.DataArray) -> str:
     return f" at one of {values.size} points; the others have none" if values.size > 1 else ""
 
 
+def _badness(values: xr.DataArray) -> xr.DataArray:
+    """The values, or the negative ones of a life: the larger, the worse."""
+    return -values if is_life(values.attrs) else values
+
+
 def worst_place(dataset: xr.Dataset) -> dict[str, int]:
-    """Index of the greatest swt along each dimension; nothing if there is none."""
-    values = measured(dataset)
+    """Index of the worst value along each dimension; nothing if there is none."""
+    values = _badness(measured(dataset))
     if not np.isfinite(values.values).any():
         return {}
-    return index_at(values, int(np.nanargmax(values.values)))
+    return index_at(values, int(np.nanargmax(values.where(np.isfinite(values)).values)))
 
 
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
-    """The point with the least and that with the greatest swt; one only where all are equal."""
+    """The best and the worst point; one only where all are equal."""
     if CRITERION in dataset.dims:
         dataset = dataset.isel({CRITERION: 0})  # values of several are not to be compared
-    values = measured(dataset)
-    flat = values.values.ravel()
+    values = _badness(measured(dataset))
+    flat = values.where(np.isfinite(values)).values.ravel()
     if not np.isfinite(flat).any():
         return {}
     places = {"best": int(np.nanargmin(flat)), "worst": int(np.nanargmax(flat))}

@@ -10,8 +10,8 @@ import xarray as xr
 from swtstudy.archive.describe import facts
 from swtstudy.paper.statements.check import about_archive
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.validity import validity_lines
-from swtstudy.reports.findings import CRITERION, sentences, worst_place
+from swtstudy.points.validity import outside_words, validity_lines
+from swtstudy.reports.findings import CRITERION, indices_of, sentences, worst_place
 from swtstudy.reports.parts import Section, code, data, derived, figure, section, study_figure, table, whole
 from swtstudy.reports.sections import (
     extrema_section,
@@ -24,12 +24,13 @@ from swtstudy.reports.sections import (
 from swtstudy.reports.values import about, packed, rows_of, symbol_of, table_of
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.shipped import shipped_studies
+from swtstudy.vocabulary.variables import has_units
 
 #: What the model is, for whoever is sent a page.
 _MEANING = (
-    "<i>s</i> is the largest Smith–Watson–Topper parameter (largest normal stress of a cycle times "
-    "amplitude of the normal strain, over all planes and places) of a frictional contact of elastic bodies, "
-    "over <i>E</i>*<i>δ</i><sub>0</sub>/<i>R</i>. The larger, the sooner a crack begins."
+    "{symbol} is the largest Smith–Watson–Topper parameter (largest normal stress of a cycle times "
+    "amplitude of the normal strain, over all planes and places) of a frictional contact of elastic "
+    "bodies{over}. The larger, the sooner a crack begins."
 )
 #: What the figures of a sample are over.
 _SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
@@ -59,12 +60,14 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
         HTML. It shows everything without JavaScript but values under the pointer and slices.
     """
     title = str(dataset.attrs["title"])
-    first, *others = [*sentences(dataset), ""]
+    indices = indices_of(dataset)
+    first, *others = [*sentences(dataset, indices), ""]
+    outside = outside_words(dataset)
     shown, values = _figure_and_values(dataset, name)
     sections = [
         *shown,
         extrema_section(dataset),
-        sensitivity_section(dataset),
+        sensitivity_section(dataset, indices),
         points_section(dataset),
         settings_section(dataset),
         sureness_section(dataset, list(validity_lines(dataset, inside=True))),
@@ -77,6 +80,7 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
 <p class="kicker">{back}{escape(name)}</p>
 <h1>{escape(title)}</h1>
 <p class="lead">{first}</p>
+{f'<p class="outside">{escape(outside)}</p>' if outside else ""}
 <p class="also">{" ".join(filter(None, others))}</p>
 {tiles(dataset)}
 <p class="note">{_meaning(dataset)}</p>
@@ -93,7 +97,9 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
 def _meaning(dataset: xr.Dataset) -> str:
     """Say what s is; by criteria other than SWT the results say it."""
     if CRITERION not in dataset.coords:
-        return _MEANING
+        if has_units(dataset):
+            return _MEANING.format(symbol="SWT", over="")
+        return _MEANING.format(symbol="<i>s</i>", over=", over <i>E</i>*<i>δ</i><sub>0</sub>/<i>R</i>")
     return f"<i>s</i> by its criterion: {escape(str(dataset.s.attrs.get('comment', '')))}."
 
 

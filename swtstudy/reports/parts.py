@@ -21,13 +21,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from swtstudy.contacts.of_results import contact_of
 from swtstudy.figures.draw import draw, layout_of
 from swtstudy.figures.inspection import inspect
 from swtstudy.figures.sheet import PANEL
 from swtstudy.figures.style import picture, styled
-from swtstudy.reports.findings import worst_place
+from swtstudy.reports.findings import parameters_of, worst_place
 from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
+from swtstudy.vocabulary.variables import has_units
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.
 _LARGEST_DRAWING = 400_000
@@ -131,9 +133,12 @@ def thumbnail(dataset: xr.Dataset) -> Picture:
     return embedded(figure, _DPI_THUMBNAIL, drawing=False)
 
 
-def of_point(parameters: dict[str, Any]) -> Picture:
-    """The picture of a parameter point, as `swtstudy.inspect` draws it."""
-    return embedded(inspect(**parameters), _DPI_POINT, drawing=False)
+def of_point(one: xr.Dataset) -> Picture:
+    """The picture of a point, as `swtstudy.inspect` draws it; of a real contact in its units."""
+    if has_units(one):
+        body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
+        return embedded(contact_of(one).inspect(body), _DPI_POINT, drawing=False)
+    return embedded(inspect(**parameters_of(one)), _DPI_POINT, drawing=False)
 
 
 def _panels(figure: Figure, dataset: xr.Dataset, layout: FigureLayout) -> Any:

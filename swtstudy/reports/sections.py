@@ -8,20 +8,31 @@ from html import escape
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.describe import accuracy, completeness, failures, regime_counts, relative_errors
+from swtstudy.archive.describe import (
+    accuracy,
+    completeness,
+    failures,
+    recorded_loads,
+    regime_counts,
+    relative_errors,
+    unsaid,
+)
 from swtstudy.figures.evaluated import draw_sensitivity
-from swtstudy.points.grid import SAMPLE
+from swtstudy.figures.quantity_words import is_life
 from swtstudy.points.values import index_at
-from swtstudy.reports.findings import along, extreme_points, levers, measured, measured_at, parameters_of
+from swtstudy.reports.findings import along, extreme_points, levers, measured, measured_at
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
 from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, value_text, with_unit
-from swtstudy.results.sensitivity import sensitivity
 from swtstudy.units.reading import read_contact
+from swtstudy.units.results import measures
+from swtstudy.units.variables import KINDS, LIVES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words
 
+#: Lives at the worst point.
+_LIVES = tuple(kind.life for kind in KINDS.values() if kind.life)
 #: Most rows of a table of extrema, failed points and values of an axis that are listed one by one.
 _ROWS, _FAILURES, _LISTED = 12, 12, 8
 
@@ -29,16 +40,17 @@ _ROWS, _FAILURES, _LISTED = 12, 12, 8
 def tiles(dataset: xr.Dataset) -> str:
     """The four numbers that one asks for first."""
     relative, values = relative_errors(dataset), measured(dataset)
-    shape = " × ".join(map(str, values.shape)) or "one"
-    missing = values.size - int((np.isfinite(values) & (dataset.status == COMPUTED)).sum())
-    found = [
-        ("points", f"{values.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value")
-    ]
+    known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(
+        [dim for dim in values.dims if dim not in dataset.s.dims]
+    )
+    shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
+    found = [("points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value")]
     for end, one in _ends(dataset):
-        swt = measured(one)
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
-        value = with_unit(number_words(float(swt)), swt)
-        found.append((f"{end} {symbol_of(swt)}".strip(), value, where))
+        own = dict.fromkeys((*measures(one), *(n for n in one if n in _LIVES), measured(one).name))
+        for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:
+            words = with_unit(number_words(float(value)), value)
+            found.append((f"{end} {symbol_of(value)}".strip(), words, where))
     if relative.size:
         largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
         words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
@@ -48,10 +60,12 @@ def tiles(dataset: xr.Dataset) -> str:
 
 
 def _ends(dataset: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """The points of `extreme_points`, each with its word; none for what all points have."""
+    """The points of `extreme_points`, each with its word; none where all points have one value."""
     points = extreme_points(dataset)
+    life = is_life(measured(dataset).attrs)
+    words = {"best": "longest", "worst": "shortest"} if life else {"best": "lowest", "worst": "highest"}
     for word, one in points.items():
-        yield {"best": "least", "worst": "greatest" if len(points) > 1 else ""}[word], one
+        yield words[word] if len(points) > 1 else "", one
 
 
 def _varying(dataset: xr.Dataset) -> list[str]:
@@ -62,7 +76,7 @@ def _varying(dataset: xr.Dataset) -> list[str]:
 
 
 def extrema_section(dataset: xr.Dataset) -> Section:
-    """Least and greatest values along every dimension, for each place of the others."""
+    """Lowest and highest values along every dimension, for each place of the others."""
     return section("extremes", "Extremes", *_extrema_tables(dataset))
 
 
@@ -85,7 +99,7 @@ def _extrema_tables(dataset: xr.Dataset) -> Iterator[str]:
             rows.append([*cells, number_words(float(one.ratio), 3)])
         own = symbol_of(dataset[lever.name])
         head = [symbol_of(dataset[name]) for name in others]
-        head += [f"least {symbol}", f"at {own}", f"greatest {symbol}", f"at {own}", "ratio"]
+        head += [f"lowest {symbol}", f"at {own}", f"highest {symbol}", f"at {own}", "ratio"]
         count = len(others)
         more = f": of {ratio.size} ratios the largest, the middle and the smallest" * (ratio.size > len(rows))
         yield f"<h3>Along {own}, {escape(AXES[lever.name].meaning)}{more}</h3>"
@@ -98,22 +112,23 @@ def points_section(dataset: xr.Dataset) -> Section:
     for end, one in _ends(dataset):
         where = ", ".join(place_html(one[name]) for name in _varying(dataset))
         own = f"{'The ' * bool(end)}{end} {symbol_of(measured(one))}".strip()
-        title = f"<h3>{own}{f': {where}' if where else ''}</h3>"
+        title = f"<h3>{own}: {where}</h3>" if where else ""
         try:
-            picture = of_point(parameters_of(one))
+            picture = of_point(one)
         except StudyError as error:
             parts.append(f'{title}<p class="note">Not drawn: {escape(str(error))}</p>')
             continue
-        words = f"Load path, slip, springs, tractions, stress cycle and swt of the point with {end} swt"
+        words = f"Load path, slip, springs, tractions, stress cycle and swt of the {end} point"
         parts.append(f"<div>{title}{_point_line(one)}{figure(picture, words)}</div>")
     body = f'<div class="points">{"".join(parts)}</div>' if parts else ""
-    return section("points", "Best and worst", body)
+    return section("points", "Best and worst" if len(parts) > 1 else "The point", body)
 
 
 def _point_line(one: xr.Dataset) -> str:
     """Describe the results of one point in a line."""
     said = [f"<i>s</i> = {number_words(float(one.s))} ± {number_words(float(one.s_error), 2)}"]
-    names = ("SWT", "cycles", "critical_x", "critical_angle")
+    place = "critical_position" if "critical_position" in one else "critical_x"
+    names = (*measures(one), *(name for name in LIVES if name in one), place, "critical_angle")
     known = (one[name] for name in names if name in one and not one[name].ndim)
     said += [place_html(values) for values in known if np.isfinite(values.item())]
     said.append(escape(one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")))
@@ -124,12 +139,14 @@ def settings_section(dataset: xr.Dataset) -> Section:
     """Every parameter with its symbol, values and unit."""
     rows: list[tuple[str, str, str, str]] = []
     for name in [*map(str, dataset.s.dims), *map(str, dataset.coords)]:
-        if name in AXES and name not in ("body", "direction") and name not in (row[0] for row in rows):
+        hidden = ("body", "direction", *unsaid(dataset), *(row[0] for row in rows))
+        if name in AXES and name not in hidden:
             values = dataset[name]
             own = "<b>{}</b>" if values.size > 1 else "{}"
             said = own.format(with_unit(_values(name, values), values))
             symbol = "" if AXES[name].kind == "name" else symbol_of(values)
             rows.append((name, symbol, escape(AXES[name].meaning), said))
+    rows += [("", "", f"load {escape(load)}", escape(words)) for load, words in recorded_loads(dataset)]
     control = escape(str(dataset.control.item())) if "control" in dataset.coords else ""
     body = table(("symbol", "parameter", "value"), [row[1:] for row in rows], wide=True)
     note = f'<p class="note">Prescribed: {control}.{_units_note(dataset)}</p>'
@@ -218,14 +235,11 @@ def _failed(dataset: xr.Dataset) -> str:
     return f"<h3>Failed points</h3>{table(('point', 'why'), rows)}{more}"
 
 
-def sensitivity_section(dataset: xr.Dataset) -> Section:
-    """Sobol indices of a sample whose design has them."""
-    if SAMPLE not in dataset.coords or dataset[SAMPLE].attrs.get("design") != "saltelli":
-        return section("matters", "What matters")
-    try:
-        indices = sensitivity(dataset)
-    except StudyError as error:
-        return section("matters", "What matters", f'<p class="note">No indices: {escape(str(error))}</p>')
+def sensitivity_section(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> Section:
+    """Sobol indices of a sample whose design has them; see `swtstudy.reports.findings.indices_of`."""
+    if not isinstance(indices, xr.Dataset):
+        note = f'<p class="note">No indices: {escape(str(indices))}</p>' if indices else ""
+        return section("matters", "What matters", note)
     axes = [str(dim) for dim in indices.total.dims if dim not in ("quantity", "parameter")]
     flat = indices.isel(quantity=0).stack(place=[*axes, "parameter"]) if axes else indices.isel(quantity=0)
     rows = []

@@ -18,6 +18,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from swtstudy.archive.describe import unsaid
 from swtstudy.figures.lines import in_equal_ratios
 from swtstudy.figures.quantity_words import flag_words
 from swtstudy.points.grid import SAMPLE
@@ -182,8 +183,10 @@ _BOOKKEEPING = ("run",)
 
 
 def table_of(dataset: xr.Dataset) -> pd.DataFrame:
-    """The table without the columns that have one value: the page says these once."""
-    table = to_table(dataset).drop(columns=[*_BOOKKEEPING], errors="ignore")
+    """The table, of several points without the columns that have one value: the page says these once."""
+    table = to_table(dataset).drop(columns=[*_BOOKKEEPING, *unsaid(dataset)], errors="ignore")
+    if len(table) == 1:
+        return table
     dims = rows_of(dataset)
     single = [name for name in table if name not in (*dims, "s") and table[name].nunique(dropna=False) < 2]
     return table.drop(columns=single)

@@ -64,6 +64,8 @@ class FigureLayout:
         Whether to mark the points that are outside of what the model holds for.
     caption
         What there is to say beneath it, in reports; or None.
+    message
+        The headline of reports, in place of what the results say first; or None.
     """
 
     x: str
@@ -76,6 +78,7 @@ class FigureLayout:
     regimes: bool = False
     validity: bool = False
     caption: str | None = None
+    message: str | None = None
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""

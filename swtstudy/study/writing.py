@@ -78,7 +78,8 @@ def _of_figure(figure: FigureLayout) -> dict[str, str]:
     if figure.title:
         entries["title"] = quoted(figure.title)
     entries |= {mark: "true" for mark in ("regimes", "validity") if getattr(figure, mark)}
-    return entries | ({"caption": quoted(figure.caption)} if figure.caption else {})
+    words = {"caption": figure.caption, "message": figure.message}
+    return entries | {key: quoted(text) for key, text in words.items() if text}
 
 
 def _of_contacts(grid: Grid) -> tuple[list[str], dict[str, str]]:

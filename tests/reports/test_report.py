@@ -20,15 +20,15 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from folders import RESULTS
-from real import CRITERIA
+from real import ALLOY, CRITERIA
 
 import swtstudy
 from swtstudy import Study
 from swtstudy.cli import main
 from swtstudy.figures.style import picture
-from swtstudy.reports.findings import extreme_points, levers, parameters_of, sentences
+from swtstudy.reports.findings import extreme_points, indices_of, levers, parameters_of, sentences
 from swtstudy.reports.page import _caption, page
-from swtstudy.reports.parts import derived, embedded, section
+from swtstudy.reports.parts import Picture, derived, embedded, section
 from swtstudy.reports.sections import extrema_section, settings_section, sureness_section, tiles
 from swtstudy.reports.site import entry, write_reports
 from swtstudy.reports.values import about, packed, place_html, symbol_html, table_of
@@ -149,7 +149,7 @@ def test_the_sentence_is_that_of_the_extrema() -> None:
     extremes = dataset.swt.extrema("phase")
     most = extremes.isel(normal_amplitude=int(extremes.ratio.argmax("normal_amplitude")))
     first = re.sub("<[^>]*>", "", sentences(dataset)[0])
-    assert f"moves s by {float(most.ratio):.3g} times at δA/δ0 = 8/9" in first
+    assert f"changes s by a factor of {float(most.ratio):.3g} at δA/δ0 = 8/9" in first
     said = re.search(r"best at (.*), worst at (.*)\.$", first)
     assert said
     for words, place in zip(said.groups(), (most.at_minimum, most.at_maximum), strict=True):
@@ -164,12 +164,16 @@ def test_the_phase_is_the_first_lever_and_others_go_by_their_ratio() -> None:
     assert found[1].ratio > found[2].ratio
 
 
-def test_of_real_contacts_the_sentence_is_about_swt_in_its_unit() -> None:
+def test_of_real_contacts_with_lives_the_sentence_is_about_these() -> None:
     dataset = swtstudy.open_results(RESULTS / "sphere_on_flat.nc")
-    extremes = {word: float(one.SWT) for word, one in extreme_points(dataset).items()}
-    assert extremes == {"best": float(dataset.SWT.min()), "worst": float(dataset.SWT.max())}
-    assert all("SWT by" in re.sub("<[^>]*>", "", each) for each in sentences(dataset)[:3])
-    assert "400 N" in sentences(dataset)[0]
+    extremes = {word: float(one.cycles) for word, one in extreme_points(dataset).items()}
+    assert extremes == {"best": float(dataset.cycles.max()), "worst": float(dataset.cycles.min())}
+    said = [re.sub("<[^>]*>", "", each) for each in sentences(dataset)]
+    assert all("changes the life N by a factor of" in each for each in said[:3])
+    assert said[0].startswith("The phase")  # which the figure is over
+    assert "400 N" in said[0]
+    ratio = float((dataset.cycles.max("phase") / dataset.cycles.min("phase")).max())
+    assert f"by a factor of {number_words(ratio, 3)} at" in said[0]
     constants = settings_section(dataset).body.partition("Strain-life constants")[2]
     assert re.findall(">([^<]*)</td>", constants)[:4] == ["young modulus", "73100 MPa", "strength", "927 MPa"]
     assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
@@ -229,9 +233,8 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     for line, (symbol, unit), criterion in zip(said, values.items(), still.criterion.values, strict=False):
         own = number_words(float(still[names[symbol]].sel(criterion=criterion)[0]))
         word = criterion.replace("_", " ")
-        assert line == f"{word}: At all 2 points {symbol} is {own}{unit}: nothing that was varied moves it."
-    ends = [line.partition("rounds of the load")[2] for line in said[3:]]
-    assert ends == [" by SWT, at the worst place.", " by FS, at the worst place."]
+        assert line == f"{word}: At all 2 points {symbol} is {own}{unit}: nothing that was varied changes it."
+    assert [line.partition(" = ")[0] for line in said[3:]] == ["N by SWT", "N by FS"]
     assert "none without a value" in tiles(still)
     # The sensitivity is that of the others: SWT is drawn without it.
     (worst,) = extreme_points(still).values()
@@ -245,8 +248,8 @@ def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(tmp_pa
     text += "tangential_force_amplitude = [40, 60]\n"
     both = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
     said = re.sub("<[^>]*>", "", sentences(both)[0])
-    assert " QA moves SWT by " in said
-    assert said.endswith(" times for criterion swt: best at 40 N, worst at 60 N.")
+    assert " QA changes SWT by a factor of " in said
+    assert said.endswith(" for criterion swt: best at 40 N, worst at 60 N.")
     rows = re.findall(r"<tr>(.*?)</tr>", extrema_section(both).body)[1:]
     cells = {each[0]: each for each in (re.sub("<[^>]*>", "|", row).strip("|").split("||") for row in rows)}
     for criterion, name, unit in (("findley", "findley_stress", " MPa"), ("fatemi socie", "FS", "")):
@@ -355,10 +358,10 @@ def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
     [
         ([np.nan] * 3, "No point has a finite s."),
         ([np.nan, 0.25, np.nan], "s is 0.25 at one of 3 points; the others have none."),
-        ([0.25, 0.25, 0.2501], "At all 3 points s is 0.25: nothing that was varied moves it."),
-        ([0.0, 0.0, 0.0], "At all 3 points s is 0: nothing that was varied moves it."),
+        ([0.25, 0.25, 0.2501], "At all 3 points s is 0.25: nothing that was varied changes it."),
+        ([0.0, 0.0, 0.0], "At all 3 points s is 0: nothing that was varied changes it."),
         ([0.0, 0.1, 0.3], "Over 3 points s goes from 0 to 0.3, median 0.1."),
-        ([np.nan, 0.1, 0.3], "The phase of the normal oscillation ψ moves s by 3 times: best at"),
+        ([np.nan, 0.1, 0.3], "The phase of the normal oscillation ψ changes s by a factor of 3: best at"),
     ],
 )
 def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], said: str) -> None:
@@ -372,11 +375,11 @@ def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], sai
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("figure5", "times for the truncated paraboloid at "),
-        ("figure5", ": least for the rounded punch, greatest for the truncated paraboloid."),
-        ("loops", "times for load L: least at 0.05"),
+        ("figure5", "factor of 1.54 for the truncated paraboloid at "),
+        ("figure5", ": lowest for the rounded punch, highest for the truncated paraboloid."),
+        ("loops", "for load L: lowest at 0.05"),
         ("loops", "at μ = 1: best for diagonal, worst for L."),
-        ("criteria", "times for criterion swt at μ = 0.25: best at "),
+        ("criteria", "for criterion swt at μ = 0.25: best at "),
     ],
 )
 def test_what_has_a_name_is_no_place(name: str, said: str) -> None:
@@ -391,8 +394,10 @@ def test_bodies_are_called_by_their_names() -> None:
         tangential_force_amplitude=[10.0, 20.0], bodies=["test_piece", "pad"],
     )  # fmt: skip
     words = re.sub("<.*?>", "", " ".join(sentences(contacts.solve(rtol=1e-2))))
-    assert "moves SWT by 1.88 times for body test piece: best at 10, worst at 20." in words
-    assert "The body moves SWT by 1.4 times at QA = 10: least for test piece, greatest for pad." in words
+    assert "changes SWT by a factor of 1.88 for body test piece: best at 10, worst at 20." in words
+    assert (
+        "The body changes SWT by a factor of 1.4 at QA = 10: lowest for test piece, highest for pad." in words
+    )
 
 
 def test_the_page_of_a_figure_of_the_paper_holds_it_against_the_paper(without_points: None) -> None:
@@ -436,10 +441,68 @@ def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset) -> None:
     assert "greatest" not in words
 
 
-def test_one_life_is_no_range() -> None:
+def test_one_point_with_units_is_said_as_at_the_end_of_its_run() -> None:
     dataset = swtstudy.open_results(RESULTS / "life.nc").isel(tangential_amplitude=0, critical_distance=0)
-    life = next(each for each in sentences(dataset) if "crack" in each)
-    assert re.search(r"after [^ ]+ rounds of the load", life)
+    (said,) = sentences(dataset)
+    lives = r"N = [^ ]+ load cycles \(worst point\), [^ ]+ \(mean over 0.01 mm\)\."
+    assert re.fullmatch(rf"SWT = [\d.]+ MPa at x = −[\d.]+ mm; {lives}", said)
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("figure7", "The amplitude of the waviness h/δ0 changes s"),
+        ("sensitivity", "The coefficient of friction μ matters most, with a Sobol index of 0.63 to 0.68;"),
+        ("life", "The amplitude of the tangential oscillation uA changes the life Nvolume"),
+    ],
+)
+def test_the_headline_answers_the_question_of_the_study(name: str, said: str) -> None:
+    dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
+    first = sentences(dataset, indices_of(dataset))[0]
+    assert re.sub("<.*?>", "", first).startswith(said)
+
+
+def test_a_study_may_have_its_own_message(tmp_path: Path, without_points: None) -> None:
+    text = 'title = "t"\nrtol = 1e-2\naxes.phase = [0, 1]\n[figure]\nx = "phase"\n'
+    found = swtstudy.run(Study.from_text(f'{text}message = "Phases < π/2 are best."'), tmp_path / "mine.nc")
+    assert '<p class="lead">Phases &lt; π/2 are best.</p>' in page(found, "mine")
+
+
+RECORD = """title = "A record"
+rtol = 1e-2
+{alloy}yield_strength = 100
+[loads.rig]
+vertices = [[-10, -60], [10, 60]]
+mean_normal = 250
+[fixed]
+load = "rig"
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+"""
+
+
+def test_the_page_of_a_record_has_its_loads_and_all_columns(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = swtstudy.run(Study.from_text(RECORD.format(alloy=ALLOY)), tmp_path / "rig.nc")
+    drawn = []
+    keep = lambda figure, *_, **__: drawn.append(figure) or Picture("data:,", 1, 1)  # noqa: E731
+    monkeypatch.setattr("swtstudy.reports.parts.embedded", keep)
+    text = page(found, "rig")
+    (table,) = (row for _, row in table_in(text).iterrows())
+    for name in ("SWT", "cycles", "critical_position", "friction", "yield_ratio"):
+        assert table[name] == pytest.approx(float(found[name]), rel=1e-6)
+    assert "normal_force_amplitude" not in table  # a factor of 1
+    words = checked(text).text
+    assert "F_N 240 to 260 N, F_x −60 to 60 N" in words
+    assert "amplitude of the normal force" not in words
+    assert re.search(r"Outside of the model: .*first yield \(", words)
+    (figure,) = drawn
+    labels = {axes.get_xlabel(): axes.get_ylabel() for axes in figure.axes}
+    assert labels["$u$ (mm)"] == "$F_x$ (N)"
+    assert labels["$x$ (mm)"]
 
 
 def test_validity_is_shown_where_results_have_it(
