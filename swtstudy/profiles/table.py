@@ -28,6 +28,8 @@ LEAST_STEP = 1e-12
 FEWEST, NEGATIVE = 8, 1e-6
 #: Radii at which compactness is looked at, and between which the slope is interpolated.
 RADII = 4001
+#: Multiple of the noise up to which it is smoothed: more would be the shape.
+MOST_SMOOTHED = 32.0
 #: Numbers that are worked on at once.
 _SLAB = 2_000_000
 
@@ -177,6 +179,32 @@ class TabulatedProfile(Definition):
         s = self._sampled[0][falls[0] if falls.size else -1]
         return float(self.rise(np.array([s]))[0][0]) / (MEAN_LOAD if self.plane else 1.0)
 
+    @property
+    def compact_radius(self) -> float:
+        """The radius of the largest contact that is one disc or strip, within the table."""
+        falls = self._falls
+        return float(np.hypot(self._sampled[0][falls[0] if falls.size else -1], self.flat_radius))
+
+    def least_smoothing(self, radius: float) -> float | None:
+        """The least smoothing above its own with which contacts are one disc or strip up to a radius.
+
+        It is known to a fifth. None if `MOST_SMOOTHED` times its own is not enough.
+        """
+
+        def compact(smoothing: float) -> bool:
+            own = TabulatedProfile(self.name, self.radius, self.height, smoothing, self.geometry)
+            return own.compact_radius >= radius
+
+        low, high = self.smoothing, 2.0 * self.smoothing
+        while not compact(high):
+            low, high = high, 2.0 * high
+            if not 0.0 < high <= MOST_SMOOTHED * self.smoothing:
+                return None
+        while high > 1.2 * low:
+            middle = float(np.sqrt(low * high))
+            low, high = (low, middle) if compact(middle) else (middle, high)
+        return high
+
     def refused_at(self, depth: float) -> str | None:
         """Why there is no full disc of contact up to a depth, and the radius of it; or None.
 
@@ -184,25 +212,22 @@ class TabulatedProfile(Definition):
         """
         if depth <= self.deepest:
             return None
-        disc, at, slope, place = "disc", "depth", "g′", "radius"
-        if self.plane:
-            disc, at, slope, place = "strip", "load 4P/(πE*) =", "N′", "half-width"
-        radius, falls = np.hypot(self._sampled[0], self.flat_radius), self._falls
-        if falls.size:
+        at, place = ("load 4P/(πE*) =", "half-width") if self.plane else ("depth", "radius")
+        if self._falls.size:
             return (
-                f"{self.name} has no full {disc} of contact at the {at} {depth:g}: {slope} < 0 at the "
-                f"{place} {radius[falls[0]]:.4g}; {self._advice}"
+                f"at the {at} {depth:g} {self.name} touches in several places: its fit is wavy at the "
+                f"{place} {self.compact_radius:.4g}; {self._advice}"
             )
         return (
             f"the {at} {depth:g} is beyond the table of {self.name}, which ends at the {place} "
-            f"{radius[-1]:.4g}: the contact is as large as that at the {at} {self.deepest:.4g}"
+            f"{self.compact_radius:.4g}: the contact is as large as that at the {at} {self.deepest:.4g}"
         )
 
     @property
     def _advice(self) -> str:
         """Advice for a table whose g falls."""
         if self.smoothing == 0.0:
-            return "if its heights are noisy, ask for smoothing"
+            return "if its heights are noisy, smoothing takes that away"
         return f"its smoothing is {self.smoothing:g}: more takes noise away, less leaves its shape as it is"
 
     @cached_property

@@ -17,6 +17,7 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.solving import solve_grid
+from swtstudy.study.columns import FileTable
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
@@ -31,7 +32,7 @@ from swtstudy.vocabulary.mistakes import (
     nearest,
     plain_number,
 )
-from swtstudy.vocabulary.parameters import DIRECTIONS
+from swtstudy.vocabulary.parameters import AXES, DIRECTIONS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
@@ -337,7 +338,7 @@ def _columns(tests: object) -> dict[str, list[Any]]:
     if not isinstance(tests, str | PathLike):
         raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])
     report = Report()
-    found = read_points(Path(tests), report)
+    found = read_points(Path(tests), report, FileTable(), AXES, (LIFE,))
     if found is None:
         raise StudyError(replace(mistake, key="tests") for mistake in report)
     return found

@@ -1,89 +1,176 @@
-"""Columns of numbers from a file of a user: a table with a header, as rigs and spreadsheets write them."""
+"""Tables in files of a user, as rigs and spreadsheets write them: text with a header, or a workbook."""
 
 from __future__ import annotations
 
+import codecs
 import csv
 import io
 import math
 import re
 import warnings
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
+from swtstudy.study.keys import Allowed, Table, key
+from swtstudy.units.labels import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_text, reason_of
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
 
 if TYPE_CHECKING:
     import pandas as pd
 
-#: More rows than this are no table that someone recorded for a study.
-MOST_ROWS = 1_000_000
-#: What may stand between cells and within numbers; a blank stands for any number of them.
-SEPARATORS, DECIMALS = (",", ";", "\t", " ", "|"), (".", ",")
+#: More rows than this are no table that someone recorded for a study, nor are more columns.
+MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
+#: What may stand between cells; a blank stands for any number of them.
+SEPARATORS = (",", ";", "\t", "|", " ")
+#: Lines in which a header is searched: loggers write a block of settings above it.
+WITHIN = 200
+#: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
+ENCODINGS = ("cp1252", "latin-1")
+#: First bytes of files that are no text, what they are, and the way to export them.
+_OF_MATLAB = 'writetable(table(time, normal, tangential), "record.csv") in MATLAB'
+FORMATS = (
+    (b"PK\x03\x04", "an Excel workbook", "the sheet saved as CSV UTF-8"),
+    (b"\xd0\xcf\x11\xe0", "an Excel workbook before 2007", "saved as .xlsx, or the sheet as CSV UTF-8"),
+    (b"MATLAB", "a MATLAB file", _OF_MATLAB),
+    (b"\x89HDF", "an HDF5 file, as of MATLAB", _OF_MATLAB),
+    (b"TDSm", "a LabVIEW TDMS file", "nptdms.TdmsFile(path).as_dataframe().to_csv(...) in Python"),
+)
+
+
+class FileTable(Table):
+    """The form of a table in a file."""
+
+    columns: Annotated[
+        dict[str, str], Allowed('a table of headers, such as { normal = "Fn [N]" }', whole=True)
+    ] = key("Headers of the file's columns, where they are not the names that they have here.", {})
+    separator: Annotated[
+        Literal[",", ";", "\t", "|", " "] | None, Allowed(f"one of {', '.join(map(repr, SEPARATORS))}")
+    ] = key("Between cells; a blank for any number of blanks. Found from the header unless given.", None)
+    decimal: Annotated[Literal[".", ","] | None, Allowed("one of '.', ','")] = key(
+        "The decimal sign in numbers. Found from the first rows unless given.", None
+    )
+    encoding: Annotated[str | None, Allowed('the name of an encoding, such as "cp1252"')] = key(
+        'Encoding of the text, UTF-8 unless given; "cp1252" or "latin-1" for older programs.', None
+    )
+    scale: Annotated[
+        dict[str, float], Allowed("a table of numbers, such as { normal = 1000 }", whole=True)
+    ] = key("Factors of columns, such as { normal = 1000 } for kN, or -1 for the other sign.", {})
+    skip_rows: Annotated[int, Allowed("a whole number of lines, 0 or more")] = key(
+        "Lines above the header. Found unless given, and told.", 0, ge=0
+    )
+    units_row: Annotated[bool | None, Allowed("true or false")] = key(
+        "Whether a row of units follows the header. Found unless given, and told.", None
+    )
+    sheet: Annotated[
+        str | int | None, Allowed("the name of a sheet, or its number from 1 on", whole=True)
+    ] = key("Sheet of a workbook; the first one unless given.", None)
+
+    def header(self, name: str) -> str:
+        """The header of a column."""
+        return _plain(self.columns.get(name, name))
+
+
+PLAIN = FileTable()
 
 
 @dataclass(frozen=True)
-class Form:
-    """The form of a table: its separator, its decimal sign, its headers.
+class UserTable:
+    """A table from a file.
 
     Attributes
     ----------
-    separator
-        What is between cells, one of `SEPARATORS`.
-    decimal
-        The decimal sign of numbers, "." or ",".
     headers
-        The headers of columns that are not those names that they have here.
+        The headers of its columns.
+    units
+        The cells of its row of units; empty without one.
+    cells
+        Its cells as texts, by the number of the column, indexed by the number of the line.
+    form
+        How it is written, with what was found out.
+    source
+        The path, for messages.
+    line
+        Number of the line of the header.
     """
 
-    separator: str = ","
-    decimal: str = "."
-    headers: Mapping[str, str] = field(default_factory=dict)
+    headers: list[str]
+    units: list[str]
+    cells: pd.DataFrame
+    form: FileTable
+    source: str
+    line: int
 
-    def header(self, name: str) -> str:
-        """Return the header of a column."""
-        return self.headers.get(name, name)
+    def has(self, name: str) -> bool:
+        """Return whether the table has a column."""
+        return self.form.header(name) in self.headers
+
+    def texts(self, name: str) -> list[str]:
+        """The cells of a column."""
+        return self.cells[self.headers.index(self.form.header(name))].tolist()
+
+    def numbers(self, names: Sequence[str]) -> FloatArray:
+        """Columns of numbers, scaled, shape (rows, k)."""
+        return np.stack([self._numbers(name) * self.form.scale.get(name, 1.0) for name in names], axis=1)
+
+    def _numbers(self, name: str) -> FloatArray:
+        texts = self.texts(name)
+        values = np.array([number(text, self.form.decimal) for text in texts])
+        if (wrong := np.flatnonzero(~np.isfinite(values))).size:
+            found = literal(texts[wrong[0]]) if texts[wrong[0]] else "nothing"
+            allowed = (
+                "a finite number"
+                if texts[wrong[0]]
+                else "a finite number; with the header of the time, time = ..., such rows are left out"
+            )
+            if found.startswith(("'#", "'%", "'//")) or wrong[0] == 0:
+                allowed += "; lines above the header are skip_rows, a row beneath it is units_row = true"
+            place = f"line {self.cells.index[wrong[0]]}, {self.form.header(name)}"
+            raise StudyError([Mistake(place, found, allowed, self.source)])
+        return values
+
+    def values(self, name: str) -> list[object]:
+        """The cells of a column, numbers where they are, scaled, and texts."""
+        found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
+        factor = self.form.scale.get(name, 1.0)
+        return [factor * value if math.isfinite(value) else text for text, value in found]
+
+    def unit(self, name: str, kind: str) -> str | None:
+        """The unit of a column that its header or the row of units says; None without a known one."""
+        column = self.headers.index(self.form.header(name))
+        for text in (self.units[column : column + 1] or [""])[0], self.headers[column]:
+            words = re.findall(r"[A-Za-zµμ]+", text)
+            if words and words[-1] in KNOWN[kind] and (words[-1] != "in" or "[" in text or "(" in text):
+                return words[-1]
+        return None
 
 
-PLAIN = Form()
+def number(cell: str, decimal: str | None) -> float:
+    """The number in a cell; NaN if there is none, or a point of thousands beside a decimal comma."""
+    try:
+        if decimal == ",":
+            cell = cell.replace(".", "_").replace(",", ".")
+        return plain_float(cell)
+    except ValueError:
+        return math.nan
 
 
-def form_of(given: Mapping[str, Any]) -> Form:
-    """The form by what is given of ``separator``, ``decimal`` and ``columns``, the headers."""
-    separator, decimal = given.get("separator") or PLAIN.separator, given.get("decimal") or PLAIN.decimal
-    # Those of the file are stripped, too.
-    headers = {own: str(header).strip() for own, header in (given.get("columns") or {}).items()}
-    return Form(separator, decimal, headers)
-
-
-def check_form(given: Mapping[str, Any], names: Sequence[str], report: Report) -> None:
-    """Report what is wrong with a form, of which there may be headers of columns of these names."""
-    before = len(report)
-    for key, allowed in (("separator", SEPARATORS), ("decimal", DECIMALS)):
-        if given.get(key) is not None and given[key] not in allowed:
-            report(key, literal(given[key]), f"one of {', '.join(map(repr, allowed))}")
-    headers = given.get("columns")
-    if headers is not None and not (
-        isinstance(headers, Mapping)
-        and all(isinstance(each, str) and each.strip() for each in headers.values())
-    ):
-        report("columns", literal(headers), f'a table of headers, such as {{ {names[0]} = "Fn [N]" }}')
-        return
-    for name in headers or ():
-        if name not in names:
-            report(f"columns.{name}", literal(name), nearest(str(name), names, {}))
-    form = PLAIN if len(report) > before else form_of(given)
-    if form.separator == form.decimal:
-        report("separator, decimal", f"both {form.decimal!r}", "two different signs")
-
-
-def read_columns(path: Path, names: Sequence[str], optional: Sequence[str], form: Form) -> FloatArray:
-    """The columns of a table, shape (rows, k), in the order of the names.
+def read_columns(
+    path: Path,
+    names: Sequence[str],
+    optional: Sequence[str],
+    form: FileTable,
+    kinds: Mapping[str, str] | None = None,
+    labels: Mapping[str, Any] | None = None,
+    gaps: bool = False,
+) -> FloatArray:
+    """Columns of numbers of a table, shape (rows, k), in the order of the names.
 
     Parameters
     ----------
@@ -95,81 +182,308 @@ def read_columns(path: Path, names: Sequence[str], optional: Sequence[str], form
         Names of columns that come behind them if the file has them.
     form
         How it is written.
+    kinds, labels
+        "length", "force" or "stress" by column, and the study's label by kind: a header with another unit,
+        and without `scale`, is a mistake.
+    gaps
+        Whether rows with an empty cell are left out, and told: others say where they are.
 
     Raises
     ------
     StudyError
         A ValueError with what is wrong in the file, and in which row.
     """
+    known = (*names, *optional, *(kinds or ()))
+    strange = [
+        (part, name) for part in ("columns", "scale") for name in getattr(form, part) if name not in known
+    ]
+    if strange:
+        raise StudyError(
+            Mistake(f"{part}.{name}", literal(name), nearest(name, known, {})) for part, name in strange
+        )
+    table = read_table(path, names, optional, form)
+    for name in () if form.columns else (name for name in optional if not table.has(name)):
+        # Such as Bulk, or bulk_stress: left alone it would count as 0.
+        if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
+            allowed = f"{name}, if that is meant, or another name"
+            raise StudyError(
+                [Mistake(f"line {table.line}", f"the column {literal(alike[0])}", allowed, table.source)]
+            )
+    names = [*names, *filter(table.has, optional)]
+    for name in names:
+        kind = (kinds or {}).get(name, "")
+        label, unit = (labels or {}).get(kind), table.unit(name, kind) if kind else None
+        if (
+            unit
+            and label in KNOWN[kind]
+            and KNOWN[kind][unit] != KNOWN[kind][label]
+            and name not in form.scale
+        ):
+            factor = KNOWN[kind][unit] / KNOWN[kind][label]
+            found = (
+                f"{literal(table.form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
+            )
+            allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+            raise StudyError([Mistake("", found, allowed, str(path))])
+    empty = (table.cells[[table.headers.index(form.header(name)) for name in names]] == "").any(axis=1)
+    if gaps and empty.any() and not empty.all():
+        more = f" and {empty.sum() - 1} more" if empty.sum() > 1 else ""
+        _tell(table.source, f"line {empty.idxmax()}{more} left out: a value is missing")
+        table = replace(table, cells=table.cells[~empty])
+    return table.numbers(names)
+
+
+def read_table(
+    path: Path, names: Sequence[str], known: Collection[str], form: FileTable, most: int = MOST_ROWS
+) -> UserTable:
+    """The table in a file; separator, header, units and decimal sign are found unless they are given.
+
+    Parameters
+    ----------
+    path
+        The file.
+    names
+        Columns that it must have.
+    known
+        Further columns that it may have, which tell its separator.
+    form
+        What is given of its form.
+    most
+        Largest number of rows.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and in which line.
+    """
     source = str(path)
     try:
-        text = io.StringIO(read_text(path, LARGEST_TABLE), newline=None).read()  # lines end as \n, \r\n or \r
-    except (OSError, ValueError) as error:
-        raise StudyError(
-            [Mistake("", reason_of(error), "a CSV file in UTF-8 that can be read", source)]
-        ) from None
+        data = read_file(path, LARGEST_TABLE)
+    except OSError as error:
+        raise StudyError([Mistake("", reason_of(error), "a CSV file that can be read", source)]) from None
+    content = _workbook(data, form, source) if data.startswith(b"PK") else _text(data, form, source)
+    form, rows = _header(content, names, known, form, source)
+    (line, headers), *below = rows
+    units = _units(below, [headers.index(form.header(name)) for name in names], form)
+    if units and form.units_row is None:
+        _tell(source, f"line {below[0][0]} is read as units: {', '.join(filter(None, units))}")
+    cells = _cells(content, below[0][0] if units else line, len(headers), form, most, source)
+    if form.separator == form.decimal == ",":
+        raise StudyError([Mistake("separator, decimal", "both ','", "two different signs")])
+    if form.decimal is None:
+        form = form.model_copy(update={"decimal": _decimal(cells, headers, names, form)})
+        if form.decimal == ",":
+            _tell(source, "numbers with a comma are read with decimal = ','")
+    return UserTable(headers, units, cells, form, source, line)
+
+
+def _text(data: bytes, form: FileTable, source: str) -> str:
+    """The text in a file, its lines ended by newlines."""
+    for start, what, way in FORMATS:
+        if data.startswith(start):
+            raise StudyError([Mistake("", what, f"a table in a text file: {way}", source)])
+    has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
+    encoding = form.encoding or ("utf-16" if has_mark else "utf-8-sig")
     try:
-        line, header = _header(text, form)
-        if wrong := _wrong_header(header, names, optional, form):
-            wrong = _wrong_separator(text, names, optional, form) or wrong
-            raise StudyError([Mistake(f"line {line}", *wrong, source)])
-    except csv.Error as error:
-        raise StudyError([Mistake("", str(error), "a CSV file that can be read", source)]) from None
-    names = [*names, *(name for name in optional if form.header(name) in header)]
-    table = _cells(text, line, len(header), form, source)
-    columns = [_numbers(table[header.index(form.header(name))], form, name, source) for name in names]
-    return np.stack(columns, axis=1)
+        text = data.decode(encoding)
+    except LookupError:
+        allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
+        raise StudyError([Mistake("encoding", literal(encoding), allowed)]) from None
+    except UnicodeDecodeError as error:
+        raise StudyError([_undecoded(data, error, source)]) from None
+    if "\0" in text:
+        raise StudyError([Mistake("", "a binary file", "a table in a text file", source)])
+    return io.StringIO(text, newline=None).read()
 
 
-def read_as_given(path: Path, names: Sequence[str], given: Mapping[str, Any]) -> FloatArray:
-    """The columns of a table in the form that is given; a StudyError with every mistake in that."""
-    check_form(given, names, report := Report())
-    report.refuse()
-    return read_columns(path, names, (), form_of(given))
+def _undecoded(data: bytes, error: UnicodeDecodeError, source: str) -> Mistake:
+    """Name the line with bytes that cannot be decoded, and what they would be in another encoding."""
+    line = data.count(b"\n", 0, error.start) + 1
+    found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
+    begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
+    end = data.find(b"\n", error.start)
+    piece = data[begin : min(error.start + 8, end if end >= 0 else len(data))]
+    ways = [
+        f'encoding = "{own}", which reads {literal(piece.decode(own, "replace").strip())} there'
+        for own in ENCODINGS
+    ]
+    return Mistake("", found, f'{ways[0]}, or "{ENCODINGS[1]}"; or the file saved as UTF-8', source)
 
 
-def _header(text: str, form: Form) -> tuple[int, list[str]]:
-    """The first line that is not empty: its number, and its cells."""
-    for number, line in enumerate(io.StringIO(text), start=1):
-        if line.strip():
-            between = {"delimiter": form.separator, "skipinitialspace": True}
-            cells = next(csv.reader([" ".join(line.split()) if form.separator == " " else line], **between))  # type: ignore[arg-type]
-            return number, [cell.strip() for cell in cells]
-    return 1, []
-
-
-def _cells(text: str, line: int, width: int, form: Form, source: str) -> pd.DataFrame:
-    """The cells below the header as texts, by column from 0 on and by the number of their line."""
+def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
+    """The cells of a sheet as texts."""
     import pandas as pd
 
-    options: dict[str, Any] = {"header": None, "dtype": str, "keep_default_na": False}
-    options |= {"skip_blank_lines": False, "skipinitialspace": True, "skiprows": line}
-    options["sep"] = r"\s+" if form.separator == " " else form.separator
+    if b"xl/" not in data:
+        raise StudyError(
+            [Mistake("", "a zip archive", "a table in a text file, or an Excel workbook", source)]
+        )
     try:
         with warnings.catch_warnings():
-            # Of a first row that is longer than the names pandas would drop the rest.
-            warnings.simplefilter("error", pd.errors.ParserWarning)
-            table = pd.read_csv(io.StringIO(text), names=range(width + 1), index_col=False, **options)
-    except pd.errors.ParserWarning:
-        cells = text.split("\n")[line].count(form.separator) + 1
-        raise StudyError([_too_long(cells, width, line + 1, source)]) from None
-    except (pd.errors.ParserError, ValueError) as error:
-        raise StudyError([_unreadable(str(error), width, source)]) from None
-    if len(table) > MOST_ROWS:
-        raise StudyError([Mistake("", f"{len(table)} rows", f"at most {MOST_ROWS}", source)])
-    table = table.fillna("").apply(lambda column: column.str.strip())
-    table.index = table.index + line + 1
+            warnings.simplefilter("ignore")  # of styles and the like that are not read
+            book = pd.ExcelFile(io.BytesIO(data), engine="openpyxl")
+            names = list(map(str, book.sheet_names))
+            sheet = form.sheet if form.sheet is not None else 1
+            if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
+                raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
+            cells = book.parse(sheet if isinstance(sheet, str) else sheet - 1, header=None, dtype=object)
+    except ImportError:
+        allowed = f'pip install "swtstudy[excel]", which reads it; or {FORMATS[0][2]}'
+        raise StudyError([Mistake("", "an Excel workbook", allowed, source)]) from None
+    except StudyError:
+        raise
+    except Exception as error:  # a damaged workbook fails anywhere in openpyxl
+        raise StudyError(
+            [Mistake("", f"a workbook that cannot be read ({error})", FORMATS[0][2], source)]
+        ) from None
+    texts = cells.map(lambda cell: "" if pd.isna(cell) else str(cell).strip())
+    texts.index = texts.index + 1
+    return texts
+
+
+def _rows(content: str | pd.DataFrame, separator: str, skipped: int) -> Iterator[tuple[int, list[str]]]:
+    """Rows that are not empty: the number of the last line of each, and its cells."""
+    if not isinstance(content, str):
+        for row in content.iloc[skipped:].itertuples():
+            if any(row[1:]):
+                yield row[0], [_plain(cell) for cell in row[1:]]
+        return
+    lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
+    if separator == " ":
+        lines = (" ".join(line.split()) for line in lines)
+    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
+    for cells in reader:
+        if any(map(str.strip, cells)):
+            yield reader.line_num + skipped, [_plain(cell) for cell in cells]
+
+
+def _plain(cell: str) -> str:
+    """A cell in one line, as a header may be given."""
+    return " ".join(cell.split())
+
+
+def _header(
+    content: str | pd.DataFrame, names: Sequence[str], known: Collection[str], form: FileTable, source: str
+) -> tuple[FileTable, list[tuple[int, list[str]]]]:
+    """The form with its separator, the row of the header and at most two rows beneath it."""
+    wanted, others = {*map(form.header, names)}, {*map(form.header, known)}
+    first: dict[str, list[str]] = {}
+    found: dict[str, list[tuple[int, list[str]]]] = {}
+    for separator in SEPARATORS:
+        rows = _first_rows(content, separator, form.skip_rows, source)
+        first[separator] = rows[0][1] if rows else []
+        place = next((k for k, (_, cells) in enumerate(rows) if wanted <= {*cells}), None)
+        if place is not None:
+            found[separator] = rows[place:]
+    if found:
+        likely = max(found, key=lambda each: len((wanted | others) & {*found[each][0][1]}))
+    else:
+        likely = max(first, key=lambda each: (each != " ") * len(first[each]))
+    separator = form.separator or likely
+    if separator not in found:
+        wrong = _missing(first[separator], names, form)
+        if likely in found or len(first[likely]) >= len(names) > len(first[separator]):
+            wrong = f"cells parted by {likely!r}, while separator is {separator!r}", f"separator = {likely!r}"
+        raise StudyError([Mistake(f"line {form.skip_rows + 1}", *wrong, source)])
+    rows = found[separator][:3]
+    line, headers = rows[0]
+    if len(headers) > MOST_COLUMNS:
+        raise StudyError([Mistake(f"line {line}", f"more than {MOST_COLUMNS} columns", "fewer", source)])
+    if doubt := _doubt(headers, names, known, form):
+        raise StudyError([Mistake(f"line {line}", *doubt, source)])
+    for below, cells in rows[1:]:
+        if len(cells) - (cells[-1] == "") > len(headers):
+            raise StudyError([_too_long(len(cells), len(headers), below, source)])
+    if first[separator] != headers:
+        _tell(source, f"the header is found in line {line}: what is above it is skipped")
+    return form.model_copy(update={"separator": separator}), rows
+
+
+def _first_rows(
+    content: str | pd.DataFrame, separator: str, skipped: int, source: str
+) -> list[tuple[int, list[str]]]:
+    """The first rows that are not empty; fewer where a stray quote makes the others one cell."""
+    rows = []
+    try:
+        for row in islice(_rows(content, separator, skipped), WITHIN):
+            rows.append(row)
+    except csv.Error as error:
+        if not rows and separator == SEPARATORS[0]:
+            raise StudyError([Mistake("", str(error), "a CSV file that can be read", source)]) from None
+    return rows
+
+
+def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:
+    """Say which column a header lacks, and what is allowed."""
+    for name in names:
+        if name in form.columns and form.header(name) not in headers:
+            own = form.header(name)
+            return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
+    if not headers:
+        return "an empty file", f"a header{' with ' * bool(names)}{', '.join(names)}, and rows of values"
+    allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
+    return f"the columns {', '.join(headers)}", allowed
+
+
+def _doubt(
+    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable
+) -> tuple[str, str] | None:
+    """Return what was found in a header and what is allowed, if it leaves a column in doubt."""
+    for other in map(form.header, names):
+        alike = [name for name in names if form.header(name) == other]
+        if len(alike) > 1:
+            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
+    lower = [header.lower() for header in headers]
+    for name in map(form.header, (*names, *known)):
+        if lower.count(name.lower()) > 1:
+            return f"the column {name} twice", "each column once"
+    return None
+
+
+def _units(below: list[tuple[int, list[str]]], columns: list[int], form: FileTable) -> list[str]:
+    """The row beneath the header if it is one of units: no number in any column, and numbers beneath."""
+    if not below or form.units_row is False:
+        return []
+    rows = [[cells[k] if k < len(cells) else "" for k in columns] for _, cells in below]
+    numbers = [[any(math.isfinite(number(cell, sign)) for sign in ".,") for cell in row] for row in rows]
+    is_one = any(rows[0]) and not any(numbers[0]) and len(rows) > 1 and all(numbers[1])
+    return below[0][1] if form.units_row or is_one else []
+
+
+def _cells(
+    content: str | pd.DataFrame, line: int, width: int, form: FileTable, most: int, source: str
+) -> pd.DataFrame:
+    """The cells below a line as texts, by column from 0 on and by the number of their line."""
+    import pandas as pd
+
+    if isinstance(content, str):
+        stream = io.StringIO(content)
+        for _ in range(line):
+            stream.readline()
+        options: dict[str, Any] = {"header": None, "dtype": str, "keep_default_na": False}
+        options |= {"skip_blank_lines": False, "skipinitialspace": True, "index_col": False}
+        options["sep"] = r"\s+" if form.separator == " " else form.separator
+        try:
+            table = pd.read_csv(stream, names=range(width + 1), **options)
+        except (pd.errors.ParserError, ValueError) as error:
+            raise StudyError([_unreadable(str(error), width, line, source)]) from None
+        table = table.fillna("").apply(lambda column: column.str.strip())
+        table.index = table.index + line + 1
+    else:
+        table = content.iloc[line:].reindex(columns=range(width + 1), fill_value="")
+    if len(table) > most + 1:
+        raise StudyError([Mistake("", f"{len(table)} rows", f"at most {most}", source)])
     table = table[(table != "").any(axis=1)]
     if (table[width] != "").any():
         raise StudyError([_too_long(width + 1, width, int((table[width] != "").idxmax()), source)])
     return table
 
 
-def _unreadable(error: str, width: int, source: str) -> Mistake:
+def _unreadable(error: str, width: int, line: int, source: str) -> Mistake:
     """Say in our words what pandas could not read."""
     counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", error)
     if counts:
-        return _too_long(int(counts[2]), width, int(counts[1]), source)
+        return _too_long(int(counts[2]), width, line + int(counts[1]), source)
     return Mistake("", error.rpartition("C error: ")[2].strip(), "a CSV file that can be read", source)
 
 
@@ -178,64 +492,14 @@ def _too_long(found: int, width: int, line: int, source: str) -> Mistake:
     return Mistake(f"line {line}", f"{found} cells under {width} columns", allowed, source)
 
 
-def _wrong_separator(
-    text: str, names: Sequence[str], optional: Sequence[str], form: Form
-) -> tuple[str, str] | None:
-    """Return what was found and what is allowed, if a header has its columns only with another separator."""
-    for separator in SEPARATORS:
-        other = replace(form, separator=separator)
-        header, own = (_header(text, each)[1] for each in (other, form))
-        enough = separator != " " and len(header) >= len(names) > len(own)
-        if enough or not _wrong_header(header, names, optional, other):
-            found = f"cells parted by {separator!r}, while separator is {form.separator!r}"
-            return found, f"separator = {separator!r}"
-    return None
+def _decimal(cells: pd.DataFrame, headers: list[str], names: Sequence[str], form: FileTable) -> str:
+    """The decimal sign of the first rows: a comma if numbers have commas, and none has a point."""
+    columns = [headers.index(form.header(name)) for name in names] or list(range(len(headers)))
+    texts = cells[columns].head(WITHIN).to_numpy().ravel().tolist()
+    commas = any(re.match(r"[+-]?\d*,\d", text) for text in texts)
+    points = any(re.match(r"[+-]?\d*\.\d", text) for text in texts)
+    return "," if commas and not points and form.separator != "," else "."
 
 
-def _wrong_header(
-    header: list[str], names: Sequence[str], optional: Sequence[str], form: Form
-) -> tuple[str, str] | None:
-    """Return what was found in a header and what is allowed, if it lacks a column or leaves one in doubt."""
-    for own, other in form.headers.items():
-        if other not in header:
-            return f"no column {literal(other)}, which is to be {own}", nearest(other, header, {})
-    allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
-    if not {*map(form.header, names)} <= {*header}:
-        return f"the columns {', '.join(header) or 'of an empty file'}", allowed
-    for other in map(form.header, names):
-        alike = [name for name in names if form.header(name) == other]
-        if len(alike) > 1:
-            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
-    lower = [name.lower() for name in header]
-    for name in map(form.header, (*names, *optional)):
-        if lower.count(name.lower()) > 1:
-            return f"the column {name} twice", "each column once"
-    # Such as Bulk, or bulk_stress: left alone it would count as 0.
-    for name in () if form.headers else (name for name in optional if name not in header):
-        for other in header:
-            if name in other.lower() or meant(other, [name], {}):
-                return f"the column {literal(other)}", f"{name}, if that is meant, or another name"
-    return None
-
-
-def _numbers(cells: pd.Series, form: Form, name: str, source: str) -> FloatArray:
-    """The numbers in a column."""
-    values = np.empty(len(cells))
-    for row, (line, cell) in enumerate(cells.items()):
-        try:
-            values[row] = _number(cell, form.decimal)
-        except ValueError:
-            values[row] = math.nan
-        if not math.isfinite(values[row]):
-            found = literal(cell) if cell else "nothing"
-            raise StudyError([Mistake(f"line {line}, {form.header(name)}", found, "a finite number", source)])
-    return values
-
-
-def _number(cell: str, decimal: str) -> float:
-    """The number in a cell; with a decimal comma, a point would be one of thousands."""
-    if decimal == ".":
-        return plain_float(cell)
-    if "." in cell:
-        raise ValueError("a point beside a decimal comma")
-    return plain_float(cell.replace(decimal, "."))
+def _tell(source: str, words: str) -> None:
+    warnings.warn(f"{Path(source).name}: {words}", stacklevel=5)

@@ -303,8 +303,9 @@ def _definitions(raw: Mapping[str, Any], folder: Path, report: Report) -> dict[s
         from swtstudy.study.loops_and_profiles import read_loops, read_profiles
 
         sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
+        labels = raw["units"] if isinstance(raw.get("units"), dict) else {}
         read = read_loops if parameter == "load" else read_profiles
-        known[parameter] = read(sound, folder, report)
+        known[parameter] = read(sound, folder, report, labels)
     return known
 
 

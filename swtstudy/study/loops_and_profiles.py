@@ -12,9 +12,11 @@ from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
-from swtstudy.study.columns import read_as_given
-from swtstudy.study.signal import BULK, COLUMNS, KEYS, Signal, signal_from
-from swtstudy.study.trace import read_trace
+from swtstudy.study.columns import FileTable, read_columns
+from swtstudy.study.keys import place_of, read_keys
+from swtstudy.study.signal import BULK, COLUMNS, Signal, SignalTable, signal_from
+from swtstudy.study.tables import LoadTable, ProfileTable
+from swtstudy.study.trace import trace_from
 from swtstudy.units.loads import ANY, ANY_MEASURED
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.definition import Definition
@@ -23,6 +25,8 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
 #: Numbers of a harmonic: order, amplitude, phase.
 _OF_HARMONIC = 3
+#: What may be said of a signal in a file.
+KEYS = (*SignalTable.model_fields,)
 #: What may be said of vertices and of harmonics besides.
 _BESIDE = {
     "vertices": ("absolute", "mean_normal"),
@@ -31,7 +35,9 @@ _BESIDE = {
 }
 
 
-def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+def read_loops(
+    tables: Mapping[str, Any], folder: Path, report: Report, labels: Mapping[str, Any]
+) -> dict[str, Definition]:
     """The loops of a study, by name, as far as they are sound.
 
     Parameters
@@ -42,13 +48,16 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
         That of the study, to which the paths of files are relative.
     report
         Told what is wrong with them.
+    labels
+        Those of the study's units by kind, as far as they are given.
     """
     found: dict[str, Definition] = {}
     for name, table in tables.items():
         key = f"loads.{name}"
         # A wrong loop stands for any: that it is used is no mistake of its own.
         found[name] = ANY_MEASURED if {"absolute", "mean_normal"} & {*table} else ANY
-        if not isinstance(table.get("file", ""), str):
+        form, wrong = read_keys(LoadTable, table)
+        if form is None or wrong:
             continue  # reported with the structure
         kind = _kind(table)
         if isinstance(kind, Mistake):
@@ -60,7 +69,7 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
                     allowed = "one of the two: kept cycles are as they were recorded"
                     report(key, "keep_cycles and harmonics", allowed)
                     continue
-                signal = signal_from(folder / table["file"], name, table)
+                signal = signal_from(folder / table["file"], name, form, labels)
                 found[name] = signal.loop
                 for each in signal.loops if table.get("keep_cycles") is True else ():
                     if each.name in tables:
@@ -77,7 +86,8 @@ def read_loops(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
     """The signal that a load of a sound study is; None for one that comes from no file."""
     table = parse_toml(text).get("loads", {}).get(name, {})
-    return signal_from(folder / table["file"], name, table) if "file" in table else None
+    form, _ = read_keys(LoadTable, table)
+    return signal_from(folder / table["file"], name, form) if form is not None and form.file else None
 
 
 def _kind(table: Mapping[str, Any]) -> str | Mistake:
@@ -132,44 +142,42 @@ def _harmonics(rows: Any, column: str) -> Any:
     return read
 
 
-def place_of(mistake: Mistake) -> str:
-    """Where in a file or a list the mistake is."""
-    place = ": ".join(part for part in (mistake.source, mistake.key) if part)
-    return f" ({place})" if place else ""
-
-
 #: Columns of the file of a profile.
 PROFILE_COLUMNS = ("radius", "height")
-#: What is said of a file.
-OF_FILES = ("columns", "separator", "decimal", "two_sided", "level")
+#: What is said of a file, and of a trace.
+OF_FILES = (*FileTable.model_fields, "two_sided", "level")
 
 _RADII = np.linspace(0.0, 1e3, 9)
 _ANY_PROFILE = TabulatedProfile("any", _RADII, _RADII**2)
 
 
-def profile_from(name: str, table: Mapping[str, Any], folder: Path) -> TabulatedProfile:
-    """A profile from its table."""
-    geometry, smoothing = table.get("geometry", AXISYMMETRIC), table.get("smoothing")
-    if table.get("two_sided") is True:
-        form = {key: table[key] for key in ("columns", "separator", "decimal") if key in table}
-        level = table.get("level") is not False
-        given = {"level": level, "smoothing": smoothing, "geometry": geometry, **form}
-        return read_trace(folder / str(table.get("file")), name=name, **given)
-    smoothing = 0.0 if smoothing is None else smoothing
-    if "file" not in table:
-        return TabulatedProfile(name, table["radius"], table["height"], smoothing, geometry)
-    radius, height = read_as_given(folder / table["file"], PROFILE_COLUMNS, table).T
-    return TabulatedProfile(name, radius, height, smoothing, geometry)
+def profile_from(
+    name: str, table: Mapping[str, Any], folder: Path, labels: Mapping[str, Any] | None = None
+) -> TabulatedProfile:
+    """A profile from its table, whose keys are sound."""
+    form, _ = read_keys(ProfileTable, table)
+    if form is None or form.file is None:
+        smoothing = table.get("smoothing") or 0.0
+        return TabulatedProfile(
+            name, table["radius"], table["height"], smoothing, table.get("geometry", AXISYMMETRIC)
+        )
+    if form.two_sided:
+        return trace_from(folder / form.file, name, form, labels)
+    kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
+    radius, height = read_columns(folder / form.file, PROFILE_COLUMNS, (), form, kinds, labels).T
+    return TabulatedProfile(name, radius, height, form.smoothing or 0.0, form.geometry)
 
 
-def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> dict[str, Definition]:
+def read_profiles(
+    tables: Mapping[str, Any], folder: Path, report: Report, labels: Mapping[str, Any]
+) -> dict[str, Definition]:
     """The profiles of a study, by name; as `read_loops` for loads."""
     # A wrong profile stands for any: that it is used is no mistake of its own.
     found: dict[str, Definition] = {name: _ANY_PROFILE for name in tables}
     for name, table in tables.items():
         key = f"profiles.{name}"
         given = [each for each in (*PROFILE_COLUMNS, "file") if table.get(each) is not None]
-        if not isinstance(table.get("file", ""), str):
+        if read_keys(ProfileTable, table)[1]:
             continue  # reported with the structure
         if given not in (["file"], [*PROFILE_COLUMNS]):
             words = " and ".join(given) or "nothing"
@@ -181,7 +189,7 @@ def read_profiles(tables: Mapping[str, Any], folder: Path, report: Report) -> di
             report(key, ", ".join(strange), f"{strange[0]} {beside[strange[0]]} only")
             continue
         try:
-            found[name] = profile_from(name, table, folder)
+            found[name] = profile_from(name, table, folder, labels)
         except StudyError as error:
             for each in error.mistakes:
                 report(key, f"{each.found}{place_of(each)}", each.allowed)

@@ -6,8 +6,7 @@ parameters, and a row for each point.
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -18,11 +17,14 @@ from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
+from swtstudy.study.columns import FileTable, read_table
 from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
-from swtstudy.vocabulary.files import plain_float, read_table, reason_of
+from swtstudy.study.keys import place_of, read_keys
+from swtstudy.study.tables import SampleTable
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_SEED,
     Report,
+    StudyError,
     is_seed,
     is_whole,
     literal,
@@ -36,36 +38,37 @@ POINTS_KEY = "sample.file"
 ALLOWED_POINTS = "a CSV file: a row with names of parameters, then a row with their values for each point"
 
 
-def read_points(path: Path, report: Report) -> dict[str, list[object]] | None:
-    """The columns of a file by name; numbers are read, other texts are left. None if there are mistakes."""
+def read_points(
+    path: Path, report: Report, form: FileTable, names: Collection[str], needed: Sequence[str] = ()
+) -> dict[str, list[object]] | None:
+    """The columns of a file by name; numbers are read, other texts are left. None if there are mistakes.
+
+    Parameters
+    ----------
+    path
+        The file.
+    report
+        Told what is wrong.
+    form
+        How it is written.
+    names
+        Parameters: names of columns.
+    needed
+        Names of columns that there must be.
+    """
     try:
-        names, rows = read_table(path, LONGEST_AXIS)
-    except (OSError, ValueError) as error:
-        report(POINTS_KEY, f"{literal(str(path))} ({reason_of(error)})", ALLOWED_POINTS)
+        table = read_table(path, needed, names, form, LONGEST_AXIS)
+    except StudyError as error:
+        for each in error.mistakes:
+            report(POINTS_KEY, f"{each.found}{place_of(each)}", each.allowed)
         return None
-    if not rows:
-        report(POINTS_KEY, f"{literal(str(path))} without points", ALLOWED_POINTS)
+    if not len(table.cells):
+        report(POINTS_KEY, f"{path} without points", ALLOWED_POINTS)
         return None
-    twice = sorted(name for name, count in Counter(names).items() if count > 1)
-    ragged = [line for line, row in rows if len(row) != len(names)]
-    if twice:
-        report(POINTS_KEY, f"{', '.join(twice)} twice in the first row", "each parameter once")
-    if ragged:
-        more = f" and {len(ragged) - 1} more" if len(ragged) > 1 else ""
-        report(POINTS_KEY, f"line {ragged[0]}{more} with another number of values", f"{len(names)} values")
-    if twice or ragged:
-        return None
-    columns = zip(*(row for _, row in rows), strict=True)
+    of_headers = {form.header(name): name for name in (*needed, *names)}
     return {
-        name: [_number_or_text(cell) for cell in column] for name, column in zip(names, columns, strict=True)
+        (name := of_headers.get(header, header)): table.values(name) for header in table.headers if header
     }
-
-
-def _number_or_text(cell: str) -> object:
-    try:
-        return plain_float(cell)
-    except ValueError:
-        return cell
 
 
 _FORMS = "design, size and ranges; or file; or points"
@@ -126,7 +129,8 @@ def read_sample(
     points, key = raw.get("points"), "sample.points"
     if forms[0] == "file":
         file, key = raw["file"], POINTS_KEY
-        points = read_points(folder / file, report) if isinstance(file, str) else None
+        form, _ = read_keys(SampleTable, raw)
+        points = read_points(folder / file, report, form, rows) if form is not None else None
     if not isinstance(points, Mapping):
         return None, []
     return _given(points, key, report, known, rows), [name for name in points if name in rows]

@@ -8,24 +8,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.loads.smooth_path import HIGHEST_ORDER
-from swtstudy.study.columns import check_form, form_of, read_columns
+from swtstudy.study.columns import FileTable, read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
+from swtstudy.study.keys import Allowed, key, read_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import (
-    Mistake,
-    Report,
-    StudyError,
-    is_number,
-    is_whole,
-    literal,
-    plain_number,
-)
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
@@ -38,18 +32,40 @@ FEWEST_CYCLES = 3
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
-#: What may be said of a signal in a file.
-KEYS = (
-    "columns",
-    "absolute",
-    "separator",
-    "decimal",
-    "time",
-    "recorded_cycles",
-    "period",
-    "harmonics",
-    "despike",
-)
+#: What a column is, with units.
+KINDS = {"normal": "force", "tangential": "force", "bulk": "stress"}
+
+
+class SignalTable(FileTable):
+    """The form of a signal in a file, and its cycles."""
+
+    absolute: Annotated[bool, Allowed("true or false")] = key(
+        "Whether the normal column is the load itself: its mean is the mean load of the study.", False
+    )
+    time: Annotated[str | None, Allowed("the header of the column of the time")] = key(
+        "Header of the file's column of the time; without it samples are even.", None, min_length=1
+    )
+    recorded_cycles: Annotated[int | None, Allowed("a whole number of cycles, 1 or more")] = key(
+        "Number of cycles that the file holds: they are folded into their mean.", None, ge=1
+    )
+    period: Annotated[float | None, Allowed("a positive number")] = key(
+        "Length of a cycle instead of their number, in the unit of the time, or in samples.",
+        None,
+        gt=0.0,
+        allow_inf_nan=False,
+    )
+    frequency: Annotated[float | None, Allowed("a positive number")] = key(
+        "Cycles per unit of the time, such as Hz, instead of the period.", None, gt=0.0, allow_inf_nan=False
+    )
+    harmonics: Annotated[int | None, Allowed(f"a whole number, 1 to {HIGHEST_ORDER}")] = key(
+        "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
+        None,
+        ge=1,
+        le=HIGHEST_ORDER,
+    )
+    despike: Annotated[bool, Allowed("true or false")] = key(
+        "Whether samples that stand out from all other cycles take the median of the cycles.", False
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +141,7 @@ class Signal:
         else:
             mean = float(self.cycles[..., 0].mean())
         if not mean > 0.0:
-            allowed = "a mean above 0: bodies are pressed; is it the right column?"
+            allowed = "a mean above 0; where compression is negative: scale = { normal = -1 }"
             raise StudyError([Mistake("absolute", f"a mean normal load of {mean:.3g}", allowed)])
         return mean
 
@@ -197,26 +213,14 @@ class Signal:
         return LoadPath(name, cycle - off, self.mean_normal)
 
 
-def read_signal(
-    path: str | PathLike[str],
-    *,
-    name: str | None = None,
-    columns: Mapping[str, str] | None = None,
-    absolute: bool = False,
-    separator: str = ",",
-    decimal: str = ".",
-    time: str | None = None,
-    recorded_cycles: int | None = None,
-    period: float | None = None,
-    harmonics: int | None = None,
-    despike: bool = False,
-) -> Signal:
-    """Loads that a rig has recorded, from a table with a header.
+@with_keys(SignalTable)
+def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: Any) -> Signal:
+    """Loads that a rig has recorded, from a table with a header in a text file or a workbook.
 
     Parameters
     ----------
     path
-        The file, in UTF-8.
+        The file.
     name
         Name of the loop; that of the file unless given.
     columns
@@ -225,16 +229,25 @@ def read_signal(
     absolute
         Whether the normal column is the load itself, as it is measured: its mean is taken off, and is the
         mean normal load of contacts that are given none.
-    separator
-        Between cells: ",", ";", a tab, "|", or a blank for any number of blanks.
-    decimal
-        The decimal sign, "." or ",".
+    separator, decimal
+        Between cells (",", ";", a tab, "|", or a blank for any number of blanks) and in numbers ("." or ",");
+        found from the file unless given.
+    encoding
+        Of the text, UTF-8 unless given.
+    scale
+        Factors of columns, such as ``{"normal": 1000}`` for kN.
+    skip_rows, units_row
+        Number of lines above the header, and whether a row of units follows it; found from the file unless
+        given, with a warning.
+    sheet
+        Name or number of a sheet of an Excel workbook, for which openpyxl must be installed.
     time
         Header of the time; without it samples are even.
     recorded_cycles
         Number of cycles that the file holds. They are folded into their mean.
-    period
-        Length of a cycle in its place, in the unit of the time, or in samples without one.
+    period, frequency
+        Length of a cycle instead of their number, in the unit of the time, or in samples without one; or one
+        over that.
     harmonics
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.
@@ -252,47 +265,38 @@ def read_signal(
     StudyError
         A ValueError with what is wrong, and where in the file.
     """
-    given: dict[str, object] = {"columns": columns, "absolute": absolute, "separator": separator}
-    given |= {"decimal": decimal, "time": time, "period": period}
-    given |= {"recorded_cycles": recorded_cycles, "harmonics": harmonics, "despike": despike}
+    form, mistakes = read_keys(SignalTable, {key: value for key, value in given.items() if value is not None})
+    if form is None:
+        raise StudyError(mistakes)
     own = Path(path).stem or str(path) if name is None else name
-    return signal_from(Path(path), checked_name(own), given)
+    return signal_from(Path(path), checked_name(own), form)
 
 
-def signal_from(path: Path, name: str, given: Mapping[str, object]) -> Signal:
-    """The signal in a file, from values of `KEYS`, which may be None; see `read_signal`."""
-    report = Report()
-    for key, (sound, allowed) in _SOUND.items():
-        if given.get(key) is not None and not sound(given[key]):
-            report(key, literal(given[key]), allowed)
-    check_form(given, (*COLUMNS, BULK), report)
-    if given.get("recorded_cycles") is not None and given.get("period") is not None:
-        report("recorded_cycles, period", "both", "one of the two: the other follows")
-    report.refuse()
-    time, values = _table(path, given)
+def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, Any] | None = None) -> Signal:
+    """The signal in a file; see `read_signal`, and `read_columns` for the labels of a study's units."""
+    lengths = [
+        each for each in ("recorded_cycles", "period", "frequency") if getattr(given, each) is not None
+    ]
+    if len(lengths) > 1:
+        raise StudyError([Mistake(", ".join(lengths), "both", "one of the two: the other follows")])
+    if given.frequency is not None and given.time is None:
+        allowed = "time = the header of the time, in whose unit a cycle takes 1/frequency; or recorded_cycles"
+        raise StudyError([Mistake("frequency", literal(given.frequency), allowed)])
+    time, values = _table(path, given, labels)
     if len(values) < 2:
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
     return _whole(name, time, values, given)
 
 
-#: What is sound for each key, and in words.
-_SOUND = {
-    "absolute": (lambda value: isinstance(value, bool), "true or false"),
-    "despike": (lambda value: isinstance(value, bool), "true or false"),
-    "time": (lambda value: isinstance(value, str) and value.strip(), "the header of the column of the time"),
-    "recorded_cycles": (lambda value: is_whole(value, 1), "a whole number of cycles, 1 or more"),
-    "period": (lambda value: is_number(value) and 0.0 < plain_number(value) < np.inf, "a positive number"),
-    "harmonics": (lambda value: is_whole(value, 1, HIGHEST_ORDER), f"a whole number, 1 to {HIGHEST_ORDER}"),
-}
-
-
-def _table(path: Path, given: Mapping[str, object]) -> tuple[FloatArray, FloatArray]:
+def _table(path: Path, given: SignalTable, labels: Mapping[str, Any] | None) -> tuple[FloatArray, FloatArray]:
     """Time and loads."""
-    columns, time = dict(given.get("columns") or {}), given.get("time")  # type: ignore[call-overload]
-    form = form_of({**given, "columns": columns | ({TIME: str(time)} if time else {})})
-    names = (*([TIME] if time else []), *COLUMNS, *([BULK] if BULK in columns else []))
-    values = read_columns(path, names, () if columns else (BULK,), form)
-    if not time:
+    form = given.model_copy(
+        update={"columns": {**given.columns, **({TIME: given.time} if given.time else {})}}
+    )
+    names = (*([TIME] if given.time else []), *COLUMNS, *([BULK] if BULK in given.columns else []))
+    optional = () if BULK in given.columns else (BULK,)
+    values = read_columns(path, names, optional, form, KINDS, labels, gaps=given.time is not None)
+    if not given.time:
         return np.arange(len(values), dtype=np.float64), values
     wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
     if wrong.size:
@@ -301,34 +305,36 @@ def _table(path: Path, given: Mapping[str, object]) -> tuple[FloatArray, FloatAr
     return values[:, 0], values[:, 1:]
 
 
-def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, object]) -> Signal:
+def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) -> Signal:
     """The signal with its period and number of cycles."""
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
-    if given.get("period") is not None:
-        period = plain_number(given["period"])
+    if given.period is not None or given.frequency is not None:
+        period = given.period or 1.0 / float(given.frequency or 1.0)
         count = int((length + step * (1.0 + ROUNDING)) / period)
     else:
-        count = int(given.get("recorded_cycles") or 1)  # type: ignore[call-overload]
+        count = given.recorded_cycles or 1
         # Each sample is there once: the first is not the last again.
         period = float(length * len(time) / (len(time) - 1) / count)
     samples = period * (len(time) - 1) / length
-    highest = int(given.get("harmonics") or 0)  # type: ignore[call-overload]
-    key = "period" if given.get("period") is not None else "recorded_cycles"
+    highest = given.harmonics or 0
+    key = next(
+        (each for each in ("period", "frequency") if getattr(given, each) is not None), "recorded_cycles"
+    )
     if count < 1:
         raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
     values = _without_spikes(name, time, values, period, count, given)
-    signal = Signal(name, time, values, period, count, bool(given.get("absolute")), highest)
+    signal = Signal(name, time, values, period, count, given.absolute, highest)
     if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
         allowed = "less than half as many as samples at different phases of the cycle"
-        if key == "period" and not given.get("time"):
+        if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
     _warn_of_time(signal)
-    if count == 1 and given.get("recorded_cycles") is None and given.get("period") is None:
+    if count == 1 and key == "recorded_cycles" and given.recorded_cycles is None:
         _warn_of_repeats(signal)
     if signal.is_folded_apart:
         found = f"{name}: its {count} cycles differ by more than their mean moves"
@@ -342,16 +348,16 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: Mapping[str, 
 
 
 def _without_spikes(
-    name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: Mapping[str, object]
+    name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: SignalTable
 ) -> FloatArray:
     """The values, with ``despike`` the median of the cycles where one stands out; else a warning names it."""
-    if given.get("despike") and count < FEWEST_CYCLES:
+    if given.despike and count < FEWEST_CYCLES:
         allowed = f"{FEWEST_CYCLES} recorded cycles at least: spikes are told from the median of the cycles"
         raise StudyError([Mistake("despike", f"{count} cycle{'s' * (count > 1)}", allowed)])
     if count < FEWEST_CYCLES:
         return values
     out, median = spikes(time, values, period, count)
-    if given.get("despike"):
+    if given.despike:
         return np.where(out, median, values)
     rows, columns = np.nonzero(out)
     if rows.size:

@@ -85,9 +85,10 @@ ductility_exponent = -0.713
 # A load that was measured, by its file: then load = "mine" below, and neither normal_force nor amplitudes.
 # [loads.mine]
 # file = "rig.csv"
-# columns = {{ normal = "Fn [N]", tangential = "Ft [N]" }}
+# columns = {{ normal = "Fn [kN]", tangential = "Ft [N]" }}
+# scale = {{ normal = 1000 }}  # kN to N; or -1 where compression is negative
 # absolute = true
-# recorded_cycles = 20
+# recorded_cycles = 20  # or period, or frequency, with time = "t [s]"
 
 # Parameters with one value; numbers may also be texts: "1/3", "pi/2".
 [fixed]

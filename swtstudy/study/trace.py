@@ -7,14 +7,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swtstudy.profiles.table import FEWEST, TabulatedProfile
-from swtstudy.study.columns import read_as_given
+from swtstudy.study.columns import FileTable, read_columns
+from swtstudy.study.keys import read_keys, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
+
+if TYPE_CHECKING:
+    from swtstudy.study.tables import ProfileTable
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
@@ -47,20 +52,21 @@ LEAST_USED = 0.7
 INNERMOST, LEAST = 0.1, 5
 #: Share of the largest rise up to which heights are 0, and of the largest radius up to which a face is none.
 ROUND, LEAST_FACE = 1e-5, 0.05
+#: Share of the radii up to which a trace is smoothed to one contact area: contacts are smaller as a rule.
+COMPACT = 0.5
 #: Share of its largest rise that a trace has at both of its ends.
 LEAST_RISE = 0.02
 
 
+@with_keys(FileTable)
 def read_trace(
     path: str | PathLike[str],
     *,
     name: str | None = None,
-    columns: Mapping[str, str] | None = None,
-    separator: str = ",",
-    decimal: str = ".",
     level: bool = True,
     smoothing: float | None = None,
     geometry: str = AXISYMMETRIC,
+    **form: Any,
 ) -> TabulatedProfile:
     """Read a profile from a trace across it: the mean of both sides, smoothed by their difference.
 
@@ -71,28 +77,52 @@ def read_trace(
     Parameters
     ----------
     path
-        The file, a table with a header, in UTF-8.
+        The file, a table with a header in a text file or a workbook.
     name
         Name of the profile; that of the file unless given.
-    columns
-        Headers of the columns ``position`` and ``height``, where they are not these words; both in lengths
-        of one unit, heights growing away from the other body.
-    separator, decimal
-        As of `swtstudy.read_signal`.
     level
         Whether to take off the tilt that makes both sides most alike. An offset is always taken off.
     smoothing
         As of a `TabulatedProfile`, instead of the difference of the sides.
     geometry
         As of a `TabulatedProfile`.
+    columns
+        Headers of the columns ``position`` and ``height``, where they are not these words; both in lengths
+        of one unit, heights growing away from the other body.
+    separator, decimal, encoding, scale, skip_rows, units_row, sheet
+        As of `swtstudy.read_signal`.
 
     Raises
     ------
     StudyError
         A ValueError with what is wrong.
     """
-    own, given = Path(path), {"columns": columns, "separator": separator, "decimal": decimal}
-    position, height = read_as_given(own, COLUMNS, given).T
+    given, mistakes = read_keys(FileTable, {each: value for each, value in form.items() if value is not None})
+    if given is None:
+        raise StudyError(mistakes)
+    title = Path(path).stem if name is None else name
+    return _profile(Path(path), title, given, level, smoothing, geometry)
+
+
+def trace_from(
+    path: Path, name: str, form: ProfileTable, labels: Mapping[str, Any] | None = None
+) -> TabulatedProfile:
+    """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
+    return _profile(path, name, form, form.level, form.smoothing, form.geometry, labels)
+
+
+def _profile(
+    own: Path,
+    name: str,
+    form: FileTable,
+    level: bool,
+    smoothing: float | None,
+    geometry: str,
+    labels: Mapping[str, Any] | None = None,
+) -> TabulatedProfile:
+    position, height = read_columns(
+        own, COLUMNS, (), form, dict.fromkeys(COLUMNS, "length"), labels, gaps=True
+    ).T
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
     if not np.ptp(position) > 0.0:
@@ -105,13 +135,20 @@ def read_trace(
     fold = Fold.of(position, height, level)
     if -fold.height.min() > fold.height.max():
         found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
-        allowed = "heights that grow away from the other body: with the other sign"
+        allowed = "heights that grow away from the other body: scale = { height = -1 }"
         raise StudyError([Mistake("", found, allowed, str(own))])
-    title = own.stem if name is None else name
     for line in _doubts(position, fold):
-        warnings.warn(f"{title}: {line}", stacklevel=2)
-    smoothing = fold.noise if smoothing is None else smoothing
-    return TabulatedProfile(title, fold.radius, fold.height, smoothing, geometry)
+        warnings.warn(f"{name}: {line}", stacklevel=2)
+    given = fold.noise if smoothing is None else smoothing
+    profile = TabulatedProfile(name, fold.radius, fold.height, given, geometry)
+    compact = COMPACT * fold.radius[-1]
+    if smoothing is not None or profile.compact_radius >= compact:
+        return profile
+    if (least := profile.least_smoothing(compact)) is None:
+        return profile
+    found = f"smoothing = {least:.3g}, {least / given:.2g} times the r.m.s. difference of both sides"
+    warnings.warn(f"{name}: {found}: with less it touches in several places", stacklevel=2)
+    return TabulatedProfile(name, fold.radius, fold.height, least, geometry)
 
 
 def _one_sided(position: FloatArray, height: FloatArray) -> bool:

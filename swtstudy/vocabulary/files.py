@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import errno
-import io
 import os
 import re
 import stat
@@ -18,8 +16,6 @@ from typing import Any
 
 #: Larger files, in bytes, are no texts that someone wrote, and no tables: a million points take 60 MB.
 LARGEST_TEXT, LARGEST_TABLE = 2**24, 2**28
-#: More columns than these are no table of parameters.
-MOST_COLUMNS = 1000
 
 
 def read_file(path: str | PathLike[str], largest: int) -> bytes:
@@ -75,31 +71,6 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise ValueError("a syntax error: nested too deeply") from None
     except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
         raise ValueError("an integer with too many digits") from None
-
-
-def read_table(path: str | PathLike[str], most: int) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """The header of a CSV file, and its other rows that are not empty, with the number of the line of each.
-
-    Raises
-    ------
-    OSError
-        As `read_file`.
-    ValueError
-        With the reason only, if it is no table, or has more than ``most`` rows.
-    """
-    reader = csv.reader(io.StringIO(read_text(path, LARGEST_TABLE), newline=""), skipinitialspace=True)
-    rows: list[tuple[int, list[str]]] = []
-    try:
-        for row in reader:
-            if len(row) > MOST_COLUMNS:
-                raise ValueError(f"more than {MOST_COLUMNS} columns in line {reader.line_num}")
-            if any(map(str.strip, row)):
-                rows.append((reader.line_num, [cell.strip() for cell in row]))
-            if len(rows) > most + 1:
-                raise ValueError(f"more than {most} rows")
-    except csv.Error as error:
-        raise ValueError(f"line {reader.line_num}: {error}") from None
-    return (rows[0][1] if rows else []), rows[1:]
 
 
 def plain_float(cell: str) -> float:

@@ -139,7 +139,7 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),
         ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
-        ("nowhere.csv", "tests: found 'nowhere.csv' "),
+        ("nowhere.csv", r"tests: found No such file or directory .nowhere.csv."),
         (3, "tests: found 3; allowed: a CSV file"),
         (
             {"friction": 0.3, "life": [1e5, 1e6]},

@@ -83,6 +83,8 @@ def test_any_bytes_are_a_study_or_a_study_error(content):
 STUDY = (STUDIES / "figure4.toml").read_text()
 
 
+# What has no effect is told, as a warning.
+@pytest.mark.filterwarnings("ignore:study: ")
 @given(st.integers(0, len(STUDY) - 1), st.integers(0, 20), st.text(max_size=4))
 @settings(max_examples=200, deadline=None)
 def test_a_mangled_study_is_a_study_or_a_study_error(position, removed, inserted):

@@ -278,7 +278,7 @@ def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, wo
 
 
 def test_a_folder_is_no_signal() -> None:
-    with pytest.raises(StudyError, match=r"^\.: found Is a directory; allowed: a CSV file in UTF-8"):
+    with pytest.raises(StudyError, match=r"^\.: found Is a directory; allowed: a CSV file that"):
         read_signal(".")
 
 

@@ -106,7 +106,7 @@ def test_a_csv_of_newtons_is_refused(tmp_path: Path) -> None:
 
 FILES = [
     (LOOP, "cycle.csv", "loads.mine.file: found {} "),
-    (POINTS, "points.csv", "sample.file: found '.* .{}.; allowed: a CSV file"),
+    (POINTS, "points.csv", "sample.file: found {} "),
     (PROFILE, "worn.csv", "profiles.mine: found {} "),
 ]
 
@@ -194,7 +194,7 @@ def test_what_would_take_minutes_to_read_is_refused_at_once(tmp_path: Path) -> N
     assert "found 100000 points (mine.radius, mine.height); allowed: at most 10000: every 10th, or" in line
     (tmp_path / "points.csv").write_text(",".join(f"a{n}" for n in range(50_000)) + "\n1\n")
     (line,) = mistakes_of(POINTS, tmp_path)
-    assert "more than 1000 columns in line 1" in line
+    assert re.search(r"found more than 1000 columns \(.*: line 1\)", line)
 
 
 def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:

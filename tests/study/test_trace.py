@@ -77,7 +77,7 @@ def test_a_trace_upside_down_is_named(tmp_path: Path) -> None:
     x, z = trace("sphere", 2e-5, 0.004)
     rows = "\n".join(f"{a!r},{-b!r}" for a, b in zip(x.tolist(), z.tolist(), strict=True))
     (tmp_path / "cap.csv").write_text(f"position,height\n{rows}\n")
-    with pytest.raises(StudyError, match=r"cap.csv: found heights that fall by .* with the other sign"):
+    with pytest.raises(StudyError, match=r"cap.csv: found heights that fall by .* scale = . height = -1 ."):
         read_trace(tmp_path / "cap.csv")
 
 
@@ -131,7 +131,7 @@ tangential_force_amplitude = 300
             ("position", "psition"),
             "profiles.ball: found 'psition' .columns.psition.; allowed: did you mean pos",
         ),
-        (('separator = ";"', 'separator = "ab"'), "profiles.ball: found 'ab' .separator.; allowed: one of"),
+        (('separator = ";"', 'separator = "ab"'), "profiles.ball.separator: found 'ab'; allowed: one of"),
         (("two_sided = true", "two_sided = 1"), "profiles.ball.two_sided: found 1; allowed: true or false"),
     ):
         with pytest.raises(StudyError, match=words):
@@ -250,3 +250,18 @@ def test_a_trace_of_which_much_is_unused_is_told(tmp_path: Path) -> None:
     assert len(told) == 1
     assert re.match(r"pad: the middle is at .*, so that only 6\d% of the trace has two sides", told[0])
     assert swt(profile) == pytest.approx(CLEAN, rel=2e-3)
+
+
+@pytest.mark.parametrize("geometry", ["plane", "axisymmetric"])
+def test_a_rough_trace_is_smoothed_to_one_contact_area(geometry: str) -> None:
+    """Smoothed by the difference of its sides alone, a worn pad touches in several places."""
+    words = (
+        r"smoothing = .*, 1\.\d* times the r.m.s. difference of both sides: with less it touches in several"
+    )
+    path = DATA / "trace_of_worn_pad.csv"
+    with pytest.warns(UserWarning, match=words):
+        found = read_trace(path, geometry=geometry)
+    assert found.compact_radius >= 0.75
+    less = read_trace(path, geometry=geometry, smoothing=found.smoothing / 1.3)
+    assert less.compact_radius < 0.75
+    assert found.smoothing < 1e-4

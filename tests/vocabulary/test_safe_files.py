@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.parts import kept_folder, known_points, parts_folder, save_part
 from swtstudy.cli import main
-from swtstudy.vocabulary.files import read_table, replacing, write_text
+from swtstudy.vocabulary.files import replacing, write_text
 
 STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
 FIGURE = '[figure]\nx = "friction"\n'
@@ -171,11 +171,3 @@ def test_a_mistake_is_told_once() -> None:
         "sample.seed",
         "sample.size",
     ]
-
-
-def test_a_table_has_as_many_rows_as_are_allowed_beside_its_header(tmp_path):
-    file = tmp_path / "t.csv"
-    file.write_text("a,b\n\n1,2\n3,4\n", encoding="utf-8")
-    assert read_table(file, 2) == (["a", "b"], [(3, ["1", "2"]), (4, ["3", "4"])])
-    with pytest.raises(ValueError, match=r"^more than 1 rows$"):
-        read_table(file, 1)

@@ -1,0 +1,215 @@
+"""Files as rigs write them: other encodings, units, settings above the header, workbooks."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from real import UNITS
+
+import swtstudy
+from swtstudy import Study, StudyError, read_signal
+
+RIG = f"""
+title = "A rig"
+{UNITS}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+load = "rig"
+[loads.rig]
+file = "rig.csv"
+absolute = true
+"""
+#: Time, normal and tangential force.
+ROWS = [(0.0, 200.5, 0.0), (0.25, 220.0, 60.0), (0.5, 205.0, 20.0), (0.75, 190.0, -60.0)]
+LOADS = np.array([row[1:] for row in ROWS])
+#: The same from the vertex on that a loop begins with.
+LOOP = np.roll(LOADS, 1, axis=0)
+
+
+def table(header: str, separator: str = ",", decimal: str = ".", rows: list = ROWS) -> str:
+    lines = (separator.join(str(value).replace(".", decimal) for value in row) for row in rows)
+    return "\n".join([header, *lines, ""])
+
+
+def loop_of(text: str, folder: Path) -> tuple[np.ndarray, list[str]]:
+    """The loads of a study's loop, and what is told of them."""
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        study = Study.from_text(text, "s", folder)
+    (loop,) = study.grid.values("load")
+    loads = np.array(loop.vertices)
+    loads[:, 0] += loop.mean_normal
+    return loads, [str(each.message) for each in told]
+
+
+#: A file, keys for it, and what is told of it.
+READ = {
+    "units row": (table("time,normal,tangential\n(s),(N),(N)"), "", "line 2 is read as units: .s., .N., .N."),
+    "units row by key": (table("time,normal,tangential\n1,2,3"), "units_row = true", ""),
+    "settings": (
+        table("# f: 15.0, P: 10.0\n\n# rig: 4\ntime,normal,tangential"),
+        "",
+        "header is found in line 4",
+    ),
+    "settings by key": (table('"not closed\ntime,normal,tangential'), "skip_rows = 1", ""),
+    "lines in headers": (
+        table('time,"Axial\n  Force (N)","Force"'),
+        'columns = { normal = "Axial Force (N)", tangential = "Force" }',
+        "",
+    ),
+    "German": (table("time;normal;tangential", ";", ","), "", "numbers with a comma are read with decimal"),
+    "German by keys": (table("time;normal;tangential", ";", ","), "separator = ';'\ndecimal = ','", ""),
+    "tabs": (table("time\tnormal\ttangential", "\t"), "", ""),
+    "blanks": (table("time  normal tangential", "   "), "", ""),
+    "kN": (
+        table("t [s],Fn [kN],Ft", rows=[(t, n / 1000, q) for t, n, q in ROWS]),
+        'columns = { normal = "Fn [kN]", tangential = "Ft" }\nscale = { normal = 1000 }',
+        "",
+    ),
+    "the other sign": (
+        table("time,normal,tangential", rows=[(t, -n, q) for t, n, q in ROWS]),
+        "scale = { normal = -1 }",
+        "",
+    ),
+    "frequency": (table("time,normal,tangential"), "time = 'time'\nfrequency = 1", ""),
+    "a missing value": (
+        table("time,normal,tangential", rows=[*ROWS[:2], (0.3, "", 50.0), *ROWS[2:]]),
+        "time = 'time'\nfrequency = 1",
+        "line 4 left out: a value is missing",
+    ),
+}
+
+
+@pytest.mark.parametrize(("content", "keys", "words"), READ.values(), ids=READ)
+def test_files_of_rigs_are_read(tmp_path: Path, content: str, keys: str, words: str) -> None:
+    (tmp_path / "rig.csv").write_text(content, encoding="utf-8")
+    loads, told = loop_of(RIG + keys, tmp_path)
+    np.testing.assert_allclose(loads, LOOP, atol=1e-9)
+    assert len(told) == bool(words)
+    for line in told:
+        assert re.search(words, line), line
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "latin-1", "utf-16", "utf-8-sig"])
+def test_encodings(tmp_path: Path, encoding: str) -> None:
+    (tmp_path / "rig.csv").write_text(table("delta [µm],normal,tangential"), encoding=encoding)
+    key = f'encoding = "{encoding}"' if encoding in ("cp1252", "latin-1") else ""
+    np.testing.assert_allclose(loop_of(RIG + key, tmp_path)[0], LOOP, atol=1e-9)
+
+
+#: A file, keys for it, and the message.
+REFUSED = {
+    "encoding": (
+        "#\ndelta [µm],normal,tangential\n1,200,0\n2,200,1\n".encode("cp1252"),
+        "",
+        r"file: found bytes in line 2 that are not UTF-8 \(.*\); allowed: encoding = \"cp1252\", which reads "
+        "'delta .µm.,norm' there, or \"latin-1\"; or the file saved as UTF-8",
+    ),
+    "unknown encoding": (
+        b"x",
+        'encoding = "cp9999"',
+        "encoding: found 'cp9999'; allowed: the name of an enc",
+    ),
+    "kN": (
+        table("time,Fn [kN],Ft [N]").encode(),
+        'columns = { normal = "Fn [kN]", tangential = "Ft [N]" }',
+        r"file: found 'Fn \[kN\]' in kN as normal, while \[units\] has force in N \(.*allowed: "
+        "scale = { normal = 1000 }; normal = 1 if",
+    ),
+    "kN in a row of units": (
+        table("time,normal,tangential\ns,kN,N").encode(),
+        "units_row = true",
+        "file: found 'normal' in kN as normal",
+    ),
+    "the other sign": (
+        table("time,normal,tangential", rows=[(t, -n, q) for t, n, q in ROWS]).encode(),
+        "",
+        "absolute: found a mean normal load of -204; allowed: .* scale = { normal = -1 }",
+    ),
+    "another column to scale": (
+        table("time,normal,tangential").encode(),
+        "scale = { norml = 2 }",
+        "scale.norml: found 'norml'; allowed: did you mean normal",
+    ),
+    "no number to scale with": (
+        b"",
+        'scale = { normal = "kN" }',
+        "scale: found 'kN'; allowed: a table of numb",
+    ),
+    "frequency without a time": (
+        table("time,normal,tangential").encode(),
+        "frequency = 1",
+        "frequency: found 1",
+    ),
+    "frequency beside a period": (b"", "frequency = 1\nperiod = 1", "period, frequency: found both"),
+    "a missing value": (
+        b"normal,tangential\n1,2\n,3\n",
+        "",
+        "file: found nothing .*line 3, normal.; allowed: a fin",
+    ),
+    "MATLAB": (
+        b"MATLAB 5.0 MAT-file, Platform: GLNXA64\0",
+        "",
+        "file: found a MATLAB file .*; allowed: .*writetable",
+    ),
+    "old Excel": (b"\xd0\xcf\x11\xe0", "", "file: found an Excel workbook before 2007"),
+    "zip": (b"PK\x03\x04", "", "file: found a zip archive"),
+    "damaged Excel": (b"PK\x03\x04 xl/", "", "file: found a workbook that cannot be read"),
+    "binary": (b"\0\1\2", "", "file: found a binary file"),
+}
+
+
+@pytest.mark.parametrize(("content", "keys", "words"), REFUSED.values(), ids=REFUSED)
+def test_other_files_are_refused_with_the_way_out(
+    tmp_path: Path, content: bytes, keys: str, words: str
+) -> None:
+    if content.startswith(b"PK\x03\x04 xl/"):
+        pytest.importorskip("openpyxl")
+    (tmp_path / "rig.csv").write_bytes(content)
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(RIG + keys, "s", tmp_path)
+    (line,) = map(str, caught.value.mistakes)
+    assert re.match(f"s: loads.rig.{words}", line), line
+
+
+def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    sheet = book.create_sheet("run 2")
+    for row in (["rig 4"], ["time", "Fn", "tangential"], ["s", "kN", "N"]):
+        sheet.append(row)
+    for t, n, q in ROWS:
+        sheet.append([t, n / 1000, q])
+    book.save(tmp_path / "rig.xlsx")
+    given = {"columns": {"normal": "Fn"}, "scale": {"normal": 1000}, "absolute": True, "units_row": True}
+    for own in ("run 2", 2):
+        with pytest.warns(UserWarning, match=r"rig.xlsx: the header is found in line 2"):
+            signal = read_signal(tmp_path / "rig.xlsx", sheet=own, **given)
+        np.testing.assert_allclose(signal.values, LOADS, rtol=1e-12)
+    with pytest.raises(StudyError, match="sheet: found 'run 3'; allowed: did you mean run 2"):
+        read_signal(tmp_path / "rig.xlsx", sheet="run 3", **given)
+
+
+def test_points_and_traces_are_read_by_the_same_rules(tmp_path: Path) -> None:
+    (tmp_path / "points.csv").write_bytes("phase;frïction\n0,5;0,1\n1;0,2\n".encode("cp1252"))
+    text = 'title = "t"\n[sample]\nfile = "points.csv"\nencoding = "cp1252"\n'
+    text += 'columns = { friction = "frïction" }\n'
+    with pytest.warns(UserWarning, match="read with decimal = ','"):
+        grid = Study.from_text(text, "s", tmp_path).grid
+    assert (grid.samples["phase"], grid.samples["friction"]) == ((0.5, 1.0), (0.1, 0.2))
+    x = np.linspace(-2.0, 2.0, 201)
+    rows = "\n".join(f"{a:.9g}\t{b:.9g}" for a, b in zip(x, -10.0 * x**2, strict=True))
+    (tmp_path / "trace.txt").write_text(f"made by 4\nx [mm]\tz [µm]\n{rows}\n", encoding="utf-8")
+    given = {
+        "columns": {"position": "x [mm]", "height": "z [µm]"},
+        "scale": {"height": -1e-3},
+        "skip_rows": 1,
+    }
+    profile = swtstudy.read_trace(tmp_path / "trace.txt", **given)
+    np.testing.assert_allclose(profile.height, profile.radius**2 / 100.0, atol=1e-9)
