@@ -24,7 +24,7 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
-from swtstudy.vocabulary.wording import listed, number_words, numbers_words, unit_words, value_words
+from swtstudy.vocabulary.wording import coordinate_words, listed, number_words, numbers_words, unit_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
@@ -89,9 +89,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         if name == SAMPLE:
             yield "sample", _sample_words(dataset[SAMPLE])
         else:
-            names = dataset[name].attrs.get("flag_meanings", "").replace(" ", ", ").replace("_", " ")
-            words = names or _axis_words(name, dataset[name].values)
-            yield "axis", f"{name}: {words}{_unit(dataset[name])}"
+            yield "axis", f"{name}: {_axis_words(dataset[name])}{_unit(dataset[name])}"
     for load, words in recorded_loads(dataset):
         yield "load", f"{load}: {words}"
     for name in (*PARAMETERS, *CONTACT_AXES):
@@ -99,11 +97,11 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             continue
         values, unit = dataset[name].values, _unit(dataset[name])
         if not values.ndim:
-            yield "fixed", f"{name}: {value_words(name, dataset[name].item())}{unit}"
+            yield "fixed", f"{name}: {_words(dataset[name])}{unit}"
         elif dataset[name].dims == ("body",):
-            yield "of each body", f"{name}: {_axis_words(name, values)}{unit}"
+            yield "of each body", f"{name}: {_axis_words(dataset[name])}{unit}"
         else:
-            yield "sampled", f"{name}: {_range_words(name, values)}{unit}"
+            yield "sampled", f"{name}: {_range_words(dataset[name])}{unit}"
 
 
 def unsaid(dataset: xr.Dataset) -> set[str]:
@@ -187,7 +185,7 @@ def failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for flat in np.flatnonzero(dataset.status.values == FAILED).tolist():
         point = dataset.isel(index_at(dataset.s, flat))
         names = [n for n in (*PARAMETERS, *CONTACT_AXES) if n in dataset.coords and dataset[n].ndim]
-        where = ", ".join(f"{name}={value_words(name, point[name].item())}" for name in names)
+        where = ", ".join(f"{name}={_words(point[name])}" for name in names)
         yield where or "the point", str(point.message.item())
 
 
@@ -237,8 +235,12 @@ def _unit(coordinate: xr.DataArray) -> str:
     return unit_words(coordinate.attrs.get("units", ""))
 
 
-def _axis_words(name: str, values: np.ndarray) -> str:
-    return listed([value_words(name, value) for value in values.tolist()], _LISTED)
+def _words(value: xr.DataArray) -> str:
+    return coordinate_words(str(value.name), value.item(), value.attrs)
+
+
+def _axis_words(axis: xr.DataArray) -> str:
+    return listed([_words(each) for each in axis], _LISTED)
 
 
 def _sample_words(sample: xr.DataArray) -> str:
@@ -247,11 +249,12 @@ def _sample_words(sample: xr.DataArray) -> str:
     return f"{sample.size} points{words}"
 
 
-def _range_words(name: str, values: np.ndarray) -> str:
-    known = list(dict.fromkeys(values.tolist()))
-    if isinstance(known[0], str) or len(known) <= 2:
-        return _axis_words(name, np.array(known, dtype=object))
-    return f"from {value_words(name, min(known))} to {value_words(name, max(known))}"
+def _range_words(axis: xr.DataArray) -> str:
+    known = axis[np.sort(np.unique(axis.values, return_index=True)[1])]
+    if axis.dtype.kind not in "fiu" or known.size <= 2:
+        return _axis_words(known)
+    ends = (known[int(find(known.values))] for find in (np.argmin, np.argmax))
+    return "from {} to {}".format(*map(_words, ends))
 
 
 def completeness(dataset: xr.Dataset) -> str:

@@ -90,7 +90,7 @@ def life_words(dataset: xr.Dataset) -> Iterator[str]:
     if not has_units(dataset):
         return
     if sequence := sequence_words(dataset, read_contact(dataset.attrs[CONTACT]).blocks):
-        yield sequence
+        yield f"sequence of blocks: {sequence}"
         return
     kinds = [kind for kind in KINDS.values() if kind.life and kind.life in dataset]
     for kind in kinds:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from swtstudy.cli.options import archive_completion, examples, with_width
 from swtstudy.cli.terminal import line_length, wrapped
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @click.command(
@@ -44,6 +47,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
     epilog=examples(
         "swtstudy plot results/figure3.nc --width column -o figure3.pdf",
         "swtstudy plot results/figure3.nc --y critical_x --y regime",
+        "swtstudy plot results/figure4.nc --at normal_amplitude=0.75",
         "swtstudy plot results/contour.nc --kind heatmap --y critical_angle",
     )
 )
@@ -59,15 +63,21 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
 @click.option(
     "--y", multiple=True, help="What is drawn, such as s, critical_x or regime; repeat for more rows."
 )
+@click.option(
+    "--at", multiple=True, metavar="AXIS=VALUE", help="Draw an axis at one value; repeat for more axes."
+)
 @click.option("--title", help="A title over the figure.")
 @click.option("--regimes", is_flag=True, default=None, help="Mark where a regime of the contact begins.")
 @click.option(
     "--validity", is_flag=True, default=None, help="Mark what is outside of what the model holds for."
 )
-def plot(archive: str, output: str | None, style: str | None, width: Any, **own: Any) -> None:
+def plot(
+    archive: str, output: str | None, style: str | None, width: Any, at: tuple[str, ...], **own: Any
+) -> None:
     """Draw a figure of an ARCHIVE, from the archive alone.
 
-    With --x the options alone define the layout; without it they change the layout stored in the archive.
+    Values of --at are written as in a study file, such as --at friction=0.6; the title says them. With --x
+    the options alone define the layout; without it they change the layout stored in the archive.
     """
     from swtstudy.archive.archive import open_results
     from swtstudy.figures.draw import draw, layout_of
@@ -79,6 +89,8 @@ def plot(archive: str, output: str | None, style: str | None, width: Any, **own:
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = open_results(archive)
     check_writable(target)
+    if at:
+        dataset, own["title"] = _at(dataset, at, own["title"])
     given = {key: value for key, value in own.items() if value not in (None, ())}
     layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
     save_figure(draw(dataset, layout, style, width), target, style)
@@ -86,6 +98,21 @@ def plot(archive: str, output: str | None, style: str | None, width: Any, **own:
     if missing:
         click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)
     click.echo(str(target))
+
+
+def _at(dataset: xr.Dataset, at: tuple[str, ...], title: str | None) -> tuple[xr.Dataset, str]:
+    """The part of results at single values of some axes, and the title of its figure."""
+    from swtstudy.results.evaluate import slice_at
+    from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+    from swtstudy.vocabulary.wording import place_words
+
+    places = {name.strip(): value.strip() for name, _, value in (each.partition("=") for each in at)}
+    for each in at:
+        if "=" not in each:
+            raise StudyError([Mistake("--at", literal(each), "an axis and a value, such as friction=0.6")])
+    part = slice_at(dataset, places)
+    words = (place_words(name, part[name].item(), part[name].attrs) for name in places)
+    return part, title or ",  ".join(words)
 
 
 @click.command(epilog=examples("swtstudy info results/figure3.nc"))

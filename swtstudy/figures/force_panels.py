@@ -167,13 +167,13 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
 
 
 def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
-    """Tangential force against displacement; the area of the loop is the work dissipated in a cycle."""
+    """Tangential force over displacement: the area of the fretting loop is the work dissipated in a cycle."""
     draw_loop(axes, dataset, "displacement", "tangential_force")
     work = float(dataset.dissipation)
     axes.fill(dataset.displacement, dataset.tangential_force, color="0.9", linewidth=0, zorder=0)
-    words = f"force and displacement, area {work:.3g}"
+    words = f"fretting loop, area = dissipation {work:.3g}"
     if labels:
-        words = f"force loop, work {labels['dissipation'].number(work, 3)}"
+        words = f"fretting loop, dissipation {labels['dissipation'].number(work, 3)}"
     axes.set_title(words, loc="left")
 
 

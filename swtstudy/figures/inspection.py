@@ -105,7 +105,7 @@ def draw_inspection(
         contacts have no panels with displacements.
     """
     drawn = _PANELS if "displacement" in dataset else _OF_STRIP
-    sheet = Sheet(1, len(drawn), width, _PANEL, most=3, least_height=_LEAST_HEIGHT, fold=False)
+    sheet = Sheet(1, len(drawn), width, _PANEL, least_height=_LEAST_HEIGHT, fold=False)
     with styled(style, width):
         figure = sheet.figure()
         panels = sheet.panels(figure, share_x="none", share_y="none")

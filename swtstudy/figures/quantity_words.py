@@ -61,7 +61,7 @@ def _is_unfamiliar(name: str) -> bool:
 def _meaning(values: xr.DataArray) -> str:
     """Explain an unfamiliar symbol in a few words."""
     if is_life(values.attrs):
-        return "rounds to a crack"
+        return "load cycles to a crack"
     nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
     if nonlocal_one:
         return nonlocal_one.meaning.replace("swt", "SWT")

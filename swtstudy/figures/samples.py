@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib import rcParams
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
@@ -24,8 +25,6 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import axis_words, place_words, raised
 
-#: The most panels of a scatter plot side by side.
-_ACROSS = 3
 #: Points of a cloud are the fainter the more there are: so many are drawn without transparency.
 _OPAQUE = 100
 #: Colours of the points of values of hue, dark and light by turns, and markers: in grey, too, they differ.
@@ -36,12 +35,14 @@ _POINT, _IN_LEGEND = 0.6, 1.4
 #: Percentiles that a histogram marks.
 PERCENTILES = (5, 50, 95)
 _DASHES = (":", "-", "--")
+#: Hatches of histograms: their number is coprime to that of the colours, so that no pair repeats early.
+HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx")
 
 
 def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """Points of the quantities over every sampled parameter, a panel each."""
     names = [str(name) for name in dataset.coords if name in AXES and dataset[name].dims == (SAMPLE,)]
-    sheet = Sheet(len(layout.y), len(names), width, most=_ACROSS)
+    sheet = Sheet(len(layout.y), len(names), width)
     figure = sheet.figure()
     axes = sheet.panels(figure, share_x="none")
     for row, y in enumerate(layout.y):
@@ -87,8 +88,11 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
             lines = [title]
             for index, (label, part) in enumerate(_by(panel, layout.hue)):
                 values = quantity(part, y)
-                _draw_one(one, values, edges, label, COLOURS[index % len(COLOURS)])
-                lines.append(_percentile_words(values, label))
+                words = ", ".join(filter(None, (label, _percentile_words(values))))
+                # An entry of the legend is for all panels: of several each has its own percentiles above.
+                alone = axes.size == 1 and label is not None
+                lines += [] if alone else [words]
+                _draw_one(one, values, edges, words if alone else label, index)
             one.set_title("\n".join(filter(None, lines)), loc="left")
             one.set_xlabel(quantity_words(whole, y))
             if is_life(whole.attrs):
@@ -106,11 +110,11 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
     return figure
 
 
-def _draw_one(axes: Axes, values: xr.DataArray, edges: list[float], label: str | None, colour: str) -> None:
-    """One histogram, with lines at its percentiles."""
-    known = _finite(values)
-    axes.hist(known, edges, histtype="stepfilled", color=colour, alpha=0.35)
-    axes.hist(known, edges, histtype="step", color=colour, linestyle="-", label=label)
+def _draw_one(axes: Axes, values: xr.DataArray, edges: list[float], label: str | None, index: int) -> None:
+    """One histogram, with lines at its percentiles; colours and hatches differ between those of one panel."""
+    colour, hatch = COLOURS[index % len(COLOURS)], HATCHES[index % len(HATCHES)]
+    look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour, "hatch": hatch}
+    axes.hist(_finite(values), edges, histtype="stepfilled", linestyle="-", label=label, **look)
     for place, dashes in zip(_percentiles(values), _DASHES, strict=False):
         axes.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
 
@@ -121,10 +125,9 @@ def _percentiles(values: xr.DataArray) -> list[float]:
     return [] if flag_words(values) or not len(known) else np.percentile(known, PERCENTILES).tolist()
 
 
-def _percentile_words(values: xr.DataArray, label: str | None) -> str:
+def _percentile_words(values: xr.DataArray) -> str:
     places = zip(PERCENTILES, _percentiles(values), strict=False)
-    words = ", ".join(f"{percent} %: {raised(f'{place:.3g}')}" for percent, place in places)
-    return f"{label}, {words}" if label and words else words
+    return ", ".join(f"{percent} %: {raised(f'{place:.3g}')}" for percent, place in places)
 
 
 def _finite(values: xr.DataArray) -> NDArray[Any]:

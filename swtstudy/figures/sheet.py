@@ -47,8 +47,9 @@ WIDTHS: dict[str, float] = {"column": 8.5 / _INCH, "page": 17.5 / _INCH}
 _TALLEST = 23.0 / _INCH
 #: Panels side by side in print, where they are no more than fit.
 _ACROSS = {"column": 1, "page": 3}
-#: Size of a panel on a screen, inches.
+#: Size of a panel on a screen, and the width that panels side by side have there at most, inches.
 PANEL = (4.0, 3.2)
+_SCREEN = 13.5
 
 
 @dataclass(frozen=True)
@@ -65,8 +66,6 @@ class Sheet:
         "column", 8.5 cm; "page", 17.5 cm; or None for a screen.
     panel
         Width and height of a panel on a screen, inches.
-    most
-        Most panels side by side on a screen; None for any number.
     least_height
         Height of a panel in print, inches, where others would be lower.
     fold
@@ -77,7 +76,6 @@ class Sheet:
     count: int
     width: Width | None = None
     panel: tuple[float, float] = PANEL
-    most: int | None = None
     least_height: float = 0.0
     fold: bool = True
 
@@ -87,12 +85,11 @@ class Sheet:
     @property
     def across(self) -> int:
         """Panels side by side."""
-        if self.width is None:
-            return min(self.count, self.most or self.count)
-        least = _ACROSS[self.width]
-        lines = -(-self.count // least)
+        least = max(1, int(_SCREEN / self.panel[0])) if self.width is None else _ACROSS[self.width]
         # No more side by side than the lines need: four panels are two by two.
-        least = -(-self.count // lines)
+        least = -(-self.count // -(-self.count // least))
+        if self.width is None:
+            return least
         most = min(self.count, _ACROSS[self.width] + 1) if self.fold else least
         choices = range(least, max(least, most) + 1)
         return next((n for n in choices if self._height(n) <= _TALLEST), choices[-1])

@@ -27,7 +27,7 @@ from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import as_text, value_words
+from swtstudy.vocabulary.wording import as_text, coordinate_words
 
 #: A row whose range is a smaller share of the whole surface's is flat: it has no place of an extremum.
 _FLAT = 0.02
@@ -302,10 +302,9 @@ def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
     mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
     axes.grid(False)
     for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
-        tick_cells(
-            axis,
-            [as_text(value_words(name, value).replace("_", " ")) for value in surface[name].values.tolist()],
-            most,
+        words = (
+            coordinate_words(name, value, surface[name].attrs) for value in surface[name].values.tolist()
         )
+        tick_cells(axis, [as_text(each.replace("_", " ")) for each in words], most)
     axes.tick_params(axis="y", labelsize="small" if len(rows) <= _MANY_ROWS else "x-small")
     return mesh

@@ -148,7 +148,7 @@ def sentences(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None = Non
                 said.append(f"{value_text(CRITERION, one.criterion.item(), {})}: {words}")
         else:
             said.append(_range(values, dataset))
-    return [*said, *(f"{escape(words)}." for words in life_words(dataset))]
+    return [*said, *(f"{escape(words[0].upper() + words[1:])}." for words in life_words(dataset))]
 
 
 def _most_sensitive(indices: xr.Dataset) -> str:

@@ -208,6 +208,7 @@ def wrong_axes(
     # A place whose mistake is said already may be that of an axis without one.
     for name in lacking if len(lacking) > len(names) + lacks_vertical - len(placed) else ():
         allowed = "every axis as x, hue, vertical or panels, or with a single value"
+        allowed += f", such as by --at {name}=…" * (of == "these results")
         yield "figure", f"no place for the axis {name}", allowed
 
 

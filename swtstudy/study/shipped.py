@@ -21,7 +21,7 @@ GROUPS: dict[str, tuple[str, ...]] = {
     "Loads": ("contour", "force_control", "loops", "bulk_stress"),
     "Plane contacts": ("plane_contacts",),
     "Criteria and parameters": ("criteria", "walker_exponent", "sensitivity"),
-    "Real contacts": ("sphere_on_flat", "fretting_map", "life", "critical_distance"),
+    "Real contacts": ("sphere_on_flat", "fretting_map", "vingsbo_map", "life", "critical_distance"),
     "Limits": ("stability", "stability_friction", "stability_small_motion", "stability_thin_annulus"),
     "Random points, for swtstudy audit": ("parameter_box", "bulk_stress_box", "criteria_box"),
 }

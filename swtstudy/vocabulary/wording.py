@@ -67,8 +67,8 @@ def as_text(words: str) -> str:
     return words.replace("$", r"\$")
 
 
-def value_words(name: str, value: float | str) -> str:
-    """A value as people write it: 0.25, 8/9, √20, π/2; a name as it is typed.
+def value_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _NONE) -> str:
+    """A value as people write it: 0.25, 8/9, √20, π/2; a name as it is typed; decimals before a unit.
 
     Examples
     --------
@@ -80,8 +80,10 @@ def value_words(name: str, value: float | str) -> str:
     ('73100', '5·10⁻⁷')
     >>> value_words("normal_force", 143.75), value_words("phase", 1.23456789)
     ('143.75', '1.235')
-    >>> value_words("sample", 3)
-    '3'
+    >>> value_words("normal_force", 2600 / 9), value_words("normal_amplitude", 8 / 9, {"units": "mm"})
+    ('288.9', '0.8889')
+    >>> value_words("sample", 3), value_words("friction", 0.1 + 0.2)
+    ('3', '0.3')
     """
     if isinstance(value, str):
         return value
@@ -92,8 +94,11 @@ def value_words(name: str, value: float | str) -> str:
         multiple = _fraction(value / math.pi, _LARGEST_DENOMINATOR)
         if multiple is not None:
             return pi_words(multiple)
-    if float(f"{value:.{_EXACT}g}") == value:
+    if math.isclose(float(f"{value:.{_EXACT}g}"), value, rel_tol=_TOLERANCE):
         return number_words(value, _EXACT)
+    # Lengths, forces and stresses have a unit, which is empty where nobody has named it.
+    if attributes.get("units", "1") not in ("1", "rad") or (row is not None and row.part == "contact"):
+        return number_words(value)
     fraction = _fraction(value, _LARGEST_DENOMINATOR)
     if fraction is not None:
         return str(fraction)
@@ -192,7 +197,7 @@ def coordinate_words(name: str, value: float | str, attributes: Mapping[Any, Any
     'test piece'
     """
     if "flag_meanings" not in attributes or isinstance(value, str):
-        return value_words(name, value)
+        return value_words(name, value, attributes)
     flags = [int(flag) for flag in attributes["flag_values"]]
     return str(attributes["flag_meanings"]).split()[flags.index(int(value))].replace("_", " ")
 

@@ -226,7 +226,7 @@ def test_all_panels_of_a_contact_have_its_units(rig):
     # The area of the loop, as a polygon.
     u, force = point.displacement.values, point.tangential_force.values
     area = 0.5 * abs(np.sum(u[:-1] * np.diff(force) - force[:-1] * np.diff(u)))
-    (words,) = [title for title in panels if title.startswith("force loop, work ")]
+    (words,) = [title for title in panels if title.startswith("fretting loop, dissipation ")]
     assert float(words.split()[3]) == pytest.approx(area, rel=2e-2)
     assert words.endswith(" unit of work")
 

@@ -46,7 +46,7 @@ def test_lives_stand_upright_under_their_amplitude(results):
     assert cycles.get_ylim() == (0.1, 1.0)
     assert cycles.get_shared_y_axes().joined(cycles, s)
     assert [axes.get_xlabel() for axes in (cycles, s)] == [
-        "rounds to a crack, $N$",
+        "load cycles to a crack, $N$",
         r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
     ]
     assert {axes.get_ylabel() for axes in (cycles, s)} == {r"$G^* u_A/(\mu E^* \delta_0)$"}

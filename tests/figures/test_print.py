@@ -119,14 +119,16 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
         (1, 4, "page", 2),  # two by two rather than three and one
         (1, 5, "page", 3),
         (2, 2, "page", 2),
-        (1, 4, None, 4),
+        (1, 3, None, 3),
+        (1, 4, None, 2),
+        (1, 10, None, 3),
     ],
 )
 def test_panels_side_by_side(rows, count, width, across):
     sheet = Sheet(rows, count, width)
     assert sheet.across == across
     if width is None:
-        assert sheet.size == (4.0 * across, 3.2 * rows)
+        assert sheet.size == pytest.approx((4.0 * across, 3.2 * rows * -(-count // across)))
     else:
         assert sheet.size[0] == WIDTHS[width]
         assert sheet.size[1] <= 23.0 / CM

@@ -194,7 +194,7 @@ def test_figures_have_the_units(solved):
     assert [axes.get_ylabel().replace("\n", " ") for axes in figure.axes[::2]] == [
         *(
             r"$\mathrm{SWT}$ (MPa)",
-            "rounds to a crack, $N$",
+            "load cycles to a crack, $N$",
             r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
             "position of the critical point, $x$ (mm)",
         )

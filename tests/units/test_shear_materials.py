@@ -245,7 +245,7 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     assert "150 MPa" in info
     assert "shear_modulus 80769.2, strength 530" in info
     upper, lower = draw(found).axes
-    assert upper.get_ylabel() == r"rounds to a crack, $N_\mathrm{FS}$"
+    assert upper.get_ylabel() == r"load cycles to a crack, $N_\mathrm{FS}$"
     assert lower.get_ylabel() == r"Findley stress over its limit, $f/f_\mathrm{lim}$"
     call("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
     page = (tmp_path / "t.html").read_text(encoding="utf-8")
