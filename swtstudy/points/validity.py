@@ -148,7 +148,7 @@ def outside_words(dataset: xr.Dataset) -> str:
 
 
 def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
-    """What points are outside of, and lines on the limits that all are inside of."""
+    """Limits that points exceed, and lines on the limits that all points keep."""
     require(dataset, "s", "regime")
     if not dataset.s.size:
         return [], []
