@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
-from fractions import Fraction
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
-from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
 from swtstudy.vocabulary.wording import html_table, listed, plain_words, unit_words
 
@@ -25,6 +24,7 @@ def to_toml(
 
     Examples
     --------
+    >>> from fractions import Fraction
     >>> print(to_toml("t", 1e-4, Grid({"friction": 0.3}, {"frequency_ratio": (Fraction(3, 2),)}), None))
     title = "t"
     rtol = 0.0001
@@ -36,81 +36,56 @@ def to_toml(
     frequency_ratio = ["3/2"]
     <BLANKLINE>
     """
-    lines = [f"title = {quoted(title)}", f"rtol = {rtol!r}"]
-    if asked.names:
-        lines.append(f"quantities = [{', '.join(map(quoted, asked.names))}]")
-    tables, of_contacts = _of_contacts(grid)
+    fixed: dict[str, Any] = dict(grid.fixed)
+    axes: dict[str, Any] = dict(grid.axes)
     blocks = getattr(grid, "blocks", ())
-    fixed = {name: _literal(value) for name, value in grid.fixed.items()} | of_contacts
-    axes = _lists(grid.axes)
     if blocks:  # which have the loads
         fixed.pop("load", None)
         axes.pop("load", None)
-    if asked.distances and asked.is_axis:
-        axes[DISTANCE] = repr([*asked.distances])
-    elif asked.distances:
-        fixed[DISTANCE] = repr(asked.distances[0])
-    lines += [*tables, *_table("[fixed]", fixed), *_table("[axes]", axes)]
-    if grid.samples:
-        lines += _table("[sample.points]", _lists(grid.samples))
-    for defined in grid.given:
-        content = {key: json.dumps(value) for key, value in defined.content().items()}
-        lines += _table(f"[{defined.parameter}s.{quoted(defined.name)}]", content)
-    for block in blocks:
-        lines += _table("[[blocks]]", {"load": quoted(block.load), "rounds": repr(block.rounds)})
+    if asked.distances:
+        (axes if asked.is_axis else fixed)[DISTANCE] = (
+            asked.distances if asked.is_axis else asked.distances[0]
+        )
+    tables, of_contacts = _of_contacts(grid)
+    tables += [("[fixed]", fixed | of_contacts), ("[axes]", axes)]
+    tables += [("[sample.points]", grid.samples)] if grid.samples else []
+    tables += [(f"[{each.parameter}s.{quoted(each.name)}]", each.content()) for each in grid.given]
+    tables += [("[[blocks]]", vars(block)) for block in blocks]
     if figure is not None:
-        lines += _table("[figure]", _of_figure(figure))
+        tables.append(("[figure]", {k: v for k, v in asdict(figure).items() if v not in (None, False)}))
+    lines = _lines({"title": title, "rtol": rtol, **({"quantities": asked.names} if asked.names else {})})
+    for head, entries in tables:
+        lines += ["", head, *_lines(entries)]
     return "\n".join(lines) + "\n"
 
 
-def _table(head: str, entries: Mapping[str, str]) -> list[str]:
-    return ["", head, *(f"{key} = {value}" for key, value in entries.items())]
+def _lines(entries: Mapping[str, Any]) -> list[str]:
+    return [f"{key} = {quoted(value)}" for key, value in entries.items()]
 
 
-def _lists(values: Mapping[str, Sequence[Value]]) -> dict[str, str]:
-    return {name: f"[{', '.join(map(_literal, each))}]" for name, each in values.items()}
-
-
-def _of_figure(figure: FigureLayout) -> dict[str, str]:
-    """The entries of the table of a figure."""
-    entries = {"kind": quoted(figure.kind)} | {role: quoted(name) for role, name in figure.roles()}
-    entries["y"] = f"[{', '.join(map(quoted, figure.y))}]"
-    if figure.title:
-        entries["title"] = quoted(figure.title)
-    entries |= {mark: "true" for mark in ("regimes", "validity") if getattr(figure, mark)}
-    words = {"caption": figure.caption, "message": figure.message}
-    return entries | {key: quoted(text) for key, text in words.items() if text}
-
-
-def _of_contacts(grid: Grid) -> tuple[list[str], dict[str, str]]:
+def _of_contacts(grid: Grid) -> tuple[list[tuple[str, Mapping[str, Any]]], dict[str, Any]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
     from swtstudy.units.grid import PhysicalGrid
     from swtstudy.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
 
     if not isinstance(grid, PhysicalGrid):
         return [], {}
-    tables = _table("[units]", {kind: quoted(label) for kind, label in vars(grid.units).items()})
-    pairs = zip(*(vars(each).items() for each in grid.materials), strict=True)
-    of_both = {one[0]: [one[1], other[1]] for one, other in pairs}
+    own = [vars(each) for each in grid.materials]
+    material = {key: [each[key] for each in own] for key in (own[0] if own else ())}
     for key, name in SHEAR_CONSTANTS.items():
-        of_both[key] = [getattr(each, name) for each in grid.shear_materials]
-    of_both |= {STRENGTH: [*grid.yield_strengths], LIMIT: [*grid.findley_limits]}
-    material = {key: repr(both) for key, both in of_both.items() if both}
-    tables += _table("[material]", material) if material else []
-    fixed = {name: repr([*two]) for name, two in grid.pairs.items()}
-    if grid.body_names:
-        fixed["bodies"] = f"[{', '.join(map(quoted, grid.body_names))}]"
-    return tables, fixed | {"similar": repr(grid.similar)}
+        material[key] = [getattr(each, name) for each in grid.shear_materials]
+    material |= {STRENGTH: [*grid.yield_strengths], LIMIT: [*grid.findley_limits]}
+    material = {key: both for key, both in material.items() if both}
+    tables: list[tuple[str, Mapping[str, Any]]] = [("[units]", vars(grid.units))]
+    tables += [("[material]", material)] if material else []
+    names = {"bodies": grid.body_names} if grid.body_names else {}
+    return tables, {**grid.pairs, **names, "similar": grid.similar}
 
 
-def _literal(value: Value) -> str:
-    return quoted(str(value)) if isinstance(value, str | Fraction | Definition) else repr(value)
-
-
-def quoted(text: str) -> str:
-    """A text as a TOML string."""
-    # A JSON string is a TOML string but for DEL, which TOML wants escaped.
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+def quoted(value: object) -> str:
+    """A value as in TOML; fractions and what has a name are texts."""
+    # JSON is TOML but for DEL, which TOML wants escaped.
+    return json.dumps(value, ensure_ascii=False, default=str).replace("\x7f", "\\u007f")
 
 
 #: How many values of an axis are listed one by one: a cell of a table in a notebook.
