@@ -40,6 +40,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
+from swtstudy.units.scatter import scatter_from
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
@@ -291,6 +292,7 @@ def read_contact(text: object) -> ContactDetails:
             tuple(map(str, raw.get("body_names", ()))),
             tuple(ShearConstants(**each) for each in raw.get("shear_materials", ())),
             tuple(map(float, raw.get("findley_limits", ()))),
+            scatter_from(raw.get("scatter")),
         )
     except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
         raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
