@@ -11,6 +11,8 @@ from swtstudy.vocabulary.version import __version__ as __version__
 if TYPE_CHECKING:
     from swtstudy.archive.archive import open_results as open_results
     from swtstudy.contacts.physical import physical as physical
+    from swtstudy.fields.elements import evaluate_history as evaluate_history
+    from swtstudy.fields.elements import read_history as read_history
     from swtstudy.fields.history import criterion_of_history as criterion_of_history
     from swtstudy.fields.history import swt_of_history as swt_of_history
     from swtstudy.fields.inspection import inspect_point as inspect_point
@@ -48,12 +50,14 @@ _HOMES = {
     "criterion_of_history": "swtstudy.fields.history",
     "draw_load": "swtstudy.figures.load",
     "draw_profile": "swtstudy.figures.profile",
+    "evaluate_history": "swtstudy.fields.elements",
     "fit": "swtstudy.results.fitting",
     "inspect": "swtstudy.figures.inspection",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.archive",
     "optimise": "swtstudy.results.optimise",
     "physical": "swtstudy.contacts.physical",
+    "read_history": "swtstudy.fields.elements",
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",
     "run": "swtstudy.runner.run",

@@ -10,6 +10,8 @@ import numpy as np
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
+from swtstudy.vocabulary.naming import with_parameters
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from swtstudy.points.grid import Grid
 
 
+@with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
 def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
     """Normalised SWT parameter s on the grid spanned by named parameters.
 
@@ -33,10 +36,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     quantities
         Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
     **parameters
-        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, each a single value or a one-dimensional
-        sequence of values; strings such as "3/2" or "pi/2" stand for numbers. Defaults are those of Table 1.
-        Along an axis of friction tangential_amplitude, G* uA/(μ E* δ0), stays, so that uA itself moves with
-        μ.
+        The names below, each a single value or a one-dimensional sequence of values; strings such as "3/2" or
+        "pi/2" stand for numbers.
 
     Returns
     -------

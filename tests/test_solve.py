@@ -1,3 +1,5 @@
+import inspect
+import re
 from decimal import Decimal
 from fractions import Fraction
 
@@ -170,3 +172,17 @@ def test_axes_of_dask_are_solved_lazily_and_give_the_same_bits():
 def test_axes_of_dask_are_checked_at_once():
     with pytest.raises(StudyError, match="friction"):
         swtstudy.solve(friction=dask.array.from_array([0.1, -1.0], chunks=1))
+
+
+@pytest.mark.parametrize(
+    "function", [swtstudy.solve, swtstudy.physical, swtstudy.optimise, swtstudy.read_signal]
+)
+def test_help_lists_every_parameter(function):
+    names = {*inspect.signature(function).parameters} - {"rtol"}
+    assert not names & {"parameters", "given"}
+    text = inspect.getdoc(function)
+    for name in names:
+        assert re.search(rf"^(?:.*, )?{name}(?:, .*)?$", text, re.MULTILINE), name
+    if function is not swtstudy.read_signal:
+        assert {"friction", "phase", "profile", "walker_exponent"} <= names
+        assert "friction\n    coefficient of friction, μ; a number in [0, 10]" in text

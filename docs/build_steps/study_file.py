@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 from build_steps.markdown import table
+from swtstudy.study.columns import FileTable
 from swtstudy.study.schema import study_schema
 
 _HEAD = ("key", "meaning", "value", "default")
@@ -40,7 +41,9 @@ def study_file() -> str:
 
 def _section(name: str, keys: dict[str, Any], part: dict[str, Any], more: str = "") -> tuple[str, str]:
     head = f"## `[{name}{more}]`\n\n{keys[name]['description']}\n"
-    return head, _table(part["properties"], set(part.get("required", ())))
+    # How a file is written comes behind what else a table has.
+    entries = dict(sorted(part["properties"].items(), key=lambda entry: entry[0] in FileTable.model_fields))
+    return head, _table(entries, set(part.get("required", ())))
 
 
 def _table(entries: dict[str, Any], required: set[str]) -> str:
@@ -80,7 +83,8 @@ def _value(entry: dict[str, Any]) -> str:
         return f"`{entry['const']}`"
     if "enum" in entry:
         names = entry["enum"]
-        return ", ".join(f"`{name}`" for name in names) if len(names) <= 5 else "name of an axis"
+        shown = ", ".join(f"`{json.dumps(name)}`" for name in names)
+        return shown if len(names) <= 5 else "name of an axis"
     if "anyOf" in entry:
         return " or ".join(_value(each) for each in entry["anyOf"] if each.get("type") != "null")
     if "examples" in entry:

@@ -15,7 +15,7 @@ from typing import Any
 import click
 
 import swtstudy
-from swtstudy.cli.checks import audit, check, fit, sensitivity
+from swtstudy.cli.checks import audit, check, fit, history, sensitivity
 from swtstudy.cli.options import check_options, examples
 from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
@@ -34,7 +34,7 @@ STOPPED = 130
 _SECTIONS = {
     "Studies": (new, validate, plan, run, list_studies, schema),
     "Results": (report, plot, info, merge),
-    "Single points": (solve, show),
+    "Single points": (solve, show, history),
     "What matters, and checks": (sensitivity, fit, check, audit),
 }
 

@@ -85,9 +85,10 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     """Fit the critical distance, and friction, to the lives of TESTS.
 
     STUDY is a study file with units and the constants of the material: what all tests have in common. TESTS
-    is a CSV file with a row for each test: parameters, in the units of the study, and life, the rounds to a
-    crack. Least squares of the logarithms of predicted over observed lives. Writes the fit as netCDF and the
-    figure of predicted over observed lives: NAME_fit.
+    is a CSV file with a row for each test: parameters, in the units of the study, and life, the load cycles
+    to a crack; of a run-out the cycles that it survived, as >1e7 or with 1 in a column runout. Maximum
+    likelihood of the logarithms of the lives. Writes the fit as netCDF and the figure of predicted over
+    observed lives: NAME_fit.
     """
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.evaluated import draw_fit, fit_lines
@@ -177,3 +178,37 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
         write_text(target.with_suffix(".md"), text)
         click.echo(of_markdown(text, line_length()))
         click.echo(f"{target}\n{target.with_suffix('.md')}")
+
+
+@click.command(epilog=examples("swtstudy history rig.toml stresses.csv -o lives.vtu"))
+@click.argument("study", shell_complete=study_completion)
+@click.argument("file")
+@click.option("--order", help="Components: swtstudy (xx yy zz yz xz xy) or abaqus (S11 S22 S33 S12 S13 S23).")
+@click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Whose properties.")
+@click.option(
+    "--output", "-o", help="CSV, .vtu (ParaView) or .nc file; by default NAME_lives.csv beside FILE."
+)
+def history(study: str, file: str, order: str | None, body: int, output: str | None) -> None:
+    """Evaluate the stress histories in FILE, as from finite elements: criteria, critical planes and lives.
+
+    FILE is a table with a row for each point and step of one load cycle: id or x, y, z or both, step, and six
+    stress components. STUDY is a study file with units, young_modulus and poisson_ratio; its [material] gives
+    lives, its normal_sensitivity the criteria of Fatemi and Socie and of Findley.
+    """
+    from swtstudy.fields.elements import evaluate_history, read_history, write_history
+    from swtstudy.vocabulary.files import check_writable
+
+    target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
+    check_writable(target)
+    found = evaluate_history(read_history(file, order=order), study, body)
+    write_history(found, target)
+    for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
+        if name in found:
+            at = found.isel(point=int(found[name].values.argmax()))
+            words = f"largest {name} = {float(at[name]):.4g} {at[name].attrs.get('units', '')}".rstrip()
+            words += f", {lives} = {float(at[lives]):.3g}" if lives in found else ""
+            place = ", ".join(
+                f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords
+            )
+            click.echo(wrapped(f"{words} at {place or 'the only point'}", line_length()))
+    click.echo(str(target))

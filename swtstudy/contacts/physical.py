@@ -8,16 +8,19 @@ from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.solving import dimensions_of, spanned
 from swtstudy.units.bodies import LABELS, checked_body, shear_constants_of_both, stresses_of_both
 from swtstudy.units.grid import ContactDetails
+from swtstudy.units.labels import Units
 from swtstudy.units.reading import read_contacts
-from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY
+from swtstudy.units.rows import NAMES_KEY, SIMILAR, SIMILAR_KEY, rows
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError
+from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: What is asked of contacts, not given of them.
 _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
+@with_parameters(row for name, row in rows(Units()).items() if name != DISTANCE)
 def physical(
     *,
     young_modulus: Any = None,
@@ -70,7 +73,7 @@ def physical(
         Length of a plane contact across its section: its loads are forces then. Without it they are forces
         per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
     **parameters
-        The other names of `swtstudy.vocabulary.parameters.PARAMETERS`. Those with a scale are lengths:
+        The names below. Those with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,

@@ -16,7 +16,7 @@ from math import cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel import INNERMOST
+from swtstudy.kernel import INNERMOST, NEAREST
 from swtstudy.kernel.all_planes import PLANES, ROWS, activate, climb_from, highest_plane, measure
 from swtstudy.kernel.chebyshev import FINEST, barycentric
 from swtstudy.kernel.compiled import jit, jit_reordered, new_record
@@ -331,9 +331,9 @@ def needs_circle(L, P, Q):
 
 
 @jit
-def at_singular_edge(P, x):
-    """True if a place is at the singular edge of a face itself."""
-    return P.singular and abs(x) == P.flat_radius
+def beside_singular_edge(P, x, share):
+    """True if a place is nearer to the singular edge of a face than a share of the face."""
+    return P.singular and abs(abs(x) - P.flat_radius) <= share * P.flat_radius
 
 
 @jit
@@ -346,7 +346,7 @@ def may_be_anywhere(L, Q):
 def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
     """Largest value on the circle through the point's maximum; s itself if that is not exceeded.
 
-    NaN where the maximum is at the singular edge of a face: on that circle the pressure has no bound. Where a
+    NaN where the maximum is at the singular edge of a face: next to it the pressure has no bound. Where a
     bulk stress leaves no tension on the line, or s is that of the bulk stress, it is the circle of the
     largest contact radius. With a bulk stress the circle of the smallest contact radius counts, too: outside
     of the contact the radial tension of the pressure is largest there, and at its sides the bulk stress does
@@ -357,7 +357,7 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
     nowhere = (s <= found.s_error or at_infinity) and may_be_anywhere(L, Q)
     if at_infinity and not nowhere:
         return s
-    if not nowhere and at_singular_edge(P, found.critical_x):
+    if not nowhere and beside_singular_edge(P, found.critical_x, NEAREST):
         return np.nan
     solve_cycle(C, L)
     lay_out(R, C, P, L, found.growth)

@@ -19,11 +19,12 @@ import numpy as np
 from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import MAX_STRETCHES, NONE, STICK
+from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.load import distinct, has_bulk
 from swtstudy.kernel.planes import (
+    BETWEEN,
     MINUS_SWING,
     STEP,
     STRESS,
@@ -52,12 +53,7 @@ ASK = np.dtype(
         ("time", "f8"),  # of the series over time,
         ("plane", "f8"),  # of the search over planes,
         ("growth", "f8"),  # of the series of dv/dn
-        ("near", "f8"),
-        ("trust", "f8"),
-        ("safety", "f8"),
-        ("surprise", "f8"),
-        ("memory", "f8"),
-        ("narrow", "f8"),
+        ("near", "f8"),  # positions below this share of the best are not looked at closer
     ]
 )
 SEARCH = np.dtype(
@@ -70,7 +66,6 @@ SEARCH = np.dtype(
         ("place", "f8"),  # s there
         ("sign", "f8"),  # of x
         ("angle", "f8"),  # 2θ
-        ("unsettled", "f8"),  # by how much its value may still change with more instants
         ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
         ("value", "f8", (2,)),  # at the last position, on both sides
         ("seen", "f8", (MAX_SEEN,)),  # places of the positions, in the order of the search
@@ -93,48 +88,35 @@ SEARCH = np.dtype(
 ROUNDS = 12
 #: A side that is asked for; no literal, for which Numba would compile anew.
 ASKED = np.bool_(True)
-#: With more cusps than this, pieces are looked at in groups first, so many, and long pieces by themselves.
-CROWD, GROUPS, LONG = 100, 48, 0.02
-#: Values within a width w of such cusps, spread over d, are higher than at its ends by this times √(w/d) at
-#: most. Less where less is seen in a group: so many times of what is, and this share of the group's own.
-RISE, RISE_SAFETY, RISE_MEMORY = 4.0, 4.0, 0.5
-#: Largest ratio of the lengths of two pieces beside each other, where it matters.
+#: Positions with a value, or a bound over planes, below this share of the best are not looked at closer.
+NEAR = 0.9
+#: Bound of K w² of a piece of the line at first, in its values or their range; of twice the third difference
+#: later on: that may change the second difference by four times as much.
+TRUST = 8.0
+#: Share of the bound of K w² of an interval that its halves keep, whatever they show.
+MEMORY = 0.25
+#: Wider pieces, as a share of the largest contact, may have a turn of the growth within.
+NARROW = 1e-3
+#: With more than twice as many pieces these are looked at in so many groups at first.
+GROUPS = 48
+#: Values within a width w of many cusps, spread over d, are higher than at its ends by this times √(w/d) at
+#: most, and by this times what is seen in a group.
+RISE = 4.0
+#: Largest ratio of the lengths of two pieces beside each other, where it matters, and of the ends of a piece
+#: next to a singular edge that is not spaced in ln s.
 GRADED = 50.0
-#: A piece on which the growth may turn is seen at three places within if one is higher than this share.
-HIGH = 0.7
-#: Least change by more instants that is reckoned with, as a share of the tolerance in time.
-SETTLED = 0.6
-#: Positions whose value is lower than the best by no more than this share are looked at most closely.
-CLOSE = 1e-3
-#: A position whose bound over planes is below this share of what is near the best is not looked at closer.
-ROUGH = 0.9
 
 
 #: Ends of pieces outside of the contact, in its radii: without and with a stress that reaches far.
 BEYOND, FAR_BEYOND = np.array([1.3, 4.0]), np.array([1.3, 4.0, 12.0, 40.0])
-#: Pieces next to a singular edge are spaced in ln s where their ends differ by more than this factor.
-GEOMETRIC = 16.0
-#: Friction from which a contact whose slip front comes this near to the edge of its face, as a share of the
-#: face, may have its maximum at the singular edge of a face.
-TEARING, NEAR_FACE = 0.8, 0.1
+#: Friction from which a contact may have its maximum at the singular edge of a face.
+TEARING = 0.8
 
 
 def ask(
-    poisson_ratio,
-    friction,
-    rtol,
-    criterion="swt",
-    walker_exponent=0.5,
-    normal_sensitivity=0.0,
-    pulled=1.0,
-    near=0.9,
-    trust=8.0,
-    safety=2.0,
-    surprise=8.0,
-    memory=0.25,
-    narrow=1e-3,
+    poisson_ratio, friction, rtol, criterion="swt", walker_exponent=0.5, normal_sensitivity=0.0, pulled=1.0
 ):
-    """Bodies, criterion, tolerances and the numbers of the search."""
+    """Bodies, criterion and tolerances."""
     record = new_record(ASK)
     record["poisson_ratio"], record["friction"], record["pulled"] = poisson_ratio, friction, pulled
     set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
@@ -144,19 +126,8 @@ def ask(
         0.1 * rtol,
         0.1 * rtol,
     )
-    record["near"], record["trust"], record["safety"] = near, trust, safety
-    record["surprise"], record["memory"], record["narrow"] = surprise, memory, narrow
+    record["near"] = NEAR
     return record
-
-
-@jit
-def innermost_front(C, P, largest):
-    """Place s of the slip front nearest to the centre."""
-    innermost = largest
-    for k in range(C.stretches):
-        if C.push[k] != STICK:
-            innermost = min(innermost, max(place_of(P, C.front[k, 1]), 0.0))
-    return innermost
 
 
 @jit
@@ -179,7 +150,7 @@ def cusps(S, C, P, L, Q, largest):
     radius = sqrt(b * b + largest * largest)
     m = 1
     z[0] = INNERMOST * largest
-    if P.singular and Q.friction >= TEARING and innermost_front(C, P, largest) < NEAR_FACE * b:
+    if P.singular and Q.friction >= TEARING:
         # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
         L_edge = 4.0
         while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
@@ -224,7 +195,6 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
     A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
     it stays. Returns swt and 2θ.
     """
-    W.change = Q.time * swt
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
         find_peaks(H, W, Q, Ct, St)
@@ -256,8 +226,7 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
         before = swt
         h, angle = climb(H, W, Q, angle, Q.plane)
         swt = value_of(Q, h)
-        W.change = abs(swt - before) if confirming else Q.time * swt
-        if confirming and W.change <= Q.time * swt:
+        if confirming and abs(swt - before) <= Q.time * swt:
             break
     return swt, angle
 
@@ -267,7 +236,7 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
     """swt of the sampled cycle at side · x, and 2θ of its plane: rough where it cannot matter."""
     floor = Q.near * S.best
     first, bound = survey_planes(H, W, Q, side)
-    if value_of(Q, bound) < ROUGH * floor or W.value[first] <= 0.0:
+    if value_of(Q, bound) < floor or W.value[first] <= 0.0:
         return value_of(Q, W.value[first]), STEP * first
     h, angle = climb(H, W, Q, STEP * first, Q.plane)
     swt = value_of(Q, h)
@@ -279,7 +248,7 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
         if H.instants > instants:
             survey_planes(H, W, Q, side)
         known = lift(Q, swt)
-        h, other = higher_plane(H, W, Q, known, Q.plane, swt > (1.0 - CLOSE) * S.best)
+        h, other = higher_plane(H, W, Q, known, Q.plane, swt > (1.0 - BETWEEN) * S.best)
         if h <= known:
             break
         h, other = climb(H, W, Q, other, Q.plane)
@@ -312,7 +281,6 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
         S.seen_value[number, side], S.seen_angle[number, side] = swt, angle
         if swt > S.best:
             S.best, S.place, S.sign, S.angle = swt, place, sign, angle
-            S.unsettled = min(max(W.change, SETTLED * Q.time * swt), Q.time * swt)
             find_peaks(H, W, Q, cos(angle), sin(angle))
             S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
             if Q.criterion == SWT:
@@ -341,7 +309,7 @@ def position(S, k, angle):
     """Place at an angle on the piece of interval k."""
     left, right = S.piece[k, 0], S.piece[k, 1]
     share = 0.5 - 0.5 * cos(angle)
-    if S.singular and left > 0.0 and right > GEOMETRIC * left:
+    if S.singular and left > 0.0 and right > GRADED * left:
         return left * (right / left) ** share
     return left + (right - left) * share
 
@@ -351,7 +319,7 @@ def set_piece(S, k, left, right, Q):
     """Make interval k a whole piece from left to right, between whose values the trust is a bound."""
     S.piece[k, 0], S.piece[k, 1], S.ends[k, 0], S.ends[k, 1] = left, right, 0.0, pi
     S.upper[k] = 0
-    trust = Q.trust
+    trust = TRUST
     if S.crowd > 0.0:  # roots of distances within the piece
         trust *= min(1.0, S.rise[k] * sqrt((right - left) / S.crowd))
     for side in range(2):
@@ -367,7 +335,7 @@ def set_group(S, k, first, last, cusps, L, Q, smallest, largest):
     S.unseen[k] = 0
     if last == first + 1:
         inside = left >= smallest * (1.0 - 1e-9) and right <= largest * (1.0 + 1e-9)
-        S.unseen[k] = L.sides == 0 and inside and right - left > Q.narrow * largest
+        S.unseen[k] = L.sides == 0 and inside and right - left > NARROW * largest
         S.beside[k, 0] = left - S.cusp[first - 1] if first > 0 else right - left
         S.beside[k, 1] = S.cusp[last + 1] - right if last < cusps else right
     set_piece(S, k, left, right, Q)
@@ -430,8 +398,8 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
             S.at_ends[k, 0, side], S.at_ends[k, 1, side] = 0.0, 0.0
         S.at_ends[m, 0, side], S.at_ends[m, 1, side] = S.value[side], S.at_ends[k, 1, side]
         S.at_ends[k, 1, side] = S.value[side]
-    seen *= RISE_SAFETY * sqrt(S.crowd / (right - left))
-    S.rise[k] = S.rise[m] = min(max(seen, RISE_MEMORY * S.rise[k]), RISE)
+    seen *= RISE * sqrt(S.crowd / (right - left))
+    S.rise[k] = S.rise[m] = min(max(seen, MEMORY * S.rise[k]), RISE)
     set_group(S, k, first, middle, cusps, L, Q, smallest, largest)
     set_group(S, m, middle, last, cusps, L, Q, smallest, largest)
     upper = m
@@ -442,9 +410,9 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
 @jit
 def ends_group(S, j, last, largest):
     """True if cusp j of last + 1 ends a group of pieces: each if there are few, and those of long pieces."""
-    step = max(last // GROUPS, 1) if last > CROWD else 1
+    step = max(last // GROUPS, 1) if last > 2 * GROUPS else 1
     gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
-    return j % step == 0 or j == last or gap > LONG * largest
+    return j % step == 0 or j == last or GROUPS * gap > largest
 
 
 @jit
@@ -454,7 +422,7 @@ def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
     Returns the number of intervals.
     """
     S.crowd = 0.0
-    if cusps > CROWD:
+    if cusps > 2 * GROUPS:
         k = 0
         while S.cusp[k] < 0.5 * smallest:
             k += 1
@@ -481,7 +449,7 @@ def begin_search(S, H, W, C, R, P, K, L, Q):
     """Places s of the smallest and the largest contact, the last cusp's number, and the first intervals'."""
     smallest, largest = place_of(P, C.smallest), place_of(P, C.largest)
     cusp_count = cusps(S, C, P, L, Q, largest) - 1
-    S.best, S.place, S.sign, S.angle, S.tension, S.unsettled = 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
+    S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
     m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
     return smallest, largest, cusp_count, m
@@ -560,21 +528,21 @@ def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
     highest = max(S.value[0], S.value[1])
     for side in range(2):
         highest = max(highest, S.at_ends[k, 0, side], S.at_ends[k, 1, side])
-    unseen = 1 if whole and S.unseen[k] and highest > HIGH * S.best else 0
+    unseen = 1 if whole and S.unseen[k] and highest > Q.near * S.best else 0
     S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = unseen, unseen, 0, 0
     upper = S.upper[k]
     S.upper[k], S.upper[m] = 0, 1
     for side in range(2):
         f1, f2, f = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.value[side]
         if (side == 0 and plus) or (side == 1 and minus):
-            drop = Q.safety * (2.0 * f - f1 - f2)
+            drop = 2.0 * f - f1 - f2
             if whole:
-                drop = max(drop, Q.trust * (max(f1, f2, f) - min(f1, f2, f)))
+                drop = max(drop, TRUST * (max(f1, f2, f) - min(f1, f2, f)))
             else:
                 near, far = (f1, f2) if upper else (f2, f1)
                 expected = 0.125 * (3.0 * far + 6.0 * near - S.beyond[k, side])
-                drop = max(drop, 0.0) + Q.surprise * abs(f - expected)
-                drop = max(drop, Q.memory * S.drop[k, side])
+                drop = max(drop, 0.0) + TRUST * abs(f - expected)
+                drop = max(drop, MEMORY * S.drop[k, side])
         else:  # nothing here can matter
             f1, f2, f, drop = 0.0, 0.0, 0.0, 0.0
         S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.beyond[k, side] = f1, f, f2

@@ -38,7 +38,6 @@ WORK = np.dtype(
         ("c", "f8", (MAX_INSTANTS,)),
         ("d", "f8", (MAX_INSTANTS,)),
         ("double", "i8", (MAX_PARTS,)),  # 1: parts to be doubled
-        ("change", "f8"),  # of the value by the last doubling
         ("curve", "f8", (2, FINEST + 1)),  # of one part
         ("weight", "f8", (FINEST + 1,)),
         ("value", "f8", (PLANES,)),

@@ -4,7 +4,8 @@ from math import nan, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.circle import at_singular_edge, needs_circle
+from swtstudy.kernel import NEAREST
+from swtstudy.kernel.circle import beside_singular_edge, needs_circle
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
@@ -20,14 +21,15 @@ from swtstudy.vocabulary.choices import REGIMES
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
-#: Places of slip fronts are rounded to some 4e-14, and those of a moving edge to some 4e-16. Shear tractions,
-#: over μ, and pressures follow their roots.
-OF_FRONT, OF_EDGE = 2e-7, 2e-8
-#: s is no finite number where it still grows this near to the singular edge of a face, as a share of it.
-NEAREST = 1e-9
+#: Rounding of the distance of two slip fronts, and what is no distance, over the largest contact.
+OF_DISTANCE, ONE_PLACE = 1e-13, 1e-15
+#: Rounding of the pressure next to a moving edge, of which it is the root: that of the edge is some 4e-16.
+OF_PRESSURE = 3e-8
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
 #: there is no continuum that small.
 TEARS = 0.995
+#: Nearer to the singular edge of a face than this share of it the circle may be higher at any ν.
+BESIDE_EDGE = 1e-3
 #: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
 SAME = 1e-7
 #: The regimes by number.
@@ -114,10 +116,22 @@ def tension_share(C, Q, tension):
 
 
 @jit
-def rounding_share(C, Q, tension):
-    """Largest stress that rounding makes near edge and front, over the tension."""
-    moves = C.largest > C.smallest
-    return (OF_FRONT * Q.friction + (OF_EDGE if moves else 0.0)) * sqrt(C.largest) / tension
+def rounding_share(C, P, Q, place, tension):
+    """Largest stress that rounding makes at a place, over the tension.
+
+    Shear tractions, over μ, go like the root of the distance to an edge or a front, where these turn. The
+    rounding of a distance matters if it is small and not 0: then the place itself is not this turning point.
+    """
+    largest, nearest = place_of(P, C.largest), 1.0
+    for k in range(C.stretches):
+        for e in range(2):
+            for G in (C.edge[k, e], C.front[k, e]):
+                distance = abs(place_of(P, G) - place) / largest
+                if distance > ONE_PLACE:
+                    nearest = min(nearest, distance)
+    root = sqrt(nearest + OF_DISTANCE) - sqrt(max(nearest - OF_DISTANCE, 0.0))
+    of_pressure = OF_PRESSURE if C.largest > C.smallest else 0.0
+    return (Q.friction * sqrt(2.0) * root + of_pressure) * sqrt(C.largest) / tension
 
 
 @jit
@@ -163,8 +177,8 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         growth = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s, out.place = S.best, S.place
-    rounding = coarse / share + rounding_share(C, Q, S.tension) if S.best > 0.0 else 0.0
-    out.s_error = gap + 2.0 * S.unsettled + (rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
+    rounding = coarse / share + rounding_share(C, P, Q, S.place, S.tension) if S.best > 0.0 else 0.0
+    out.s_error = gap + (2.0 * Q.time + rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
     if S.best == 0.0:  # tension within rounding is taken for none
         out.s_error += NOISE * C.largest
     else:
@@ -175,7 +189,9 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
-    out.s_surface = nan if at_singular_edge(P, out.critical_x) else out.s
+    if beside_singular_edge(P, out.critical_x, BESIDE_EDGE):
+        out.circle = not P.plane
+    out.s_surface = nan if beside_singular_edge(P, out.critical_x, NEAREST) else out.s
 
 
 @jit

@@ -153,7 +153,7 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
     if not dataset.s.size:
         return [], []
     found = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
-    found += _unknown_shift(dataset)
+    found += [*_unknown_shift(dataset), *_at_face_edge(dataset)]
     within: list[str] = []
     for limit in LIMITS:
         if limit.variable not in dataset:
@@ -219,6 +219,15 @@ def _unknown_shift(dataset: xr.Dataset) -> Iterator[Excess]:
         if lost.any():
             words = f"shift of the stick zone by bulk strain unknown{_where(lost)}"
             yield Excess(words, f"{words}: known of the paraboloid and the cylinder alone")
+
+
+def _at_face_edge(dataset: xr.Dataset) -> Iterator[Excess]:
+    """Say where the circle through the critical point is the singular edge of a face."""
+    if "s_surface" in dataset:
+        out = np.isfinite(dataset.s.values) & np.isnan(dataset.s_surface.values)
+        if out.any():
+            words = f"critical point at the singular edge of the face{_where(out)}"
+            yield Excess(words, f"{words}: off the line y = 0 swt may have no bound there")
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:

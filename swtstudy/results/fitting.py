@@ -1,11 +1,13 @@
-"""The critical distance, and friction, with which lives fit those of tests: least squares of log N."""
+"""The critical distance, and friction, with which lives fit those of tests, run-outs among them."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,18 +19,19 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.solving import solve_grid
-from swtstudy.study.columns import FileTable
+from swtstudy.study.columns import FileTable, number
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.variables import LIVES
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,
     StudyError,
     is_number,
     literal,
+    more_like_it,
     nearest,
     plain_number,
 )
@@ -38,10 +41,17 @@ from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
-    from scipy.optimize import OptimizeResult
 
-#: The column of a table of tests with the lives that were observed, in rounds of the load.
-LIFE = "life"
+#: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
+LIFE, RUNOUT = "life", "runout"
+#: Marks of a run-out, and of a test that ended with a crack.
+YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "")
+#: Ratio of a name of a column to that of a parameter from which it is a misspelling (difflib).
+MISSPELT = 0.8
+#: log10 of a life that counts as unbounded, for tests that survived.
+UNBOUNDED = 20.0
+#: Least scatter of log10 N: lives are not computed closer. Rounds in which it is found, to a thousandth.
+LEAST_SCATTER, ROUNDS, CLOSE = 1e-3, 100, 1e-3
 #: Critical distances tried, over the smallest contact radius, as far as all lives are finite; lives between
 #: them are interpolated.
 DISTANCES = np.geomspace(0.004, 1.2, 17)
@@ -65,7 +75,9 @@ def fit(
 ) -> xr.Dataset:
     """The critical distance with which predicted lives are nearest to those of tests.
 
-    Least squares of log10 of predicted over observed life, by `scipy.optimize.least_squares`.
+    Maximum likelihood with normally distributed log10 N: least squares of log10 of predicted over observed
+    life, by `scipy.optimize.least_squares`, if all tests ended with a crack. The life of a run-out is known
+    to be above its number of cycles: it counts by the probability of that.
 
     Parameters
     ----------
@@ -73,35 +85,36 @@ def fit(
         A study file with units and constants: what all tests have in common. Its axes, sample and figure do
         not count, nor what the table of tests gives.
     tests
-        A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the rounds
-        of the load to a crack; a row for each test. Tests without a crack have no life: leave them out.
+        A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the load
+        cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or with 1
+        in a column ``runout``. Other columns, such as names of specimens, are left alone with a warning.
     y
         Name of the predicted life: "cycles_volume", "cycles_point" or "cycles_line", the latter two straight
         down; with ``FS_`` before the name, a life by the criterion of Fatemi and Socie.
     friction
         Whether friction is fitted, too; the study's is where that begins.
     confidence
-        Level of the intervals, which hold for small residuals: from the slopes at the fit, and Student's t.
+        Level of the intervals, which hold for small residuals: from the curvature of the likelihood, and
+        Student's t.
 
     Returns
     -------
     xarray.Dataset
         ``critical_distance`` and, if asked, ``friction``, with the ends of their intervals, ``_low`` and
-        ``_high``; ``observed`` and ``predicted`` lives over ``test``; ``scatter``, the standard deviation of
-        log10 N; ``within_2`` and ``within_5``, how many tests are within these factors.
+        ``_high``; ``observed`` and ``predicted`` lives along ``test``, and ``runout``; ``scatter``, the
+        standard deviation of log10 N; ``within_2`` and ``within_5``, the number of tests within these
+        factors, among them run-outs whose predicted life is above, or below by less than the factor.
 
     Raises
     ------
     StudyError
         A ValueError with every mistake; also if the best distance is at an end of those that were tried.
     """
-    from scipy.optimize import least_squares
-
     if y not in NONLOCAL_LIVES:
         raise StudyError([Mistake("y", literal(y), nearest(str(y), NONLOCAL_LIVES))])
     if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
         raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
-    grid, observed = _read(study, tests, 2 if friction else 1)
+    grid, observed, runout = _read(study, tests, 2 if friction else 1)
     known = [name for name in NONLOCAL_LIVES if name in grid.made(_asked(DISTANCES))]
     if y not in known:
         raise StudyError([Mistake("y", literal(y), f"one of {', '.join(known)}")])
@@ -110,16 +123,14 @@ def fit(
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
     with Progress(None, "fit"):
-        model = _Model.of(grid, np.log10(observed), y, friction)
+        model = _Model.of(grid, np.log10(observed), runout, y, friction)
         low, high = model.bounds()
-        start = np.clip(model.start(), low, high)
-        options = {"jac": model.slopes, "bounds": (low, high), "xtol": XTOL, "ftol": XTOL}
-        found = least_squares(model.residuals, start, **options)
-    if not low[0] + STEP < found.x[0] < high[0] - STEP:
+        best, scatter = model.fitted(low, high)
+    if not low[0] + STEP < best[0] < high[0] - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
         raise StudyError([Mistake(DISTANCE, words, "tests whose lives depend on it within that range")])
-    return _labelled(model, found, float(confidence))
+    return _labelled(model, best, scatter, float(confidence))
 
 
 @dataclass(frozen=True)
@@ -132,6 +143,8 @@ class _Model:
         The tests, as a sample.
     observed
         Shape (n,): log10 of their lives.
+    runout
+        Shape (n,): True for lives that are lower bounds.
     y
         The data variable.
     friction
@@ -144,29 +157,32 @@ class _Model:
 
     grid: PhysicalGrid
     observed: FloatArray
+    runout: BoolArray
     y: str
     friction: float | None
     distances: FloatArray
     known: dict[float | None, FloatArray]
 
     @classmethod
-    def of(cls, grid: PhysicalGrid, observed: FloatArray, y: str, with_friction: bool) -> _Model:
+    def of(
+        cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str, with_friction: bool
+    ) -> _Model:
         """Distances are those up to the first at which a test has no finite life at the study's friction.
 
         Deep beneath the surface there may be no tension.
         """
         distances = DISTANCES * float(grid.at_rest.each(lambda contact: contact.contact_radius).min())
-        lives = _lives(grid, y, distances, None)
+        lives = _bounded(_lives(grid, y, distances, None), runout)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
         own = math.log(float(grid.values("friction")[0])) if with_friction else None  # type: ignore[arg-type]
-        return cls(grid, observed, y, own, distances[:many], {own: _finite(lives[:, :many])})
+        return cls(grid, observed, runout, y, own, distances[:many], {own: _finite(lives[:, :many])})
 
     def start(self) -> FloatArray:
         """Logarithms of the parameters at the best distance that is computed."""
         own = np.array([] if self.friction is None else [self.friction])
         tried = [np.append(logarithm, own) for logarithm in np.log(self.distances)]
-        return min(tried, key=lambda each: float((self.residuals(each) ** 2).sum()))
+        return min(tried, key=lambda each: float((self.deviations(each, 1.0) ** 2).sum()))
 
     def bounds(self) -> tuple[FloatArray, FloatArray]:
         """Least and greatest logarithms: friction must bear the tangential forces."""
@@ -188,7 +204,8 @@ class _Model:
         own = None if self.friction is None else float(logarithms[1])
         if own not in self.known:
             friction = None if own is None else math.exp(own)
-            self.known[own] = _finite(_lives(self.grid, self.y, self.distances, friction))
+            lives = _lives(self.grid, self.y, self.distances, friction)
+            self.known[own] = _finite(_bounded(lives, self.runout))
         return CubicSpline(np.log(self.distances), self.known[own], axis=1)
 
     def residuals(self, logarithms: FloatArray) -> FloatArray:
@@ -203,6 +220,83 @@ class _Model:
                 (self.residuals(logarithms + np.array([0.0, STEP])) - self.residuals(logarithms)) / STEP
             )
         return np.stack(columns, axis=1)
+
+    def fitted(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, float]:
+        """Logarithms of the parameters between bounds, and the scatter, of the largest likelihood.
+
+        The scatter follows from expected squares of what is left, those of run-outs above their bounds
+        (expectation and maximisation).
+        """
+        from scipy.optimize import least_squares
+
+        best = np.clip(self.start(), low, high)
+        scatter = self.scatter(best, 1.0)
+        for _ in range(ROUNDS):
+            best = least_squares(
+                lambda each, size: self.deviations(each, size),
+                best,
+                lambda each, size: self.deviation_slopes(each, size),
+                bounds=(low, high),
+                xtol=XTOL,
+                ftol=XTOL,
+                args=(scatter,),
+            ).x
+            last, scatter = scatter, self.scatter(best, scatter)
+            if abs(math.log(scatter / last)) < CLOSE:
+                break
+        return best, scatter
+
+    def deviations(self, logarithms: FloatArray, scatter: float) -> FloatArray:
+        """Residuals over a scatter, shape (n,); of run-outs the root of −2 ln of the chance to survive."""
+        from scipy.stats import norm
+
+        z = self.residuals(logarithms) / scatter
+        return np.where(self.runout, np.sqrt(-2.0 * norm.logcdf(z)), z)
+
+    def deviation_slopes(self, logarithms: FloatArray, scatter: float) -> FloatArray:
+        """Their derivatives, shape (n, number of parameters)."""
+        z = self.residuals(logarithms) / scatter
+        of_runouts = -_hazard(z) / np.maximum(self.deviations(logarithms, scatter), 1e-300)
+        return self.slopes(logarithms) * (np.where(self.runout, of_runouts, 1.0) / scatter)[:, None]
+
+    def scatter(self, logarithms: FloatArray, scatter: float) -> float:
+        """Standard deviation of log10 N whose expected squares are those at another one."""
+        residuals = self.residuals(logarithms)
+        z = residuals / scatter
+        squares = np.where(self.runout, scatter**2 * (1.0 - z * _hazard(z)), residuals**2)
+        return max(float(np.sqrt(squares.mean())), LEAST_SCATTER)
+
+    def freedom(self) -> int:
+        """Number of cracked tests beyond that of parameters."""
+        return int((~self.runout).sum()) - (1 if self.friction is None else 2)
+
+    def spread(self, logarithms: FloatArray, scatter: float, confidence: float) -> FloatArray:
+        """Half widths of the intervals of the logarithms, shape (number of parameters,).
+
+        From the second derivatives of the likelihood by the parameters and the logarithm of the scatter.
+        """
+        from scipy.stats import t
+
+        z, slopes = self.residuals(logarithms) / scatter, self.slopes(logarithms) / scatter
+        hazard = _hazard(z)
+        steep = np.where(self.runout, hazard * (hazard + z), 1.0)
+        mixed = np.where(self.runout, hazard - z * steep, -2.0 * z)
+        both = slopes.T @ mixed[:, None]
+        whole = np.block([[slopes.T @ (steep[:, None] * slopes), both], [both.T, -(z * mixed).sum()]])
+        variance = np.maximum(np.diag(np.linalg.pinv(whole))[:-1], 0.0)
+        return np.asarray(t.ppf(0.5 + 0.5 * confidence, self.freedom()) * np.sqrt(variance))
+
+
+def _hazard(z: FloatArray) -> FloatArray:
+    """φ(z)/Φ(z) of the normal distribution."""
+    from scipy.stats import norm
+
+    return np.asarray(np.exp(norm.logpdf(z) - norm.logcdf(z)))
+
+
+def _bounded(lives: FloatArray, runout: BoolArray) -> FloatArray:
+    """log10 of lives, (n, k), where those of tests that survived may be unbounded."""
+    return np.where(runout[:, None], np.minimum(lives, UNBOUNDED), lives)
 
 
 def _finite(lives: FloatArray) -> FloatArray:
@@ -232,36 +326,28 @@ def _asked(distances: FloatArray) -> Request:
     return Request((), tuple(distances.tolist()), is_axis=True, counts=True)
 
 
-def _intervals(slopes: FloatArray, residuals: FloatArray, confidence: float) -> FloatArray:
-    """Half widths of the intervals of the logarithms, shape (number of parameters,)."""
-    from scipy.stats import t
-
-    freedom = len(residuals) - slopes.shape[1]
-    variance = float(residuals @ residuals) / freedom
-    covariance = variance * np.linalg.pinv(slopes.T @ slopes)
-    return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(np.diag(covariance)))
-
-
-def _labelled(model: _Model, fitted: OptimizeResult, confidence: float) -> xr.Dataset:
-    """The fit as a Dataset, from the least squares that scipy found."""
-    residuals, spread = fitted.fun, _intervals(fitted.jac, fitted.fun, confidence)
+def _labelled(model: _Model, best: FloatArray, scatter: float, confidence: float) -> xr.Dataset:
+    """The fit as a Dataset; the scatter is that of the likelihood, which is lower than the sample's."""
+    residuals, freedom = model.residuals(best), model.freedom()
+    scatter *= math.sqrt((freedom + len(best)) / freedom)
+    spread = model.spread(best, scatter, confidence)
     found: dict[str, Any] = {}
-    for name, value, half in zip((DISTANCE, "friction"), fitted.x, spread, strict=False):
+    for name, value, half in zip((DISTANCE, "friction"), best, spread, strict=False):
         row = model.grid.row(name)
         words = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
-        for end, number in (("", value), ("_low", value - half), ("_high", value + half)):
+        for end, logarithm in (("", value), ("_low", value - half), ("_high", value + half)):
             with np.errstate(over="ignore"):
-                found[f"{name}{end}"] = (), float(np.exp(number)), words
-    freedom = len(residuals) - len(fitted.x)
+                found[f"{name}{end}"] = (), float(np.exp(logarithm)), words
     lives = {"observed": 10.0**model.observed, "predicted": 10.0 ** (model.observed + residuals)}
     found |= {
-        name: ("test", values, {"long_name": f"{name} rounds to a crack", "symbol": "N"})
+        name: ("test", values, {"long_name": f"{name} load cycles to a crack", "symbol": "N"})
         for name, values in lives.items()
     }
-    scatter = math.sqrt(float(residuals @ residuals) / freedom)
+    found[RUNOUT] = "test", model.runout.astype("i1"), {"long_name": "1 for tests without a crack"}
     found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N"}
     for factor in (2, 5):
-        within = int((np.abs(residuals) <= math.log10(factor)).sum())
+        off = np.where(model.runout, np.maximum(-residuals, 0.0), np.abs(residuals))
+        within = int((off <= math.log10(factor)).sum())
         found[f"within_{factor}"] = (), within, {"long_name": f"tests within a factor of {factor}"}
     samples = {
         name: ("test", np.array(list(map(float, values))), {"units": model.grid.row(name).units})  # type: ignore[arg-type]
@@ -272,11 +358,16 @@ def _labelled(model: _Model, fitted: OptimizeResult, confidence: float) -> xr.Da
     return xr.Dataset(found, numbers | samples, {"y": model.y, "confidence": confidence})
 
 
-def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[PhysicalGrid, FloatArray]:
-    """The tests as a sample of the study's contacts, and the lives that were observed, shape (n,)."""
+def _read(
+    study: str | PathLike[str], tests: object, parameters: int
+) -> tuple[PhysicalGrid, FloatArray, BoolArray]:
+    """The tests as a sample of the study's contacts, their lives, and which are lower bounds, shape (n,)."""
     columns = _columns(tests)
     report = Report()
-    lives = _observed(columns.pop(LIFE, []), columns, parameters, report)
+    lives, runout = _observed(columns, parameters, report)
+    columns = _of_parameters(columns)
+    if not columns and not report:
+        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
     grid = None
     if columns:
         with report:
@@ -287,25 +378,49 @@ def _read(study: str | PathLike[str], tests: object, parameters: int) -> tuple[P
         raise StudyError([Mistake("", "neither", allowed, str(study))])
     if grid.dimension("friction") and parameters > 1:
         raise StudyError([Mistake("friction", "a column of the tests", "one value to fit, from the study")])
-    return grid, np.array(lives)
+    return grid, np.array(lives), np.array(runout, bool)
 
 
 def _observed(
-    given: Sequence[object], columns: Iterable[str], parameters: int, report: Report
-) -> list[float]:
-    """The lives in their column; what is wrong with it, or that there is no other one, is reported."""
-    lives = [plain_number(value) for value in given]
-    if not lives:
-        report("tests", f"the columns {', '.join(columns)}", f"a column {LIFE}, the rounds to a crack")
-    wrong = [k for k, life in enumerate(lives) if not 0.0 < life < math.inf]
+    columns: Mapping[str, Sequence[object]], parameters: int, report: Report
+) -> tuple[list[float], list[bool]]:
+    """The lives, and whether each is that of a run-out; mistakes in both columns are reported."""
+    given = list(columns.get(LIFE, []))
+    if not given:
+        names = ", ".join(columns)
+        report("tests", f"the columns {names}", f"a column {LIFE}, the load cycles to a crack")
+    texts = [re.match(r"\s*(>=?|≥)?\s*(.*)", value) if isinstance(value, str) else None for value in given]
+    numbers = [
+        number(text[2], ".") if text else plain_number(value)
+        for text, value in zip(texts, given, strict=True)
+    ]
+    marks = [str(mark).strip().lower() for mark in columns.get(RUNOUT, [""] * len(given))]
+    for k, mark in enumerate(marks):
+        if mark not in (*YES, *NO):
+            report("tests", f"{RUNOUT} {literal(mark)} of test {k + 1}", "1 or 0, true or false, yes or no")
+    wrong = [k for k, life in enumerate(numbers) if not 0.0 < life < math.inf]
     if wrong:
-        more = f"; {len(wrong) - 1} more like it" if len(wrong) > 1 else ""
-        report("tests", f"{LIFE} {literal(given[wrong[0]])} of test {wrong[0] + 1}{more}", "positive numbers")
-    if 0 < len(lives) <= parameters:
-        report("tests", f"{len(lives)} tests", f"{parameters + 1} at least")
-    if not columns:
-        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
-    return lives
+        found = f"{LIFE} {literal(given[wrong[0]])} of test {wrong[0] + 1}{more_like_it(len(wrong))}"
+        report("tests", found, "positive numbers; of a run-out the cycles that it survived, as >1e7")
+    runout = [bool(text and text[1]) or mark in YES for text, mark in zip(texts, marks, strict=False)]
+    cracked = len(given) - sum(runout)
+    if given and cracked <= parameters:
+        report("tests", f"{cracked} tests{' with a crack' * any(runout)}", f"{parameters + 1} at least")
+    return numbers, runout
+
+
+def _of_parameters(columns: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
+    """The columns of parameters, and those with misspelt names, which are reported as such."""
+    others = [
+        name
+        for name in columns
+        if name not in (*AXES, LIFE, RUNOUT) and not get_close_matches(name, AXES, 1, MISSPELT)
+    ]
+    if others:
+        warnings.warn(
+            f"tests: columns that are no parameters are left alone: {', '.join(others)}", stacklevel=3
+        )
+    return {name: values for name, values in columns.items() if name not in (*others, LIFE, RUNOUT)}
 
 
 def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study:

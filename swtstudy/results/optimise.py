@@ -28,6 +28,8 @@ from swtstudy.vocabulary.mistakes import (
     literal,
     nearest,
 )
+from swtstudy.vocabulary.naming import with_parameters
+from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import NAMED, Request
 from swtstudy.vocabulary.variables import ATTRIBUTES, MARGINS
@@ -95,6 +97,7 @@ def _neighbourhood(
 CASES = {"best": 1, "worst": -1}
 
 
+@with_parameters(PARAMETERS.values())
 def optimise(
     *,
     over: Mapping[str, tuple[object, object]],
@@ -121,7 +124,7 @@ def optimise(
     seed
         Seed of the random numbers, 0 or more.
     **parameters
-        The other parameters, each a single value, as for `swtstudy.solve`.
+        The names below, each a single value, as for `swtstudy.solve`.
 
     Returns
     -------

@@ -123,14 +123,14 @@ class UserTable:
         texts = self.texts(name)
         values = np.array([number(text, self.form.decimal) for text in texts])
         if (wrong := np.flatnonzero(~np.isfinite(values))).size:
-            found = literal(texts[wrong[0]]) if texts[wrong[0]] else "nothing"
-            allowed = (
-                "a finite number"
-                if texts[wrong[0]]
-                else "a finite number; with the header of the time, time = ..., such rows are left out"
-            )
-            if found.startswith(("'#", "'%", "'//")) or wrong[0] == 0:
-                allowed += "; lines above the header are skip_rows, a row beneath it is units_row = true"
+            text, allowed = texts[wrong[0]], "a finite number"
+            found = literal(text) if text else "nothing"
+            if not text:
+                allowed += "; with the header of the time, time = ..., such rows are left out"
+            elif "," in text and self.form.decimal == ".":
+                allowed += "; a comma in numbers is decimal = ','"
+            elif wrong[0] == 0:
+                allowed += "; lines above the header are skip_rows, a row of units is units_row = true"
             place = f"line {self.cells.index[wrong[0]]}, {self.form.header(name)}"
             raise StudyError([Mistake(place, found, allowed, self.source)])
         return values
@@ -195,42 +195,39 @@ def read_columns(
     """
     known = (*names, *optional, *(kinds or ()))
     strange = [
-        (part, name) for part in ("columns", "scale") for name in getattr(form, part) if name not in known
+        Mistake(f"{part}.{name}", literal(name), nearest(name, known, {}))
+        for part in ("columns", "scale")
+        for name in getattr(form, part)
+        if name not in known
     ]
     if strange:
-        raise StudyError(
-            Mistake(f"{part}.{name}", literal(name), nearest(name, known, {})) for part, name in strange
-        )
+        raise StudyError(strange)
     table = read_table(path, names, optional, form)
     for name in () if form.columns else (name for name in optional if not table.has(name)):
         # Such as Bulk, or bulk_stress: left alone it would count as 0.
         if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-            allowed = f"{name}, if that is meant, or another name"
-            raise StudyError(
-                [Mistake(f"line {table.line}", f"the column {literal(alike[0])}", allowed, table.source)]
-            )
+            found, allowed = f"the column {literal(alike[0])}", f"{name}, if that is meant, or another name"
+            raise StudyError([Mistake(f"line {table.line}", found, allowed, table.source)])
     names = [*names, *filter(table.has, optional)]
-    for name in names:
-        kind = (kinds or {}).get(name, "")
-        label, unit = (labels or {}).get(kind), table.unit(name, kind) if kind else None
-        if (
-            unit
-            and label in KNOWN[kind]
-            and KNOWN[kind][unit] != KNOWN[kind][label]
-            and name not in form.scale
-        ):
-            factor = KNOWN[kind][unit] / KNOWN[kind][label]
-            found = (
-                f"{literal(table.form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
-            )
-            allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
-            raise StudyError([Mistake("", found, allowed, str(path))])
+    for name in names if labels else ():
+        _check_unit(table, name, (kinds or {}).get(name, ""), labels or {})
     empty = (table.cells[[table.headers.index(form.header(name)) for name in names]] == "").any(axis=1)
     if gaps and empty.any() and not empty.all():
         more = f" and {empty.sum() - 1} more" if empty.sum() > 1 else ""
         _tell(table.source, f"line {empty.idxmax()}{more} left out: a value is missing")
         table = replace(table, cells=table.cells[~empty])
     return table.numbers(names)
+
+
+def _check_unit(table: UserTable, name: str, kind: str, labels: Mapping[str, Any]) -> None:
+    """Refuse a column in another unit than the study's, unless it is scaled."""
+    unit = table.unit(name, kind) if kind and name not in table.form.scale else None
+    factor = KNOWN[kind][unit] / KNOWN[kind].get(str(labels.get(kind)), math.nan) if unit else 1.0
+    if factor != 1.0 and math.isfinite(factor):
+        header, label = literal(table.form.header(name)), labels[kind]
+        found = f"{header} in {unit} as {name}, while [units] has {kind} in {label}"
+        allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+        raise StudyError([Mistake("", found, allowed, table.source)])
 
 
 def read_table(
@@ -303,11 +300,9 @@ def _undecoded(data: bytes, error: UnicodeDecodeError, source: str) -> Mistake:
     begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
     end = data.find(b"\n", error.start)
     piece = data[begin : min(error.start + 8, end if end >= 0 else len(data))]
-    ways = [
-        f'encoding = "{own}", which reads {literal(piece.decode(own, "replace").strip())} there'
-        for own in ENCODINGS
-    ]
-    return Mistake("", found, f'{ways[0]}, or "{ENCODINGS[1]}"; or the file saved as UTF-8', source)
+    read = literal(piece.decode(ENCODINGS[0], "replace").strip())
+    allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"'
+    return Mistake("", found, f"{allowed}; or the file saved as UTF-8", source)
 
 
 def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
@@ -441,13 +436,20 @@ def _doubt(
 
 
 def _units(below: list[tuple[int, list[str]]], columns: list[int], form: FileTable) -> list[str]:
-    """The row beneath the header if it is one of units: no number in any column, and numbers beneath."""
+    """The row beneath the header if it is one of units: it has no number, and numbers are beneath."""
     if not below or form.units_row is False:
         return []
-    rows = [[cells[k] if k < len(cells) else "" for k in columns] for _, cells in below]
-    numbers = [[any(math.isfinite(number(cell, sign)) for sign in ".,") for cell in row] for row in rows]
-    is_one = any(rows[0]) and not any(numbers[0]) and len(rows) > 1 and all(numbers[1])
-    return below[0][1] if form.units_row or is_one else []
+    (_, first), *others = below
+    needed = [[cells[k] for k in columns if k < len(cells)] for _, cells in below]
+    if form.units_row or (
+        others and any(needed[0]) and all(map(_is_number, needed[1])) and not any(map(_is_number, first))
+    ):
+        return first
+    return []
+
+
+def _is_number(cell: str) -> bool:
+    return any(math.isfinite(number(cell, sign)) for sign in ".,")
 
 
 def _cells(

@@ -315,18 +315,14 @@ def _definitions(raw: Mapping[str, Any], folder: Path, report: Report) -> dict[s
 
 def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Fixed values and axes as far as their structure is sound, so that all mistakes are found at once."""
+    from swtstudy.study.keys import read_keys
+    from swtstudy.study.tables import RangeTable
+
     fixed, axes = (raw.get(key, {}) for key in ("fixed", "axes"))
     good: dict[str, Any] = {}
     for name, axis in axes.items() if isinstance(axes, dict) else ():
-        complete = isinstance(axis, dict) and axis.keys() - {"spacing", "also"} == {"start", "stop", "num"}
-        complete = complete and axis.get("spacing", "linear") in ("linear", "log")
-        complete = complete and isinstance(axis.get("also", []), list)
-        if isinstance(axis, list):
-            good[name] = axis
-        elif complete and isinstance(axis["num"], int) and not isinstance(axis["num"], bool):
-            good[name] = Range(**axis)
-        else:
-            good[name] = None
+        sound = read_keys(RangeTable, axis)[0] if isinstance(axis, dict) else None
+        good[name] = Range(**dict(sound)) if sound else axis if isinstance(axis, list) else None
     return (fixed if isinstance(fixed, dict) else {}), good
 
 

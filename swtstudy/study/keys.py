@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from inspect import Parameter, signature
+from inspect import signature
 from typing import Any, ClassVar, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from swtstudy.vocabulary.mistakes import Mistake, literal, nearest, plain
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain
+from swtstudy.vocabulary.naming import Function, with_arguments
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,14 @@ def read_keys(
         return None, sorted(found, key=lambda mistake: mistake.key)
 
 
+def sound_keys(model: type[AnyTable], given: Mapping[str, Any]) -> AnyTable:
+    """The table with the keys that are not None; a StudyError with every mistake in them."""
+    found, mistakes = read_keys(model, {name: value for name, value in given.items() if value is not None})
+    if found is None:
+        raise StudyError(mistakes)
+    return found
+
+
 def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
     path = [part for part in detail["loc"] if part not in ("list", "range")]  # pydantic's tags, not keys
     field = model.model_fields.get(str(path[0]))
@@ -89,17 +98,9 @@ def _inner(kind: Any) -> tuple[int, type[Table] | None]:
     return 0, None
 
 
-def with_keys(model: type[Table]) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def with_keys(model: type[Table]) -> Callable[[Function], Function]:
     """Decorate a function whose further arguments are the keys of a table: its signature names them."""
-
-    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
-        own = signature(function)
-        keys = [each.replace(annotation=Parameter.empty) for each in signature(model).parameters.values()]
-        named = [each for each in own.parameters.values() if each.kind is not Parameter.VAR_KEYWORD]
-        function.__signature__ = own.replace(parameters=[*named, *keys])  # type: ignore[attr-defined]
-        return function
-
-    return decorate
+    return with_arguments(signature(model).parameters.values())
 
 
 def place_of(mistake: Mistake) -> str:

@@ -18,19 +18,10 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
 from swtstudy.study.columns import FileTable, read_table
-from swtstudy.study.design import BALANCED, DESIGNS, Design, Distribution, read_distribution
+from swtstudy.study.design import BALANCED, Design, Distribution, read_distribution
 from swtstudy.study.keys import place_of, read_keys
 from swtstudy.study.tables import SampleTable
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_SEED,
-    Report,
-    StudyError,
-    is_seed,
-    is_whole,
-    literal,
-    more_like_it,
-    nearest,
-)
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, more_like_it, nearest
 from swtstudy.vocabulary.parameter import Parameter
 
 #: Key of the file in messages.
@@ -139,7 +130,15 @@ def read_sample(
 def _designed(
     raw: Mapping[str, Any], report: Report, rows: Mapping[str, Parameter]
 ) -> tuple[Sample | None, list[str]]:
-    design = _read_design(raw, report)
+    form, _ = read_keys(SampleTable, raw)
+    design = None
+    if form is not None and form.design is not None:
+        kind = "power of 2" if form.design in BALANCED else "whole number"
+        if form.size is None or (form.design in BALANCED and form.size & (form.size - 1)):
+            found = "nothing" if form.size is None else literal(form.size)
+            report("sample.size", found, f"a {kind} from 1 to {LONGEST_AXIS}")
+        else:
+            design = Design(form.design, form.size, form.seed)
     ranges = raw.get("ranges")
     if not isinstance(ranges, Mapping) or not ranges:
         if "ranges" not in raw or isinstance(ranges, Mapping):
@@ -168,22 +167,6 @@ def _designed(
         name: tuple(read[name].values(column).tolist()) for name, column in zip(names, unit.T, strict=True)
     }
     return Sample(values, design, read), names
-
-
-def _read_design(raw: Mapping[str, Any], report: Report) -> Design | None:
-    name, seed = raw["design"], raw.get("seed", 0)
-    size: Any = raw.get("size")
-    balanced = name in BALANCED
-    good_size = is_whole(size, 1, LONGEST_AXIS) and not (balanced and size & (size - 1))
-    good_seed = is_seed(seed)
-    if name not in DESIGNS:
-        report("sample.design", literal(name), nearest(str(name), DESIGNS))
-    if not good_size:
-        allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
-        report("sample.size", "nothing" if size is None else literal(size), allowed)
-    if not good_seed:
-        report("sample.seed", literal(seed), ALLOWED_SEED)
-    return Design(name, size, seed) if name in DESIGNS and good_size and good_seed else None
 
 
 def _given(

@@ -17,7 +17,7 @@ from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.loads.smooth_path import HIGHEST_ORDER
 from swtstudy.study.columns import FileTable, read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
-from swtstudy.study.keys import Allowed, key, read_keys, with_keys
+from swtstudy.study.keys import Allowed, key, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -265,11 +265,8 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     StudyError
         A ValueError with what is wrong, and where in the file.
     """
-    form, mistakes = read_keys(SignalTable, {key: value for key, value in given.items() if value is not None})
-    if form is None:
-        raise StudyError(mistakes)
     own = Path(path).stem or str(path) if name is None else name
-    return signal_from(Path(path), checked_name(own), form)
+    return signal_from(Path(path), checked_name(own), sound_keys(SignalTable, given))
 
 
 def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, Any] | None = None) -> Signal:

@@ -12,12 +12,22 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Tag
 
+from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.study.columns import FileTable
 from swtstudy.study.design import DESIGNS, DesignName
 from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, Kind
 from swtstudy.study.keys import Allowed, Table, key, read_keys
 from swtstudy.study.signal import SignalTable
-from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, LARGEST_RTOL, SMALLEST_RTOL, Mistake
+from swtstudy.study.trace import TraceTable
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    ALLOWED_SEED,
+    DEFAULT_RTOL,
+    LARGEST_RTOL,
+    LARGEST_SEED,
+    SMALLEST_RTOL,
+    Mistake,
+)
 
 AxisName = Annotated[str, Allowed("the name of an axis")]
 OtherAxisName = Annotated[str | None, Allowed("the name of an axis")]
@@ -65,10 +75,13 @@ class SampleTable(FileTable):
     design: Annotated[DesignName | None, Allowed(_quoted(DESIGNS))] = key(
         "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).", None
     )
-    size: Annotated[int | None, Allowed("a whole number")] = key(
-        "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).", None
+    size: Annotated[int | None, Allowed(f"a whole number from 1 to {LONGEST_AXIS}")] = key(
+        "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).",
+        None,
+        ge=1,
+        le=LONGEST_AXIS,
     )
-    seed: Annotated[int, Allowed("a whole number")] = key("Seed of the random numbers.", 0)
+    seed: Annotated[int, Allowed(ALLOWED_SEED)] = key("Seed of the random numbers.", 0, ge=0, le=LARGEST_SEED)
     ranges: Annotated[dict[str, Any], Allowed("a table of ranges")] = key(
         "Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution.", {}
     )
@@ -159,7 +172,7 @@ class BlockTable(Table):
     )
 
 
-class ProfileTable(FileTable):
+class ProfileTable(TraceTable):
     """A profile as a table: its radii and heights, or the file that has them."""
 
     allowed = "a table with radius and height, or file"
@@ -169,15 +182,8 @@ class ProfileTable(FileTable):
     file: File = key(
         "Path of a CSV file, relative to the study, with a header and the columns radius and height.", None
     )
-    smoothing: Any = key("Root mean square of what the fit may miss of the heights; 0 to miss none.", None)
-    geometry: Any = key(
-        '"axisymmetric", or "plane" for a long body: its radii are then half-widths.', "axisymmetric"
-    )
     two_sided: Flag = key(
         "Whether the file is a trace across the body, with the columns position and height.", False
-    )
-    level: Flag = key(
-        "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.", True
     )
 
 

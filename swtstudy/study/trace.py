@@ -7,19 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Annotated, Any
 
 import numpy as np
 
 from swtstudy.profiles.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import FileTable, read_columns
-from swtstudy.study.keys import read_keys, with_keys
+from swtstudy.study.keys import Allowed, key, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
-
-if TYPE_CHECKING:
-    from swtstudy.study.tables import ProfileTable
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
@@ -58,16 +55,20 @@ COMPACT = 0.5
 LEAST_RISE = 0.02
 
 
-@with_keys(FileTable)
-def read_trace(
-    path: str | PathLike[str],
-    *,
-    name: str | None = None,
-    level: bool = True,
-    smoothing: float | None = None,
-    geometry: str = AXISYMMETRIC,
-    **form: Any,
-) -> TabulatedProfile:
+class TraceTable(FileTable):
+    """A trace in a file, and the profile that is made of it."""
+
+    level: Annotated[bool, Allowed("true or false")] = key(
+        "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.", True
+    )
+    smoothing: Any = key("Root mean square of what the fit may miss of the heights; 0 to miss none.", None)
+    geometry: Any = key(
+        '"axisymmetric", or "plane" for a long body: its radii are then half-widths.', AXISYMMETRIC
+    )
+
+
+@with_keys(TraceTable)
+def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: Any) -> TabulatedProfile:
     """Read a profile from a trace across it: the mean of both sides, smoothed by their difference.
 
     The middle follows from the lowest region of the trace by a robust fit. Samples that stand out on one
@@ -82,10 +83,8 @@ def read_trace(
         Name of the profile; that of the file unless given.
     level
         Whether to take off the tilt that makes both sides most alike. An offset is always taken off.
-    smoothing
-        As of a `TabulatedProfile`, instead of the difference of the sides.
-    geometry
-        As of a `TabulatedProfile`.
+    smoothing, geometry
+        As of a `TabulatedProfile`; the smoothing is the difference of the sides unless it is given.
     columns
         Headers of the columns ``position`` and ``height``, where they are not these words; both in lengths
         of one unit, heights growing away from the other body.
@@ -97,29 +96,13 @@ def read_trace(
     StudyError
         A ValueError with what is wrong.
     """
-    given, mistakes = read_keys(FileTable, {each: value for each, value in form.items() if value is not None})
-    if given is None:
-        raise StudyError(mistakes)
-    title = Path(path).stem if name is None else name
-    return _profile(Path(path), title, given, level, smoothing, geometry)
+    return trace_from(Path(path), Path(path).stem if name is None else name, sound_keys(TraceTable, given))
 
 
 def trace_from(
-    path: Path, name: str, form: ProfileTable, labels: Mapping[str, Any] | None = None
+    own: Path, name: str, form: TraceTable, labels: Mapping[str, Any] | None = None
 ) -> TabulatedProfile:
     """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
-    return _profile(path, name, form, form.level, form.smoothing, form.geometry, labels)
-
-
-def _profile(
-    own: Path,
-    name: str,
-    form: FileTable,
-    level: bool,
-    smoothing: float | None,
-    geometry: str,
-    labels: Mapping[str, Any] | None = None,
-) -> TabulatedProfile:
     position, height = read_columns(
         own, COLUMNS, (), form, dict.fromkeys(COLUMNS, "length"), labels, gaps=True
     ).T
@@ -132,23 +115,23 @@ def _profile(
         found = "one side only: heights are lowest at an end of the trace"
         allowed = "both sides, with the lowest point between them; of one side a table of radius and height"
         raise StudyError([Mistake("", found, allowed, str(own))])
-    fold = Fold.of(position, height, level)
+    fold = Fold.of(position, height, form.level)
     if -fold.height.min() > fold.height.max():
         found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
         allowed = "heights that grow away from the other body: scale = { height = -1 }"
         raise StudyError([Mistake("", found, allowed, str(own))])
     for line in _doubts(position, fold):
         warnings.warn(f"{name}: {line}", stacklevel=2)
-    given = fold.noise if smoothing is None else smoothing
-    profile = TabulatedProfile(name, fold.radius, fold.height, given, geometry)
+    given = fold.noise if form.smoothing is None else form.smoothing
+    profile = TabulatedProfile(name, fold.radius, fold.height, given, form.geometry)
     compact = COMPACT * fold.radius[-1]
-    if smoothing is not None or profile.compact_radius >= compact:
+    if form.smoothing is not None or profile.compact_radius >= compact:
         return profile
     if (least := profile.least_smoothing(compact)) is None:
         return profile
     found = f"smoothing = {least:.3g}, {least / given:.2g} times the r.m.s. difference of both sides"
     warnings.warn(f"{name}: {found}: with less it touches in several places", stacklevel=2)
-    return TabulatedProfile(name, fold.radius, fold.height, least, geometry)
+    return TabulatedProfile(name, fold.radius, fold.height, least, form.geometry)
 
 
 def _one_sided(position: FloatArray, height: FloatArray) -> bool:

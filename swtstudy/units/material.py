@@ -8,8 +8,8 @@ from __future__ import annotations
 import logging
 import math
 import warnings
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -18,80 +18,13 @@ from swtstudy.units.grid import ContactDetails
 from swtstudy.units.labels import KNOWN, Units, wrong_size
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, nearest, plain_number
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
 RANGES = ("threshold_stress_intensity_range", "fatigue_limit_range")
 LOAD_RATIO = "load_ratio"
 #: Critical distances of metals, in m: a few µm (hard steels) to about a mm (cast iron, mild steel).
 USUAL = 1e-6, 3e-3
-
-
-@dataclass(frozen=True)
-class CriticalDistance:
-    """A critical distance from a threshold and a fatigue limit.
-
-    Attributes
-    ----------
-    intensity, limit
-        Both ranges.
-    load_ratio
-        At which both were found; None if it is not said.
-    """
-
-    intensity: float
-    limit: float
-    load_ratio: float | None = None
-
-    @property
-    def length(self) -> float:
-        """L."""
-        return (self.intensity / self.limit) ** 2 / math.pi
-
-    def words(self, units: Units) -> tuple[bool, str]:
-        """Check whether a metal may have a critical distance, and describe it."""
-        ratio = "one load ratio, which load_ratio would name"
-        if self.load_ratio is not None:
-            ratio = f"the load ratio {self.load_ratio:g}"
-        found = (
-            f"critical_distance = {self.length:.4g} {units.length}, (ΔK_th/Δσ_0)²/π of ranges at {ratio}: "
-            f"{self.intensity:g} {units.stress}√{units.length} and {self.limit:g} {units.stress}"
-        )
-        metre = KNOWN["length"].get(units.length)
-        if metre is None or USUAL[0] <= metre * self.length <= USUAL[1]:
-            return True, found
-        words = f"{found}; metals have {USUAL[0] / metre:g} to {USUAL[1] / metre:g} {units.length}"
-        if metre != 1.0:
-            words += f": 1 {units.stress}√m is {metre**-0.5:.4g} {units.stress}√{units.length}"
-        return False, words
-
-
-def critical_distance(tables: Sequence[Mapping[str, Any]], report: Report) -> CriticalDistance | None:
-    """That of the properties of both bodies; None without them, or with mistakes, which are added."""
-    given = [[table.get(name) for name in (*RANGES, LOAD_RATIO)] for table in tables]
-    one = given[0]
-    if all(value is None for each in given for value in each):
-        return None
-    found: list[Mistake] = []
-    for name, *values in zip((*RANGES, LOAD_RATIO), *given, strict=True):
-        if values[0] != values[1]:
-            allowed = "one value: there is one critical distance for both bodies"
-            found.append(Mistake(name, ", ".join(map(literal, values)), allowed))
-        elif name == LOAD_RATIO:
-            if values[0] is not None and not -math.inf < plain_number(values[0]) < 1.0:
-                found.append(
-                    Mistake(name, literal(values[0]), "a number below 1: the least over the largest")
-                )
-        elif values[0] is None:
-            other = RANGES[1 - RANGES.index(name)]
-            found.append(Mistake(name, "nothing", f"a positive number, since there is {other}"))
-        else:
-            found += wrong_size(name, values[0], "a positive number")
-    report += found
-    if found:
-        return None
-    ratio = None if one[2] is None else plain_number(one[2])
-    return CriticalDistance(plain_number(one[0]), plain_number(one[1]), ratio)
 
 
 _log = logging.getLogger(__name__)
@@ -104,7 +37,10 @@ STRENGTH = "yield_strength"
 LIMIT = "findley_limit"
 #: Constants in torsion by their keys; the shear modulus is that of the body unless it is given.
 SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
-_MODULUS = "shear_modulus"
+_YOUNG, _MODULUS = "young_modulus", "shear_modulus"
+#: The shear constants that go together, and why a modulus is needed.
+_FOUR = "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
+_SINGLE = ", since that of the bodies is no single value"
 #: The other way: names from a file.
 BY_NAME = ("file", "name")
 #: What may stand in the table.
@@ -122,7 +58,30 @@ USUAL_CONSTANTS = {
 }
 #: Of each body.
 _BOTH = 2
+
+
 #: Moduli of both bodies, as far as they are single values.
+def critical_distance(intensity: float, limit: float, load_ratio: float | None, units: Units) -> float:
+    """L of a threshold and a fatigue limit, both ranges; a message tells it, a warning one of no metal."""
+    length = (intensity / limit) ** 2 / math.pi
+    ratio = "one load ratio, which load_ratio would name"
+    if load_ratio is not None:
+        ratio = f"the load ratio {load_ratio:g}"
+    words = (
+        f"critical_distance = {length:.4g} {units.length}, (ΔK_th/Δσ_0)²/π of ranges at {ratio}: "
+        f"{intensity:g} {units.stress}√{units.length} and {limit:g} {units.stress}"
+    )
+    metre = KNOWN["length"].get(units.length)
+    if metre is None or USUAL[0] <= metre * length <= USUAL[1]:
+        _log.info(words)
+        return length
+    words += f"; metals have {USUAL[0] / metre:g} to {USUAL[1] / metre:g} {units.length}"
+    if metre != 1.0:
+        words += f": 1 {units.stress}√m is {metre**-0.5:.4g} {units.stress}√{units.length}"
+    warnings.warn(words, stacklevel=2)
+    return length
+
+
 _Moduli = tuple[object, object] | None
 _Constants = TypeVar("_Constants", FatigueConstants, ShearConstants)
 
@@ -148,71 +107,86 @@ def read_material(
     unknown = [name for name in raw if name not in KEYS]
     for name in unknown:
         report(f"material.{name}", f"unknown key {literal(name)}", nearest(str(name), KEYS))
-    by_name = bool({*BY_NAME} & raw.keys())
     own = [{name: two_of(value)[body] for name, value in raw.items()} for body in range(_BOTH)]
-    tables = _named(raw, folder, report) if by_name else own
-    tables = [{name: _number(value) for name, value in table.items()} for table in tables]
-    intended = {meant(str(name), KEYS) for name in unknown}
-    mistakes = Report()
-    constants = _constants(tables, young, intended, mistakes)
-    shears = _shear_constants(tables, shear, intended, mistakes)
-    strengths, limits = (_stresses(name, tables, mistakes) for name in (STRENGTH, LIMIT))
-    distance = None if len(tables) < _BOTH else critical_distance(tables, mistakes)
-    for mistake in dict.fromkeys(mistakes):  # both bodies may have the same one
-        report(*_in_units(mistake, units))
-    if mistakes or unknown:
+    tables = _named(raw, folder, report) if {*BY_NAME} & raw.keys() else own
+    told = [key for key in PROPERTIES if any(key in table for table in tables)]
+    # What is misspelt is not lacking, too.
+    silent = {*told, *(meant(str(name), KEYS) for name in unknown)} if tables else {*KEYS}
+    before = len(report)
+    moduli = {_YOUNG: young, _MODULUS: shear}
+    values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
+    own_fields = {name: name for name in CONSTANTS}
+    tensile, torsion = own_fields.keys() & silent, SHEAR_CONSTANTS.keys() & {*told}
+    if tensile or not silent & {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}:
+        for key in (key for key in CONSTANTS if key not in silent and (key != _YOUNG or young is None)):
+            report(f"material.{key}", "nothing", _allowed(key, units) + _SINGLE * (key == _YOUNG))
+    lacking = [key for key in SHEAR_CONSTANTS if key not in silent and key != _MODULUS]
+    if torsion and lacking:
+        report(", ".join(f"material.{key}" for key in lacking), "nothing", _FOUR)
+    elif torsion and shear is None and _MODULUS not in told:
+        report(f"material.{_MODULUS}", "nothing", _allowed(_MODULUS, units) + _SINGLE)
+    _check_ranges(values, units, report)
+    strengths = values.get(STRENGTH) or ()
+    if len(report) > before or unknown or not tables:
         # A criterion may need the strengths: they are not lacking, too.
         return ContactDetails(units, yield_strengths=strengths), None
-    if distance is not None:
-        usual, words = distance.words(units)
-        if usual:
-            _log.info(words)
-        else:
-            warnings.warn(words, stacklevel=2)
-    given = ContactDetails(
-        units, {}, constants, yield_strengths=strengths, shear_materials=shears, findley_limits=limits
+    ranges = [values[name][0] for name in RANGES if name in values]
+    ratio = values[LOAD_RATIO][0] if LOAD_RATIO in values else None
+    details = ContactDetails(
+        units,
+        {},
+        _of_both(FatigueConstants, own_fields, moduli | values) if tensile else (),
+        yield_strengths=strengths,
+        shear_materials=_of_both(ShearConstants, SHEAR_CONSTANTS, moduli | values) if torsion else (),
+        findley_limits=values.get(LIMIT) or (),
     )
-    return given, None if distance is None else distance.length
+    return details, critical_distance(ranges[0], ranges[1], ratio, units) if ranges else None
 
 
-def _constants(
-    tables: list[dict[str, Any]], young: _Moduli, intended: Iterable[object], report: Report
-) -> tuple[FatigueConstants, ...]:
-    """The strain–life constants of both bodies; none if there are none, or mistakes."""
-    others = {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}
-    told = any({*CONSTANTS} & table.keys() for table in tables)
-    if not told and any(others & table.keys() for table in tables) and not {*intended} & {*CONSTANTS}:
-        return ()
-    own = dict(zip(CONSTANTS, CONSTANTS, strict=True))
-    return _of_both(FatigueConstants, own, tables, young, intended, report)
+def _both(
+    key: str, tables: Sequence[Mapping[str, Any]], others: _Moduli, units: Units, report: Report
+) -> tuple[float, ...]:
+    """A property of both bodies; none if there are mistakes, which are reported."""
+    both = [_number(table.get(key, others and others[body])) for body, table in enumerate(tables)]
+    allowed, sign = _allowed(key, units), -1.0 if key.endswith("exponent") else 1.0
+    wrong = dict.fromkeys(each for value in both for each in wrong_size(key, value, allowed, sign))
+    if key == LOAD_RATIO:
+        below = [-math.inf < plain_number(value) < 1.0 for value in both]
+        wrong = {} if all(below) else {Mistake(key, literal(both[below.index(False)]), allowed): None}
+    if None in both:
+        words = _FOUR if key in SHEAR_CONSTANTS else "that of both bodies, or of none"
+        wrong = {Mistake(key, "that of one body", words): None}
+    elif not wrong and key in (*RANGES, LOAD_RATIO) and both[0] != both[1]:
+        words = "one value: there is one critical distance for both bodies"
+        wrong = {Mistake(key, ", ".join(map(literal, both)), words): None}
+    for mistake in wrong:
+        report(f"material.{key}", mistake.found, mistake.allowed)
+    return () if wrong else tuple(map(plain_number, both))
+
+
+def _check_ranges(values: Mapping[str, object], units: Units, report: Report) -> None:
+    """Report a threshold without a fatigue limit, or the reverse."""
+    for name, other in (RANGES, RANGES[::-1]):
+        if name not in values and (other in values or LOAD_RATIO in values):
+            report(f"material.{name}", "nothing", f"{_allowed(name, units)}, since there is {other}")
 
 
 def _of_both(
-    make: Callable[..., _Constants],
-    fields_of: Mapping[str, str],
-    tables: list[dict[str, Any]],
-    moduli: _Moduli,
-    intended: Iterable[object],
-    report: Report,
+    make: Callable[..., _Constants], fields_of: Mapping[str, str], values: Mapping[str, Any]
 ) -> tuple[_Constants, ...]:
-    """Constants of both bodies, from fields by their keys; none if there are mistakes in them."""
-    (modulus,) = (key for key in fields_of if key.endswith("_modulus"))
-    found: list[_Constants] = []
-    for body, table in enumerate(tables):
-        own = {key: table.get(key) for key in fields_of}
-        if own[modulus] is None and moduli is not None:
-            own[modulus] = moduli[body]
-        try:
-            found.append(make(**{field: own[key] for key, field in fields_of.items()}))
-        except StudyError as error:
-            keys = {field: key for key, field in fields_of.items()}
-            # What is misspelt is not lacking, too.
-            for each in error.mistakes:
-                key = keys[each.key]
-                lacks = own[key] is None
-                if not lacks or key not in intended:
-                    report(key, "nothing" if lacks else each.found, each.allowed)
-    return tuple(found) if len(found) == _BOTH else ()
+    """Constants of both bodies, from fields by their keys."""
+    return tuple(
+        make(**{field: values[key][body] for key, field in fields_of.items()}) for body in range(_BOTH)
+    )
+
+
+def _allowed(key: str, units: Units) -> str:
+    """What a property may be, in words."""
+    if key == LOAD_RATIO:
+        return "a number below 1: the least over the largest"
+    if key.endswith("exponent"):
+        return "a negative number"
+    return f"a positive stress in {units.stress}" if key in _STRESSES else "a positive number"
 
 
 def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
@@ -234,45 +208,6 @@ def warn_of_units(of: ContactDetails, young: tuple[float, float]) -> None:
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):
             if not least <= value <= largest:
                 warnings.warn(f"material.{name} {value:g}, of metals {least:g} to {largest:g}", stacklevel=2)
-
-
-def _shear_constants(
-    tables: list[dict[str, Any]], moduli: _Moduli, intended: Iterable[object], report: Report
-) -> tuple[ShearConstants, ...]:
-    """The constants of both bodies in torsion; none if there are none, or mistakes."""
-    if not any(SHEAR_CONSTANTS.keys() & table.keys() for table in tables):
-        return ()
-    needed = [name for name in SHEAR_CONSTANTS if name != _MODULUS]
-    lacking = [name for name in needed if any(name not in table for table in tables)]
-    if lacking:
-        if not {*intended} & {*lacking}:  # what is misspelt is not lacking, too
-            allowed = (
-                "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
-            )
-            report(", ".join(lacking), "nothing", allowed)
-        return ()
-    return _of_both(ShearConstants, SHEAR_CONSTANTS, tables, moduli, (), report)
-
-
-def _stresses(name: str, tables: list[dict[str, Any]], report: Report) -> tuple[float, ...]:
-    """A property of both bodies that is a stress; none if there is none, or mistakes."""
-    given = [table[name] for table in tables if name in table]
-    wrong = [each for value in given for each in wrong_size(name, value, "a positive number")]
-    if 0 < len(given) < len(tables):
-        wrong.append(Mistake(name, "that of one body", "that of both bodies, or of none"))
-    report += wrong
-    return () if wrong or not given else tuple(map(float, given))
-
-
-def _in_units(mistake: Mistake, units: Units) -> tuple[str, str, str]:
-    """Key, found and allowed of a mistake."""
-    allowed = mistake.allowed
-    if mistake.key in _STRESSES:
-        allowed = allowed.replace("number", f"stress in {units.stress}", 1)
-    if mistake.key in ("young_modulus", _MODULUS) and mistake.found == "nothing":
-        allowed += ", since that of the bodies is no single value"
-    keys = ", ".join(f"material.{key}" for key in mistake.key.split(", "))
-    return keys, mistake.found, allowed
 
 
 def _number(raw: object) -> object:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -16,12 +15,9 @@ from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces
 from swtstudy.points.shapes import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
-from swtstudy.units.blocks import Block
 from swtstudy.units.bodies import LABELS, labels_or
 from swtstudy.units.contacts_at_rest import check_contacts, check_distances
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
-from swtstudy.units.labels import UNIT_KINDS, Units
-from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.loads import (
     ANY,
     ANY_MEASURED,
@@ -40,7 +36,6 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.units.scatter import scatter_from
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
@@ -213,7 +208,13 @@ def _check_given(
         report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     mean = mean_of_loads(everything, measured)
     if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        report.of(MEAN_LOADS, *wrong)
+        loads = [load for load in measured if isinstance(load, Loop) and load.is_absolute]
+        hint = (
+            f"; or absolute = true under [loads.{loads[0]}], whose normal column is far from 0"
+            if loads
+            else ""
+        )
+        report.of(MEAN_LOADS, wrong[0], wrong[1] + hint)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
@@ -276,27 +277,14 @@ def read_contact(text: object) -> ContactDetails:
     ValueError
         With the reason, if it cannot be read.
     """
+    from pydantic import TypeAdapter, ValidationError
+
     try:
-        raw: Any = json.loads(str(text))
-    except RecursionError:
-        raise ValueError("nested too deeply") from None
-    try:
-        given = ContactDetails(
-            Units(**{kind: str(raw["units"][kind]) for kind in UNIT_KINDS}),
-            {name: (float(two[0]), float(two[1])) for name, two in raw["pairs"].items()},
-            tuple(FatigueConstants(**each) for each in raw["materials"]),
-            float(raw["similar"]),
-            int(raw["bulk_stress_body"]),
-            tuple(Block(str(each["load"]), float(each["rounds"])) for each in raw.get("blocks", ())),
-            tuple(map(float, raw.get("yield_strengths", ()))),
-            tuple(map(str, raw.get("body_names", ()))),
-            tuple(ShearConstants(**each) for each in raw.get("shear_materials", ())),
-            tuple(map(float, raw.get("findley_limits", ()))),
-            scatter_from(raw.get("scatter")),
-        )
-    except (KeyError, TypeError, IndexError, AttributeError, OverflowError) as error:
-        raise ValueError(f"not a contact: {literal(raw)} ({error})") from None
+        given = TypeAdapter(ContactDetails).validate_json(str(text))
+    except ValidationError as error:
+        raise ValueError(f"not a contact: {error.errors()[0]['msg']}") from None
     several = [each for name, each in vars(given).items() if isinstance(each, tuple) and name != "blocks"]
-    if not given.pairs.keys() <= {*OF_BODIES} or {*map(len, several)} - {0, len(LABELS)}:
-        raise ValueError(f"not a contact: {literal(raw)}")
+    sound = given.pairs.keys() <= {*OF_BODIES} and math.isfinite(given.similar)
+    if not sound or {*map(len, several)} - {0, len(LABELS)}:
+        raise ValueError(f"not a contact: {literal(text)}")
     return given

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -150,11 +150,3 @@ def _lives(value: FloatArray, counted: list[FloatArray], level: FloatArray, slop
         damage[:, known] = number[known] / each
         rounds = 1.0 / damage.sum(axis=-1).max(axis=-1)
     return np.where(known.any(axis=(-2, -1)), rounds, lives)
-
-
-def scatter_from(raw: Mapping[str, Any] | None) -> Scatter | None:
-    """Read it from the attribute of results."""
-    if raw is None:
-        return None
-    draws = tuple(tuple(map(float, each)) for each in raw["draws"])
-    return Scatter(tuple(map(str, raw["names"])), draws, float(raw["target"]))

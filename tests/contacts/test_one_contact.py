@@ -166,3 +166,24 @@ def test_a_cylinder_at_rest_under_a_loop_is_inspected() -> None:
     alone = swtstudy.solve(**contact.parameters())
     np.testing.assert_allclose(alone.s, contact.solve().s[0], rtol=1e-9)
     assert contact.inspect_point(1).dissipation > 0.0
+
+
+@pytest.mark.parametrize(
+    ("minimise", "words"),
+    [
+        (
+            "cycles",
+            r"with constants \(swtstudy.FatigueConstants of young_modulus, strength, strength_exponent, ",
+        ),
+        ("cycles_volume", r"with constants \(.*\) and a critical_distance$"),
+        ("SWT_point", "with a critical_distance"),
+        ("yield_ratio", "with a yield_strength"),
+        ("FS", 'with the criterion "fatemi_socie"'),
+        ("swt", "did you mean SWT"),
+    ],
+)
+def test_an_optimum_says_what_it_lacks(minimise, words):
+    given = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
+    ball = swtstudy.physical(**given, normal_force=200.0, tangential_force_amplitude=60.0)
+    with pytest.raises(StudyError, match=f"minimise: found '{minimise}'; allowed: {words}"):
+        ball.optimise({"friction": (0.4, 0.6)}, minimise)

@@ -203,7 +203,7 @@ def test_every_parameter_is_known_of_a_contact():
     assert {row.scale for row in own.values()} - {""} == {*SCALES}
     assert {scale.made_of for scale in SCALES.values()} - {""} <= shapes
     names = set(inspect.signature(physical).parameters) - about
-    assert names == {"young_modulus", "poisson_ratio", "normal_force", "similar", "parameters"}
+    assert names == {"young_modulus", "poisson_ratio", "normal_force", "similar", "body", *own}
 
 
 @pytest.mark.parametrize("name", SCALES)

@@ -73,6 +73,7 @@ def clone(fresh, tmp_path_factory):
     (folder / "worn.csv").write_text(f"radius,height\n{rows}")
     (rig,) = (block for block in TOML if block.page.name == "README.md")
     (folder / "rig.toml").write_text(rig.text)
+    (folder / "stresses.csv").write_text("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,0\n1,200,0,0,0,0,50\n")
     (folder / "tests.csv").write_text("tangential_force_amplitude,life\n30,2e10\n60,1e8\n")
     return folder
 

@@ -77,7 +77,7 @@ class Law:
 
 def test_lives_of_a_fit_are_by_counted_cycles(rig):
     file, lives = rig
-    grid, _ = fitting._read(file, {name: values[:1] for name, values in table(lives).items()}, 0)
+    grid, *_ = fitting._read(file, {name: values[:1] for name, values in table(lives).items()}, 0)
     found = fitting._lives(grid, "cycles_volume", np.array([MADE_WITH]), None)
     assert found.item() == pytest.approx(np.log10(lives[0]), rel=1e-6)
 
@@ -130,9 +130,88 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
     assert np.exp(model.bounds()[0][1]) == pytest.approx(0.4, rel=2e-3)
 
 
+def likelihood(law, distance, scatter, bounds, runout):
+    """Logarithm of the likelihood of tests, by the distributions of scipy."""
+    from scipy.stats import norm
+
+    predicted = law(None, "", np.array([distance]), None)[:, 0]
+    cracked = norm.logpdf(np.log10(bounds), predicted, scatter)
+    return np.where(runout, norm.logsf(np.log10(bounds), predicted, scatter), cracked).sum()
+
+
+def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
+    """The largest likelihood by brute force; leaving them out, or taking them for cracks, is too short."""
+    from scipy.optimize import minimize
+
+    forces = np.linspace(30.0, 80.0, 12)
+    law = Law(forces)
+    monkeypatch.setattr(fitting, "_lives", law)
+    noise = np.random.default_rng(3).normal(scale=0.3, size=12)
+    lives = 10.0 ** (law(None, "", np.array([0.05]), None)[:, 0] + noise)
+    runout = lives > np.sort(lives)[7]
+    bounds = np.where(runout, np.sort(lives)[7], lives)
+    best = minimize(lambda x: -likelihood(law, *np.exp(x), bounds, runout), np.log([0.05, 0.3]), tol=1e-8)
+    texts = [
+        f">{bound:.17g}" if out else repr(float(bound)) for bound, out in zip(bounds, runout, strict=True)
+    ]
+    tests = {"tangential_force_amplitude": forces, "life": texts}
+    found = swtstudy.fit(rig[0], tests)
+    assert float(found.critical_distance) == pytest.approx(np.exp(best.x[0]), rel=2e-3)
+    # Of the sample: 12 tests, of which 8 cracked, and one parameter.
+    assert float(found.scatter) == pytest.approx(np.exp(best.x[1]) * np.sqrt(8 / 7), rel=5e-3)
+    assert found.runout.values.tolist() == runout.astype(int).tolist()
+    half = np.log(found.critical_distance_high / found.critical_distance)
+    curve = [
+        likelihood(law, np.exp(best.x[0] + step), np.exp(best.x[1]), bounds, runout)
+        for step in (-0.1, 0, 0.1)
+    ]
+    alone = 2.3646 / np.sqrt((2 * curve[1] - curve[0] - curve[2]) / 0.01)  # at a known scatter
+    assert alone < float(half) < 1.3 * alone
+    for other in (bounds[~runout], bounds):
+        few = forces[~runout] if len(other) < 12 else forces
+        monkeypatch.setattr(fitting, "_lives", Law(few))
+        shorter = swtstudy.fit(rig[0], {"tangential_force_amplitude": few, "life": other})
+        assert float(shorter.critical_distance) < 0.97 * float(found.critical_distance)
+    monkeypatch.setattr(fitting, "_lives", law)
+    # A mark is no unit.
+    rows = [
+        f"{force},{text}" for force, text in sorted(zip(forces, texts, strict=True), key=lambda row: row[1])
+    ]
+    (tmp_path / "tests.csv").write_text("\n".join(["tangential_force_amplitude,life", *reversed(rows)]))
+    monkeypatch.setattr(fitting, "_lives", Law([float(row.split(",")[0]) for row in reversed(rows)]))
+    again = swtstudy.fit(rig[0], tmp_path / "tests.csv")
+    assert float(again.critical_distance) == pytest.approx(float(found.critical_distance), rel=1e-6)
+    monkeypatch.setattr(fitting, "_lives", law)
+    # The same from a table as rigs write it, with names of specimens and marks.
+    rows = [
+        f"A{k};{f};{life};{'yes' if out else ''}"
+        for k, (f, life, out) in enumerate(zip(forces, bounds, runout, strict=True))
+    ]
+    (tmp_path / "tests.csv").write_text("\n".join(["specimen;tangential_force_amplitude;life;runout", *rows]))
+    with pytest.warns(UserWarning, match="columns that are no parameters are left alone: specimen"):
+        again = swtstudy.fit(rig[0], tmp_path / "tests.csv")
+    assert float(again.critical_distance) == float(found.critical_distance)
+
+
 @pytest.mark.parametrize(
     ("tests", "words"),
     [
+        (
+            {"tangential_force_amplitude": [30, 60], "life": [">1e7", 1e6]},
+            "found 1 tests with a crack; allowed: 2",
+        ),
+        (
+            {"tangential_force_amplitude": [30, 60], "life": ["", 1e6]},
+            "life '' of test 1; allowed: .* as >1e7",
+        ),
+        (
+            {
+                "tangential_force_amplitude": [30, 60, 70],
+                "life": [1e5, 1e6, 1e7],
+                "runout": [0, 1, "perhaps"],
+            },
+            "tests: found runout 'perhaps' of test 3; allowed: 1 or 0, true or false",
+        ),
         ({"tangential_force_amplitude": [30.0, 60.0]}, "tests: found the columns tangential_"),
         ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 tests; allowed: 2 at least"),
         ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
@@ -153,13 +232,17 @@ def test_wrong_tables_are_named(rig, tests, words):
 
 
 def test_all_mistakes_of_a_table_are_named_as_its_own(rig):
-    wrong = {"normal_force": [-5, 200, 300], "colour": [1, 2, 3], "life": [0, "no", 1e5]}
+    wrong = {"normal_force": [-5, 200, 300], "frictoin": [1, 2, 3], "life": [0, "no", 1e5]}
     with pytest.raises(StudyError) as caught:
         swtstudy.fit(rig[0], {"tangential_force_amplitude": FORCES, **wrong})
-    life, force, colour = str(caught.value).splitlines()
-    assert life == "tests: found life 0 of test 1; 1 more like it; allowed: positive numbers"
+    life, force, friction = str(caught.value).splitlines()
+    assert life.startswith(
+        "tests: found life 0 of test 1; 1 more like it; allowed: positive numbers; of a run"
+    )
     assert force.startswith("tests.normal_force: found -5 (out of range) at [0]; allowed: a positive force")
-    assert colour.startswith("tests.colour: found unknown parameter 'colour'")
+    assert friction.startswith(
+        "tests.frictoin: found unknown parameter 'frictoin'; allowed: did you mean fric"
+    )
 
 
 def test_wrong_requests_are_named(rig, tmp_path):

@@ -197,3 +197,23 @@ def test_the_first_circle_of_a_process_is_that_of_its_point():
         [sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, check=True
     )
     assert float(done.stdout) == pytest.approx(highest, rel=1e-4)
+
+
+def test_beside_the_singular_edge_of_a_face_the_circle_has_no_bound():
+    # The line's maximum is 1e-14 from the edge, where in gross slip the pressure rises like ln(1/ε): there the
+    # field has 21.6 at 81° from the line.
+    found = swtstudy.solve(
+        profile="truncated_paraboloid",
+        flat_radius=1.2,
+        frequency_ratio="4/1",
+        normal_amplitude=0.6,
+        tangential_amplitude=0.8,
+        phase=0.0,
+        friction=0.95,
+        poisson_ratio=0.03,
+    )
+    assert float(found.s) == pytest.approx(2.4829, rel=1e-3)
+    assert np.isnan(found.s_surface)
+    assert found.swt.validity() == (
+        "critical point at the singular edge of the face: off the line y = 0 swt may have no bound there",
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import warnings
 from pathlib import Path
 
@@ -161,6 +162,11 @@ REFUSED = {
     "old Excel": (b"\xd0\xcf\x11\xe0", "", "file: found an Excel workbook before 2007"),
     "zip": (b"PK\x03\x04", "", "file: found a zip archive"),
     "damaged Excel": (b"PK\x03\x04 xl/", "", "file: found a workbook that cannot be read"),
+    "a comma for a point": (
+        table("time;normal;tangential", ";", ",").encode(),
+        "decimal = '.'",
+        "file: found '200,5' .*; allowed: a finite number; a comma in numbers is decimal = ','",
+    ),
     "binary": (b"\0\1\2", "", "file: found a binary file"),
 }
 
@@ -196,6 +202,16 @@ def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
         read_signal(tmp_path / "rig.xlsx", sheet="run 3", **given)
 
 
+def test_a_workbook_without_openpyxl_says_what_it_needs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    (tmp_path / "rig.xlsx").write_bytes(b"PK\x03\x04 xl/")
+    words = r"rig.xlsx: found an Excel workbook; allowed: pip install .swtstudy.excel.., which reads it; or "
+    with pytest.raises(StudyError, match=words):
+        read_signal(tmp_path / "rig.xlsx")
+
+
 def test_points_and_traces_are_read_by_the_same_rules(tmp_path: Path) -> None:
     (tmp_path / "points.csv").write_bytes("phase;frïction\n0,5;0,1\n1;0,2\n".encode("cp1252"))
     text = 'title = "t"\n[sample]\nfile = "points.csv"\nencoding = "cp1252"\n'
@@ -213,3 +229,12 @@ def test_points_and_traces_are_read_by_the_same_rules(tmp_path: Path) -> None:
     }
     profile = swtstudy.read_trace(tmp_path / "trace.txt", **given)
     np.testing.assert_allclose(profile.height, profile.radius**2 / 100.0, atol=1e-9)
+
+
+def test_a_load_that_is_absolute_and_not_said_to_be_is_asked_about(tmp_path: Path) -> None:
+    (tmp_path / "rig.csv").write_text(table("time,normal,tangential"))
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(RIG.replace("absolute = true", ""), "s", tmp_path)
+    assert str(caught.value.mistakes[0]).endswith(
+        "or absolute = true under [loads.rig], whose normal column is far from 0"
+    )

@@ -1,0 +1,248 @@
+"""Stress histories of finite elements: from a table of a user to criteria, critical planes and lives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from swtstudy.fields.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
+from swtstudy.points.values import read_exact
+from swtstudy.study.columns import FileTable, UserTable, read_table
+from swtstudy.study.contacts import read_given
+from swtstudy.study.definition import tables_of
+from swtstudy.study.keys import sound_keys, with_keys
+from swtstudy.units.grid import ContactDetails
+from swtstudy.units.labels import Units
+from swtstudy.units.life import ShearConstants
+from swtstudy.units.material import two_of
+from swtstudy.units.rows import OF_BODIES
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import SWT
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
+
+#: The stress components in our order, and in that of Abaqus.
+OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
+#: Places of our components in the order of Abaqus.
+_PLACES = [0, 1, 2, 5, 4, 3]
+#: Places of the components in the tensor.
+_OF_TENSOR = [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
+ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
+STEP, ID, POSITION = "step", "id", ("x", "y", "z")
+
+
+@with_keys(FileTable)
+def read_history(path: str | PathLike[str], *, order: str | None = None, **form: Any) -> xr.Dataset:
+    """Stress histories at points, from a table with a row for each point and step.
+
+    Parameters
+    ----------
+    path
+        The file: columns ``step``, six components, and ``id`` or ``x``, ``y``, ``z`` or both, in any order.
+    order
+        "swtstudy" for xx, yy, zz, yz, xz, xy or "abaqus" for S11, S22, S33, S12, S13, S23. Found from the
+        headers unless given; with other headers the last six columns are taken in that order.
+    columns, separator, decimal, encoding, scale, skip_rows, units_row, sheet
+        As of `swtstudy.read_signal`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``stress`` over point, step and component, in our order, and the coordinates of the points.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and where in the file.
+    """
+    given = sound_keys(FileTable, form)
+    if order not in (None, *ORDERS):
+        raise StudyError([Mistake("order", literal(order), nearest(str(order), ORDERS, {}))])
+    table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)
+    stress = _components(table, order)
+    positions = [name for name in POSITION if table.has(name)]
+    place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
+    names = table.texts(ID) if table.has(ID) else list(map(str, map(tuple, place.tolist())))
+    labels, point = np.unique(names, return_inverse=True)
+    first = np.unique(point, return_index=True)[1]
+    rank = np.argsort(np.argsort(first))[point]  # points in the order of the file
+    counts = np.bincount(rank)
+    if counts.min() != counts.max():
+        few = labels[np.argsort(first)][counts.argmin()]
+        found = f"{counts.min()} steps at the point {few}, {counts.max()} at others"
+        raise StudyError([Mistake("", found, "as many steps at each point", str(path))])
+    rows = np.lexsort([table.numbers([STEP])[:, 0], rank]).reshape(len(counts), -1)
+    coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
+    if table.has(ID):
+        coords[ID] = "point", labels[np.argsort(first)]
+    variables = {"stress": (("point", STEP, "component"), stress[rows])}
+    return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
+
+
+def _components(table: UserTable, order: str | None) -> FloatArray:
+    """The stress components in our order, shape (rows, 6)."""
+    found = next((own for own, names in ORDERS.items() if all(map(table.has, names))), None)
+    if found is None and order is None:
+        names = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
+        allowed = f'columns {names}; columns = {{ xx = "…" }} with other headers; or an order of the last six'
+        raise StudyError([Mistake(f"line {table.line}", ", ".join(table.headers), allowed, table.source)])
+    if order is not None and order != found:
+        values, found = table.numbers(table.headers[-len(OURS) :]), order
+    else:
+        values = table.numbers(ORDERS[str(found)])
+    return values[:, _PLACES] if found == "abaqus" else values
+
+
+def evaluate_history(
+    history: xr.Dataset | str | PathLike[str], study: str | PathLike[str], body: int = 1
+) -> xr.Dataset:
+    """Criteria, critical planes and lives of stress histories, one load cycle each.
+
+    Parameters
+    ----------
+    history
+        From `read_history`, or the path of its table.
+    study
+        A study file with [units], and young_modulus and poisson_ratio among its fixed values. Constants in
+        [material] give lives; normal_sensitivity gives the criteria of shear.
+    body
+        Whose properties count, 1 or 2.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over point: ``SWT``, ``FS`` and ``findley_stress`` as far as their properties are given, each with the
+        unit normal of its plane (``SWT_normal`` and so on); ``cycles`` and ``FS_cycles``, load cycles to a
+        crack by the cycles that rainflow closes on that plane; ``findley_usage``.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake.
+    """
+    given = history if isinstance(history, xr.Dataset) else read_history(history)
+    details, own = _properties(study, body)
+    young, poisson = own["young_modulus"], own["poisson_ratio"]
+    stress = given["stress"].transpose("point", STEP, "component").values
+    unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
+    gamma = own.get("walker_exponent", 0.5)
+    value, normal = swt_of_history(stress, poisson, young, gamma)
+    found = found.assign(SWT=("point", value, unit), SWT_normal=(("point", "axis"), normal))
+    if details.materials:
+        counted = cycle_shares(stress, normal, SWT, poisson, walker_exponent=gamma)
+        found["cycles"] = "point", _lives(details.materials[body - 1].rounds, value, counted)
+    sensitivity = own.get("normal_sensitivity")
+    if sensitivity is None:
+        return found
+    value, normal = criterion_of_history(stress, FINDLEY, sensitivity)
+    found = found.assign(findley_stress=("point", value, unit), findley_normal=(("point", "axis"), normal))
+    if details.findley_limits:
+        found["findley_usage"] = found.findley_stress / details.findley_limits[body - 1]
+    if details.yield_strengths:
+        kappa = sensitivity / details.yield_strengths[body - 1]
+        value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)
+        strain = value * (2.0 + 2.0 * poisson) / young
+        found = found.assign(FS=("point", strain), FS_normal=(("point", "axis"), normal))
+        torsion = details.shear_materials or tuple(
+            ShearConstants.estimated(each, poisson) for each in details.materials
+        )
+        if torsion:
+            counted = cycle_shares(stress, normal, FATEMI_SOCIE, poisson, normal_sensitivity=kappa)
+            found["FS_cycles"] = "point", _lives(torsion[body - 1].rounds, strain, counted)
+    return found
+
+
+def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:
+    """The materials of a study file, and the plain numbers among its fixed values, of one body."""
+    raw, source = tables_of(study), str(study)
+    report = Report(source)
+    fixed: Mapping[str, Any] = raw["fixed"] if isinstance(raw.get("fixed"), dict) else {}
+    details, _ = read_given(raw, fixed, Path(study).parent, report)
+    if body not in (1, 2):
+        raise StudyError([Mistake("body", literal(body), "1 or 2")])
+    if details is None:
+        report("units", "nothing", "a table with length, force and stress")
+    own: dict[str, float] = {}
+    for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
+        value = two_of(fixed.get(name))[body - 1]
+        try:
+            own |= {} if value is None else {name: float(read_exact(value))}
+        except ValueError as error:
+            report(f"fixed.{name}", f"{literal(value)} ({error})", "a number, or one for each body")
+        if value is None and name in OF_BODIES:
+            report(f"fixed.{name}", "nothing", "a number, or one for each body")
+    report.refuse()
+    return details or ContactDetails(Units()), own
+
+
+def cycle_shares(
+    stress: FloatArray, normals: FloatArray, criterion: str, poisson_ratio: float, **parameters: float
+) -> list[FloatArray]:
+    """Values of the cycles that rainflow closes on the plane of each point, over the largest one.
+
+    Parameters
+    ----------
+    stress
+        Shape (n, T, 6), one load cycle at each point.
+    normals
+        Shape (n, 3), of the planes; NaN where there is none.
+    criterion, poisson_ratio, **parameters
+        As of `swtstudy.kernel.line.ask`. The shear stress counts along the longest chord of its path.
+    """
+    from swtstudy.kernel.cycles import count_cycles, counting
+    from swtstudy.kernel.line import ask
+
+    memory, own, found = counting(), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
+    memory["points"] = count = stress.shape[1]
+    for history, normal in zip(stress, normals, strict=True):
+        traction = history[:, _OF_TENSOR] @ normal
+        tension = traction @ normal
+        if criterion == SWT:
+            swing = (1.0 + poisson_ratio) * tension - poisson_ratio * history[:, :3].sum(axis=1)
+        else:
+            shear = traction - tension[:, None] * normal
+            squares = np.square(shear[:, None] - shear[None]).sum(axis=-1)
+            one, other = np.unravel_index(squares.argmax(), squares.shape)
+            swing = shear @ (shear[one] - shear[other]) / max(float(np.sqrt(squares.max())), TINY)
+        memory["swing"][:count], memory["stress"][:count] = swing, tension
+        count_cycles(memory, own)
+        values = memory["value"][: memory["cycles"]]
+        sound = np.isfinite(normal).all() and values.size and values.max() > 0.0
+        found.append(values / values.max() if sound else np.ones(1))
+    return found
+
+
+def _lives(rounds: Any, value: FloatArray, shares: list[FloatArray]) -> FloatArray:
+    """Load cycles to a crack of points with their cycles."""
+    one = np.zeros((1, 1))
+    return np.array([float(rounds(v, one + own, one + 1.0)) for v, own in zip(value, shares, strict=True)])
+
+
+def write_history(found: xr.Dataset, path: Path) -> None:
+    """Write results at points: a .vtu file for ParaView (by meshio), a CSV table, or netCDF."""
+    if path.suffix == ".nc":
+        from swtstudy.archive.netcdf import save
+
+        save(found, path)
+        return
+    columns = {str(name): each.values for name, each in found.variables.items() if each.dims == ("point",)}
+    for name, each in found.data_vars.items():
+        for k in range(each.sizes.get("axis", 0)):
+            columns[f"{name}_{POSITION[k]}"] = each.values[:, k]
+    if path.suffix != ".vtu":
+        import pandas as pd
+
+        pd.DataFrame(columns).to_csv(path, index=False)
+        return
+    try:
+        import meshio
+    except ImportError:
+        allowed = 'pip install "swtstudy[vtu]", which writes it; or a .csv file'
+        raise StudyError([Mistake("output", str(path), allowed)]) from None
+    places = np.stack([columns.get(name, np.zeros(found.sizes["point"])) for name in POSITION], axis=1)
+    fields = {str(name): each.values for name, each in found.data_vars.items()}
+    meshio.Mesh(places, [("vertex", np.arange(len(places))[:, None])], fields).write(path)

@@ -1,0 +1,146 @@
+"""Stress histories of finite elements: the round trip of a contact's own stress, lives and files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command import call
+
+import swtstudy
+from swtstudy import FatigueConstants, StudyError, evaluate_history, read_history
+
+NU = 0.3
+#: With E = 1 − ν² the SWT of stress_field is s.
+STUDY = """
+[units]
+length = "mm"
+force = "N"
+stress = "MPa"
+[material]
+{material}
+[fixed]
+young_modulus = {young}
+poisson_ratio = 0.3
+normal_sensitivity = 0.3
+"""
+STEEL = "strength = 1000\nstrength_exponent = -0.1\nductility = 0.5\nductility_exponent = -0.6\n"
+CONSTANTS = FatigueConstants(2e5, 1000.0, -0.1, 0.5, -0.6)
+
+
+def write(path: Path, stress: np.ndarray, header: str = "id,x,y,z,step,xx,yy,zz,yz,xz,xy") -> None:
+    """A table of stresses (points, steps, 6)."""
+    rows = [header]
+    for point, history in enumerate(stress):
+        for step, values in enumerate(history):
+            cells = [f"P{point}", float(point), 0.0, 0.5, step, *values]
+            rows.append(",".join(map(str, cells[-6 - (5 if header.startswith("id") else 1) :])))
+    path.write_text("\n".join(rows) + "\n")
+
+
+def study(folder: Path, material: str = STEEL, young: float = 2e5) -> Path:
+    (folder / "rig.toml").write_text(STUDY.format(material=material, young=young))
+    return folder / "rig.toml"
+
+
+def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
+    """In either order of the components, and by the command."""
+    parameters = {"friction": 0.4, "phase": 1.0}
+    solved = swtstudy.solve(**parameters, rtol=1e-5)
+    field = swtstudy.stress_field([solved.critical_x.item(), 0.3], 0.0, 0.0, **parameters)
+    names = ("xx", "yy", "zz", "yz", "xz", "xy")
+    stress = np.stack([field[f"sigma_{name}"].transpose("x", "instant").values for name in names], axis=-1)
+    write(tmp_path / "ours.csv", stress)
+    write(tmp_path / "theirs.csv", stress[..., [0, 1, 2, 5, 4, 3]], "id,x,y,z,step,S11,S22,S33,S12,S13,S23")
+    write(tmp_path / "other.csv", stress[..., [0, 1, 2, 5, 4, 3]], "id,x,y,z,step,a,b,c,d,e,f")
+    young = 1.0 - NU**2
+    rig = study(tmp_path, f"yield_strength = {young * 1e-2}", young)
+    for name, order in (("ours", None), ("theirs", None), ("other", "abaqus")):
+        found = evaluate_history(read_history(tmp_path / f"{name}.csv", order=order), rig)
+        assert found.SWT.values[0] == pytest.approx(solved.s.item(), rel=3e-5)
+        assert found.id.values.tolist() == ["P0", "P1"]
+        findley, _ = swtstudy.criterion_of_history(stress, "findley", 0.3)
+        np.testing.assert_allclose(found.findley_stress, findley, rtol=1e-9)
+    done = call("history", rig, tmp_path / "theirs.csv", "-o", tmp_path / "lives.csv")
+    assert done.exit_code == 0, done.output
+    assert f"largest SWT = {solved.s.item():.4g} MPa at id = P0, x = 0.0, y = 0.0, z = 0.5" in done.stdout
+    header, first, _ = (tmp_path / "lives.csv").read_text().splitlines()
+    assert dict(zip(header.split(","), first.split(","), strict=True))["SWT_normal_y"] in ("0.0", "-0.0")
+
+
+def test_lives_are_by_counted_cycles(tmp_path: Path) -> None:
+    """Of a load along x with small cycles on a large one, as the library rainflow counts them."""
+    rainflow = pytest.importorskip("rainflow")
+    wave = np.array([0.0, 400, 100, 300, 100, 300, -400, -100, -250, 0])
+    stress = np.zeros((2, len(wave), 6))
+    stress[0, :, 0] = wave
+    stress[1, :, 5] = 0.5 * wave
+    found = evaluate_history(_written(tmp_path, stress), study(tmp_path, STEEL + "yield_strength = 500\n"))
+    turned = np.roll(wave, -1)  # from the largest value on each cycle closes
+    damage = 0.0
+    for size, _, count, begin, end in rainflow.extract_cycles(np.append(turned, turned[0])):
+        largest = max(np.append(turned, turned[0])[begin : end + 1])
+        damage += count / CONSTANTS.cycles(max(largest, 0.0) * 0.5 * size / 2e5)
+    assert found.cycles.values[0] == pytest.approx(1.0 / damage, rel=0.02)
+    assert found.cycles.values[0] < CONSTANTS.cycles(found.SWT.values[0])
+    assert np.abs(found.SWT_normal.values[0]).tolist() == [1.0, 0.0, 0.0]
+    assert found.FS_cycles.values[1] < swtstudy.ShearConstants.estimated(CONSTANTS, NU).cycles(
+        found.FS.values[1]
+    )
+
+
+def _written(folder: Path, stress: np.ndarray) -> Path:
+    write(folder / "stress.csv", stress)
+    return folder / "stress.csv"
+
+
+def test_paraview_reads_the_points(tmp_path: Path) -> None:
+    meshio = pytest.importorskip("meshio")
+    stress = np.zeros((3, 2, 6))
+    stress[:, 1, 0] = [100, 200, 300]
+    done = call("history", study(tmp_path), _written(tmp_path, stress), "-o", tmp_path / "lives.vtu")
+    assert done.exit_code == 0, done.output
+    mesh = meshio.read(tmp_path / "lives.vtu")
+    np.testing.assert_array_equal(mesh.points[:, 0], [0, 1, 2])
+    np.testing.assert_allclose(mesh.point_data["SWT"], np.array([100, 200, 300]) ** 2 / 4e5, rtol=1e-6)
+    assert mesh.point_data["SWT_normal"].shape == (3, 3)
+
+
+def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
+    stress = np.zeros((1, 2, 6))
+    stress[0, 1, 0] = 100.0
+    write(tmp_path / "one.csv", stress, "step,xx,yy,zz,yz,xz,xy")
+    assert float(evaluate_history(tmp_path / "one.csv", study(tmp_path)).SWT[0]) == pytest.approx(0.025)
+
+
+@pytest.mark.parametrize(
+    ("table", "words"),
+    [
+        ("id,step,xx\n1,0,0\n", r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*columns = "),
+        ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
+        (
+            "id,step,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0,0\n1,1,0,0,0,0,0,0\n2,0,0,0,0,0,0,0\n",
+            "1 steps at the point 2, 2",
+        ),
+        ("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,-\n", "line 2, xy: found '-'"),
+    ],
+)
+def test_wrong_tables_are_named(tmp_path: Path, table: str, words: str) -> None:
+    (tmp_path / "stress.csv").write_text(table)
+    with pytest.raises(StudyError, match=words):
+        evaluate_history(tmp_path / "stress.csv", study(tmp_path))
+
+
+def test_what_a_study_lacks_is_named(tmp_path: Path) -> None:
+    (tmp_path / "rig.toml").write_text("[fixed]\nyoung_modulus = 'stiff'\n")
+    with pytest.raises(StudyError) as caught:
+        evaluate_history(_written(tmp_path, np.zeros((1, 1, 6))), tmp_path / "rig.toml")
+    units, young, poisson = (str(each).partition("rig.toml: ")[2] for each in caught.value.mistakes)
+    assert units == "units: found nothing; allowed: a table with length, force and stress"
+    assert young.startswith("fixed.young_modulus: found 'stiff' (not a number")
+    assert poisson.startswith("fixed.poisson_ratio: found nothing")
+    with pytest.raises(StudyError, match="order: found 'ansys'; allowed: one of swtstudy, abaqus"):
+        read_history(tmp_path / "stress.csv", order="ansys")
+    with pytest.raises(StudyError, match="body: found 3"):
+        evaluate_history(tmp_path / "stress.csv", study(tmp_path), 3)
