@@ -51,8 +51,12 @@ def to_toml(
     elif asked.distances:
         fixed[DISTANCE] = repr(asked.distances[0])
     lines += [*tables, *_table("[fixed]", fixed), *_table("[axes]", axes)]
-    if grid.samples:
-        lines += _table("[sample.points]", _lists(grid.samples))
+    scatter = getattr(grid, "scatter", None)
+    if scatter and scatter.target:
+        lines += _table("[sample]", {"target_life": repr(scatter.target)})
+    draws = dict(zip(scatter.names, scatter.draws, strict=True)) if scatter else {}
+    if points := {**grid.samples, **draws}:
+        lines += _table("[sample.points]", _lists(points))
     for defined in grid.given:
         content = {key: json.dumps(value) for key, value in defined.content().items()}
         lines += _table(f"[{defined.parameter}s.{quoted(defined.name)}]", content)
