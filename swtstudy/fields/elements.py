@@ -241,7 +241,7 @@ def write_history(found: xr.Dataset, path: Path) -> None:
     try:
         import meshio
     except ImportError:
-        allowed = 'pip install "swtstudy[vtu]", which writes it; or a .csv file'
+        allowed = "pip install meshio, which writes it; or a .csv file"
         raise StudyError([Mistake("output", str(path), allowed)]) from None
     places = np.stack([columns.get(name, np.zeros(found.sizes["point"])) for name in POSITION], axis=1)
     fields = {str(name): each.values for name, each in found.data_vars.items()}

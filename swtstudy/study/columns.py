@@ -323,7 +323,7 @@ def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
                 raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
             cells = book.parse(sheet if isinstance(sheet, str) else sheet - 1, header=None, dtype=object)
     except ImportError:
-        allowed = f'pip install "swtstudy[excel]", which reads it; or {FORMATS[0][2]}'
+        allowed = f"pip install openpyxl, which reads it; or {FORMATS[0][2]}"
         raise StudyError([Mistake("", "an Excel workbook", allowed, source)]) from None
     except StudyError:
         raise

@@ -327,16 +327,14 @@ def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
 
 
 def _figure_from(raw: Mapping[str, Any]) -> FigureLayout | None:
-    from pydantic import ValidationError
-
+    """The layout of a study's figure; None without one, or with mistakes, which are reported elsewhere."""
+    from swtstudy.study.keys import read_keys
     from swtstudy.study.tables import FigureTable
 
-    if "figure" not in raw:
+    figure = raw.get("figure")
+    table = read_keys(FigureTable, figure)[0] if isinstance(figure, dict) else None
+    if table is None:
         return None
-    try:
-        table = FigureTable.model_validate(raw["figure"])
-    except ValidationError:
-        return None  # reported with the structure
     y = (table.y,) if isinstance(table.y, str) else tuple(table.y)
     return FigureLayout(**{**dict(table), "y": y})
 

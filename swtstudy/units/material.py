@@ -181,7 +181,7 @@ def _of_both(
 
 
 def _allowed(key: str, units: Units) -> str:
-    """What a property may be, in words."""
+    """Words for the values that a property may have."""
     if key == LOAD_RATIO:
         return "a number below 1: the least over the largest"
     if key.endswith("exponent"):

@@ -207,7 +207,7 @@ def test_a_workbook_without_openpyxl_says_what_it_needs(
 ) -> None:
     monkeypatch.setitem(sys.modules, "openpyxl", None)
     (tmp_path / "rig.xlsx").write_bytes(b"PK\x03\x04 xl/")
-    words = r"rig.xlsx: found an Excel workbook; allowed: pip install .swtstudy.excel.., which reads it; or "
+    words = r"rig.xlsx: found an Excel workbook; allowed: pip install openpyxl, which reads it; or "
     with pytest.raises(StudyError, match=words):
         read_signal(tmp_path / "rig.xlsx")
 
