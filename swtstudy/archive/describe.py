@@ -20,6 +20,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import is_uncounted
+from swtstudy.units.scatter import Scatter
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -198,6 +199,8 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "units", units
         for material in dict.fromkeys(given.materials):
             yield "material", _constants(material)
+        if given.scatter:
+            yield "scatter", scatter_words(given.scatter)
         for torsion in dict.fromkeys(given.shear_materials):
             yield "in torsion", _constants(torsion)
         if given.yield_strengths:
@@ -208,6 +211,15 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "lives", _counted_words(dataset)
         if sequence := sequence_words(dataset, given.blocks):
             yield "sequence", sequence
+
+
+def scatter_words(scatter: Scatter) -> str:
+    """The draws of constants: mean and standard deviation of each."""
+    said = [
+        f"{name} {number_words(float(np.mean(each)))} ± {number_words(float(np.std(each)), 2)}"
+        for name, each in zip(scatter.names, scatter.draws, strict=True)
+    ]
+    return f"{len(scatter.draws[0])} draws: {', '.join(said)}"
 
 
 def _constants(material: FatigueConstants | ShearConstants) -> str:

@@ -14,6 +14,7 @@ from swtstudy.study.figure import FigureLayout
 from swtstudy.units.blocks import sequence_words
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import measures
+from swtstudy.units.scatter import PERCENTS
 from swtstudy.units.variables import KINDS, LIVES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -98,6 +99,19 @@ def life_words(dataset: xr.Dataset) -> Iterator[str]:
         for name in asked_means(dataset, kind.life):
             said += [f"{_ends(values)} (mean over {words})" for words, values in _over(dataset[name])]
         yield f"N{f' by {kind.name}' * (len(kinds) > 1)} = {', '.join(said)}"
+        shown = [y for y in shown_in(dataset) if y in (kind.life, *asked_means(dataset, kind.life))]
+        yield from _scatter([*shown, *asked_means(dataset, kind.life), kind.life][0], dataset)
+
+
+def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
+    """Percentiles of a life where it is shortest, and the largest probability of a crack before a target."""
+    if f"{life}_{PERCENTS[0]}" in dataset:
+        shortest = (float(dataset[f"{life}_{percent}"].min()) for percent in PERCENTS)
+        words = (f"N{p} = {each}" for p, each in zip(PERCENTS, numbers_words(shortest, 2), strict=True))
+        which = f" ({life})" * (life not in ("cycles", "FS_cycles"))
+        yield f"scatter of the constants, shortest lives{which}: {', '.join(words)}"
+    if (name := f"failure_probability{life.removeprefix('cycles')}") in dataset:
+        yield f"{dataset[name].long_name}: up to {number_words(float(dataset[name].max()), 2)}"
 
 
 def asked_means(dataset: xr.Dataset, life: str) -> list[str]:

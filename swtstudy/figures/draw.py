@@ -167,9 +167,11 @@ def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
-    """Collect what is drawn of a quantity: values, errors, and marks where known, with attributes."""
+    """Collect what is drawn of a quantity: values, errors or percentiles, and marks, where known."""
     # Of the whole results: a part may lack the place that normalises the quantity.
     shown = {"value": values, "error": quantity_error(dataset, y)}
+    if {f"{y}_10", f"{y}_90"} <= {*map(str, dataset.data_vars)}:
+        shown |= {"early": dataset[f"{y}_10"], "late": dataset[f"{y}_90"]}
     if "regime" in dataset:
         shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
     if validity:

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib import colormaps, rcParams
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, LogNorm, Normalize
+from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgba
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
@@ -148,8 +148,8 @@ def draw_lines(
     axes
         The panel.
     panel
-        Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; and
-        ``regime`` and ``outside``, if these are to be marked.
+        Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; ``early``
+        and ``late``, the ends of a band of lives; and ``regime`` and ``outside``, if these are to be marked.
     y
         The quantity, as the layout names it.
     layout
@@ -189,6 +189,8 @@ def draw_lines(
         if banded and np.any(part.error.values > visible):
             low, high = curve - part.error.values, curve + part.error.values
             axes.fill_between(x, low, high, color=line.get_color(), alpha=0.25, linewidth=0)
+        if "early" in part:
+            _fill_between(axes, part, x, line.get_color(), layout.kind == "life")
         if layout.regimes:
             mark_regimes(axes, x, curve, _names(part.regime))
     if not np.isfinite(whole).any():
@@ -199,6 +201,13 @@ def draw_lines(
     _scale_axes(axes, x, whole, layout.x)
     if layout.regimes:
         shade_without(axes, x, [_names(part.regime) for part in parts])
+
+
+def _fill_between(axes: Axes, part: xr.Dataset, x: NDArray[Any], colour: Any, upright: bool) -> None:
+    """A band between the lives before which 10 and 90 % of the draws of constants fail."""
+    fill = axes.fill_betweenx if upright else axes.fill_between
+    look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.18), "edgecolor": to_rgba(colour, 0.6)}
+    fill(x, part.early.values, part.late.values, linewidth=0.6, label="10 to 90 % fail", **look)
 
 
 def may_jump(name: str) -> bool:

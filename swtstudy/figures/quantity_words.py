@@ -54,7 +54,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
 
 def _is_unfamiliar(name: str) -> bool:
     """Return whether a symbol alone says too little: lives, means of SWT, usages, places."""
-    known = "cycles", "FS_cycles", "SWT_", "findley_usage", "critical_"
+    known = "cycles", "FS_cycles", "failure_probability", "SWT_", "findley_usage", "critical_"
     return name.startswith(known) and name not in ("critical_angle",)
 
 

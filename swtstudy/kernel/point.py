@@ -178,7 +178,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s, out.place = S.best, S.place
     rounding = coarse / share + rounding_share(C, P, Q, S.place, S.tension) if S.best > 0.0 else 0.0
-    out.s_error = gap + (2.0 * Q.time + rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
+    out.s_error = gap + (Q.time + rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
     if S.best == 0.0:  # tension within rounding is taken for none
         out.s_error += NOISE * C.largest
     else:

@@ -148,7 +148,7 @@ def outside_words(dataset: xr.Dataset) -> str:
 
 
 def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
-    """Limits that points exceed, and lines on the limits that all points keep."""
+    """Limits that points exceed, and lines on the limits that no point exceeds."""
     require(dataset, "s", "regime")
     if not dataset.s.size:
         return [], []
@@ -333,7 +333,9 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points with lives beyond those of which constants are known."""
     beyond: dict[str, BoolArray] = {}
     lines = []
-    for name in (each for each in map(str, dataset.data_vars) if _is_life(dataset, each)):
+    for name in map(str, dataset.data_vars):
+        if not _is_life(dataset, name) or name.rpartition("_")[2].isdigit():  # percentiles go with their life
+            continue
         # A point may have several, such as those over critical distances.
         lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
         out = _beyond(lives)

@@ -12,7 +12,6 @@ import xarray as xr
 
 from swtstudy.archive.outcome import life_words, outcome, shown_in
 from swtstudy.archive.recall import grid_of
-from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.figures.draw import layout_of
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.points.grid import SAMPLE
@@ -29,7 +28,6 @@ from swtstudy.reports.values import (
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.results import measures
 from swtstudy.units.variables import LIVES
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
@@ -135,7 +133,7 @@ def sentences(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None = Non
     if values.size == 1 and has_units(dataset):
         return [*said, escape(next(outcome(dataset)))]
     moved = [
-        _sentence(lever, _symbol(measured_at(dataset, lever.there), dataset))
+        _sentence(lever, _symbol(measured_at(dataset, lever.there)))
         for lever in levers(dataset)
         if lever.ratio > _CHANGES
     ]
@@ -144,10 +142,10 @@ def sentences(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None = Non
         if CRITERION in dataset.dims:
             for k in range(dataset.sizes[CRITERION]):
                 one = dataset.isel({CRITERION: k})
-                words = _range(measured_at(dataset, one), dataset)
+                words = _range(measured_at(dataset, one))
                 said.append(f"{value_text(CRITERION, one.criterion.item(), {})}: {words}")
         else:
-            said.append(_range(values, dataset))
+            said.append(_range(values))
     return [*said, *(f"{escape(words[0].upper() + words[1:])}." for words in life_words(dataset))]
 
 
@@ -155,15 +153,15 @@ def _most_sensitive(indices: xr.Dataset) -> str:
     """Say which sampled parameter has the largest Sobol index, and which the second largest."""
     total = indices.total.isel(quantity=0)
     mean = total.mean([dim for dim in total.dims if dim != "parameter"])
-    first, second = (indices.isel(parameter=int(k), quantity=0) for k in np.argsort(-mean.values)[:2])
     said = []
-    for one in (first, second):
+    for k in np.argsort(-mean.values)[:2]:
+        one = indices.isel(parameter=int(k), quantity=0)
         ends = dict.fromkeys(f"{float(end):.2f}" for end in (one.total.min(), one.total.max()))
         symbol, meaning = symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning
-        said.append((f"the {escape(meaning)} {symbol}", " to ".join(ends)))
-    (most, index), (next_one, lower) = said
-    words = f"{most[0].upper()}{most[1:]} matters most, with a Sobol index of <b>{index}</b>"
-    return f"{words}; next is {next_one}, {lower}."
+        said.append((f"he {escape(meaning)} {symbol}", " to ".join(ends)))
+    (most, index), *others = said
+    words = "".join(f"; next is t{name}, {lower}" for name, lower in others)
+    return f"T{most} matters most, with a Sobol index of <b>{index}</b>{words}."
 
 
 def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
@@ -176,8 +174,8 @@ def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
         return error
 
 
-def _symbol(values: xr.DataArray, dataset: xr.Dataset) -> str:
-    return symbol_of(values) if has_units(dataset) else "<i>s</i>"
+def _symbol(values: xr.DataArray) -> str:
+    return "<i>s</i>" if values.name == "s" else symbol_of(values)
 
 
 def _sentence(lever: Lever, symbol: str) -> str:
@@ -217,9 +215,9 @@ def place_words(one: xr.Dataset, of: xr.Dataset) -> str:
     return f" for {' and '.join(names)}" * bool(names) + f" at {', '.join(numbers)}" * bool(numbers)
 
 
-def _range(values: xr.DataArray, dataset: xr.Dataset) -> str:
+def _range(values: xr.DataArray) -> str:
     """From where to where the values of one criterion go."""
-    swt = _symbol(values, dataset)
+    swt = _symbol(values)
     known = values.values[np.isfinite(values.values)]
     if not known.size:
         return f"No point has a finite {swt}."
@@ -267,9 +265,6 @@ def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
 def parameters_of(one: xr.Dataset) -> dict[str, Any]:
     """The parameters without units that one point of results was solved with, for `swtstudy.inspect`."""
     grid = grid_of(one)
-    if isinstance(grid, PhysicalGrid):
-        body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
-        return PhysicalContact(grid).parameters(body)
     lacking = {name for name, row in PARAMETERS.items() if row.part == "shape"} - {"profile"}
     lacking -= {*family_of(grid.fixed["profile"]).shape}
     if grid.fixed.get(CRITERION, SWT) == SWT:

@@ -15,6 +15,7 @@ from swtstudy.archive.describe import (
     recorded_loads,
     regime_counts,
     relative_errors,
+    scatter_words,
     unsaid,
 )
 from swtstudy.figures.evaluated import draw_sensitivity
@@ -25,7 +26,7 @@ from swtstudy.reports.parts import Section, embedded, figure, of_point, section,
 from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, value_text, with_unit
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import measures
-from swtstudy.units.variables import KINDS, LIVES
+from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
@@ -128,7 +129,8 @@ def _point_line(one: xr.Dataset) -> str:
     """Describe the results of one point in a line."""
     said = [f"<i>s</i> = {number_words(float(one.s))} ± {number_words(float(one.s_error), 2)}"]
     place = "critical_position" if "critical_position" in one else "critical_x"
-    names = (*measures(one), *(name for name in LIVES if name in one), place, "critical_angle")
+    lives = [n for n in map(str, one) if is_life(one[n].attrs) or n.startswith("failure_probability")]
+    names = (*measures(one), *lives, place, "critical_angle")
     known = (one[name] for name in names if name in one and not one[name].ndim)
     said += [place_html(values) for values in known if np.isfinite(values.item())]
     said.append(escape(one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")))
@@ -182,6 +184,8 @@ def _materials(dataset: xr.Dataset) -> Iterator[str]:
                     for name, v in vars(material).items()
                 ]
                 yield f"<h3>{title}</h3>" + table(("", ""), rows, numbers=(1,))
+        if given.scatter:
+            yield f"<h3>Scatter</h3><p>{escape(scatter_words(given.scatter))}.</p>"
         limits = {"yield_strength": given.yield_strengths, "findley_limit": given.findley_limits}
         rows = [
             (name.replace("_", " "), f"{value_text(name, value)} {given.units.stress}")

@@ -13,6 +13,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.study.contacts import every_name, kept_cycles, read_blocks, read_given, rows_of, told_of_lives
 from swtstudy.study.figure import FigureLayout, check_figure
+from swtstudy.study.scatter import read_scatter, without_scatter
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
 from swtstudy.vocabulary.definition import Definition
@@ -213,7 +214,10 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
         places[DISTANCE] = "material"
     if contacts is not None:
-        contacts = replace(contacts, blocks=blocks)
+        contacts = replace(contacts, blocks=blocks, scatter=read_scatter(raw, contacts, report))
+    elif isinstance(raw.get("sample"), dict):
+        read_scatter(raw, None, report)
+    raw = without_scatter(raw)
     rows = rows_of(contacts.units if contacts else None)
     sample, sampled = sample_of(raw, folder, known, report, rows)
     places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")

@@ -83,7 +83,13 @@ class SampleTable(FileTable):
     )
     seed: Annotated[int, Allowed(ALLOWED_SEED)] = key("Seed of the random numbers.", 0, ge=0, le=LARGEST_SEED)
     ranges: Annotated[dict[str, Any], Allowed("a table of ranges")] = key(
-        "Sampled parameters: both ends, [low, high], or a distribution.", {}
+        "Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution.", {}
+    )
+    covariance: Annotated[dict[str, Any], Allowed("a table of covariances")] = key(
+        "Variances and covariances of constants, which scatter normally about those of [material].", {}
+    )
+    target_life: Annotated[float | None, Allowed("a number")] = key(
+        "Load cycles before which the probability of a crack is asked for.", None
     )
     file: File = key("CSV file of points: a row with names of parameters, then a row for each point.", None)
     points: Annotated[dict[str, list[Any]], Allowed("a table of lists of values")] = key(

@@ -48,7 +48,10 @@ def to_toml(
         )
     tables, of_contacts = _of_contacts(grid)
     tables += [("[fixed]", fixed | of_contacts), ("[axes]", axes)]
-    tables += [("[sample.points]", grid.samples)] if grid.samples else []
+    scatter = getattr(grid, "scatter", None)
+    draws = dict(zip(scatter.names, map(list, scatter.draws), strict=True)) if scatter else {}
+    tables += [("[sample]", {"target_life": scatter.target})] if scatter and scatter.target else []
+    tables += [("[sample.points]", grid.samples | draws)] if grid.samples or draws else []
     tables += [(f"[{each.parameter}s.{quoted(each.name)}]", each.content()) for each in grid.given]
     tables += [("[[blocks]]", vars(block)) for block in blocks]
     if figure is not None:

@@ -19,6 +19,7 @@ from swtstudy.units.labels import Units
 from swtstudy.units.life import FatigueConstants, ShearConstants
 from swtstudy.units.loads import ends_of_bulk, labels_of, mean_of_bulk, mean_of_loads
 from swtstudy.units.rows import SIMILAR, rows
+from swtstudy.units.scatter import Scatter
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
@@ -58,6 +59,8 @@ class ContactDetails:
         Constants of both bodies in torsion; none if they are estimated from the others.
     findley_limits
         What the Findley stress of each body is compared with; none if they are not given.
+    scatter
+        Draws of the constants; None if these are single values.
     """
 
     units: Units = field(default_factory=Units)
@@ -70,6 +73,7 @@ class ContactDetails:
     body_names: tuple[str, ...] = ()
     shear_materials: tuple[ShearConstants, ...] = ()
     findley_limits: tuple[float, ...] = ()
+    scatter: Scatter | None = None
 
 
 @dataclass(frozen=True)

@@ -184,14 +184,14 @@ def at_cycles(level: FloatArray, slopes: FloatArray, cycles: ArrayLike) -> Float
         return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
 
-def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray:
-    """The inverse of `at_cycles` for values ≥ 0."""
+def life(level: FloatArray, slopes: FloatArray, value: FloatArray, steps: int = _STEPS) -> FloatArray:
+    """The inverse of `at_cycles` for values ≥ 0, by so many Newton steps; its arrays are broadcast."""
     with np.errstate(divide="ignore"):
         level = level - np.log(value)[..., None]
     # Each term alone gives too short a life: from there Newton's steps only go up.
     x = np.max(-level / slopes, axis=-1)
     known = np.isfinite(x)[..., None]
-    for _ in range(_STEPS):
+    for _ in range(steps):
         # Of both terms over the value the larger one is near 1: nothing overflows.
         terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
         total = terms.sum(axis=-1)

@@ -11,6 +11,7 @@ import xarray as xr
 
 from swtstudy.units.blocks import miner
 from swtstudy.units.bodies import LABELS
+from swtstudy.units.scatter import scattered
 from swtstudy.units.variables import KINDS, LIVES, NORMALISED, variables
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.quantities import Request
@@ -45,6 +46,8 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
         found[each.name] = values.dims, values.values, each.attributes(grid.labels)
     if grid.blocks:
         found = found.assign(miner(found, grid.blocks, grid.values("load")))
+    if grid.scatter:
+        found = found.assign(scattered(found, grid, [name for name in LIVES if name in found]))
     if "SWT" in found:
         found.SWT.attrs["ancillary_variables"] = "SWT_error regime"
     for name in grid.pairs:

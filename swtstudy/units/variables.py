@@ -13,6 +13,7 @@ from swtstudy.units.at_rest import Contact
 from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants
+from swtstudy.units.scatter import scattered_in
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, WORDS
 from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 
@@ -182,6 +183,9 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     for life, repetitions, share in lives_in([*found]) if grid.blocks else ():
         found[share] = found[life]
         found[repetitions] = tuple(dim for dim in found[life] if dim != "load")
+    lives = [name for name in LIVES if name in found]
+    for life, name in scattered_in(lives, grid.scatter.target > 0.0) if grid.scatter else ():
+        found[name] = found[life]
     return found
 
 
@@ -320,6 +324,7 @@ NAMES = (
     *(position_of(place) for place in PLACES),
     *LIVES,
     *(name for _, *both in lives_in(LIVES) for name in both),
+    *(name for _, name in scattered_in(LIVES, True)),
     *("critical_position", "contact_radius", "peak_pressure", "depth", "normal_force", "dissipation"),
     *("dissipation_error", "stick_radius", *STICK_ENDS, "largest_contact_radius", *NORMALISED.values()),
     *("von_mises", "yield_ratio", "bulk_shift"),

@@ -194,7 +194,8 @@ def test_limits_of_the_stress_are_said_beside_the_constants() -> None:
 def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
     dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
     for one in extreme_points(dataset).values():
-        again = swtstudy.solve(rtol=1e-4, **parameters_of(one))
+        own = one.swt.contact().parameters() if "contact" in one.attrs else parameters_of(one)
+        again = swtstudy.solve(rtol=1e-4, **own)
         assert float(again.s) == pytest.approx(float(one.s), rel=2e-3)
 
 
@@ -238,8 +239,8 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     assert "none without a value" in tiles(still)
     # The sensitivity is that of the others: SWT is drawn without it.
     (worst,) = extreme_points(still).values()
-    assert "normal_sensitivity" not in parameters_of(worst)
-    again = swtstudy.solve(rtol=1e-3, **parameters_of(worst))
+    assert "normal_sensitivity" not in worst.swt.contact().parameters()
+    again = swtstudy.solve(rtol=1e-3, **worst.swt.contact().parameters())
     assert float(again.s) == pytest.approx(float(worst.s), rel=1e-6)
 
 
@@ -460,6 +461,15 @@ def test_the_headline_answers_the_question_of_the_study(name: str, said: str) ->
     dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
     first = sentences(dataset, indices_of(dataset))[0]
     assert re.sub("<.*?>", "", first).startswith(said)
+
+
+def test_the_headline_is_about_the_quantity_of_the_figure(small: xr.Dataset) -> None:
+    layout = replace(FigureLayout.from_json(small.attrs["figure"]), y=("critical_x", "work"))
+    found = small.assign(work=(2.0 + small.phase + 0.0 * small.s).assign_attrs(symbol="W"))
+    first = sentences(found.assign_attrs(figure=layout.to_json()))[0]
+    assert re.sub("<.*?>", "", first).endswith(
+        "ψ changes W by a factor of 2 at δA/δ0 = 0.25: best at 0, worst at 0.637π."
+    )
 
 
 def test_a_study_may_have_its_own_message(tmp_path: Path, without_points: None) -> None:

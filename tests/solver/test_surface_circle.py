@@ -200,8 +200,8 @@ def test_the_first_circle_of_a_process_is_that_of_its_point():
 
 
 def test_beside_the_singular_edge_of_a_face_the_circle_has_no_bound():
-    # The line's maximum is 1e-14 from the edge, where in gross slip the pressure rises like ln(1/ε): there the
-    # field has 21.6 at 81° from the line.
+    # The line's maximum is 1e-14 from the edge, where in gross slip the pressure rises like ln(1/ε). The
+    # field has 21.6 there, at 81° from the line.
     found = swtstudy.solve(
         profile="truncated_paraboloid",
         flat_radius=1.2,

@@ -1,0 +1,135 @@
+"""Constants that scatter: percentiles of lives and failure probabilities against lives of each draw."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from real import ALUMINIUM, CONTACT
+
+import swtstudy
+from swtstudy import FatigueConstants, Study
+from swtstudy.archive.describe import describe
+from swtstudy.study.writing import to_toml
+
+LOADS = "normal_force = 200\nfrequency_ratio = 3\nnormal_amplitude = 5e-4\n"
+AXES = "[axes]\ntangential_amplitude = [1e-3, 2e-3, 3e-3]\n"
+SAMPLE = '[sample]\ndesign = "sobol"\nsize = 256\ntarget_life = 4e5\n'
+RANGE = '[sample.ranges]\nstrength = { distribution = "normal", mean = 927, deviation = 30 }\n'
+COVARIANCE = """[sample.covariance]
+strength = { strength = 900, ductility = -0.9 }
+ductility = { ductility = 1.6e-3 }
+strength_exponent = { strength_exponent = 4e-6 }
+"""
+
+
+def results(tmp_path: Path, more: str, name: str = "mine") -> xr.Dataset:
+    return swtstudy.run(Study.from_text(f"{CONTACT}{LOADS}{AXES}{more}"), tmp_path / f"{name}.nc")
+
+
+def draws_of(dataset: xr.Dataset) -> list[FatigueConstants]:
+    """The constants of each draw."""
+    scatter = json.loads(dataset.attrs["contact"])["scatter"]
+    own = [dict(zip(scatter["names"], each, strict=True)) for each in zip(*scatter["draws"], strict=True)]
+    return [FatigueConstants(**{**vars(ALUMINIUM), **each}) for each in own]
+
+
+@pytest.mark.parametrize("more", [SAMPLE + RANGE, SAMPLE + COVARIANCE])
+def test_percentiles_are_those_of_the_lives_of_all_draws(tmp_path: Path, more: str) -> None:
+    found = results(tmp_path, more)
+    assert found.s.dims == ("tangential_amplitude",)  # no further points
+    assert (found.counted_number.sum("counted_cycle") > 1.0).any()  # several cycles in a round
+    draws = draws_of(found)
+    assert len(draws) == 256
+    lives = np.array([each.rounds(found.SWT, found.counted, found.counted_number).values for each in draws])
+    for percent in (10, 50, 90):
+        ranked = np.sort(lives, axis=0)[int(np.ceil(0.01 * percent * len(draws))) - 1]
+        np.testing.assert_allclose(found[f"cycles_{percent}"], ranked, rtol=1e-9)
+    np.testing.assert_allclose(found.failure_probability, (lives < 4e5).mean(axis=0))
+    assert 0.0 < float(found.failure_probability[1]) < 1.0
+    np.testing.assert_allclose(found.cycles_50, found.cycles, rtol=0.05)
+
+
+def test_draws_have_the_covariance(tmp_path: Path) -> None:
+    draws = draws_of(results(tmp_path, SAMPLE.replace("256", "4096") + COVARIANCE))
+    columns = np.array([[each.strength, each.ductility, each.strength_exponent] for each in draws])
+    wanted = np.array([[900.0, -0.9, 0.0], [-0.9, 1.6e-3, 0.0], [0.0, 0.0, 4e-6]])
+    scale = np.sqrt(np.outer(np.diag(wanted), np.diag(wanted)))
+    np.testing.assert_allclose(np.cov(columns.T) / scale, wanted / scale, atol=0.02)
+    np.testing.assert_allclose(columns.mean(axis=0), [927.0, 0.409, -0.113], rtol=1e-3)
+
+
+def test_another_scatter_solves_nothing_again(tmp_path: Path) -> None:
+    first = results(tmp_path, "")
+    second = results(tmp_path, SAMPLE + RANGE)
+    assert {*second.data_vars} > {*first.data_vars}
+    np.testing.assert_array_equal(first.s, second.s)
+    assert len(json.loads(second.attrs["runs"])) == 1
+
+
+def test_parameters_may_be_sampled_beside_constants(tmp_path: Path) -> None:
+    more = SAMPLE.replace("256", "8") + RANGE + "friction = [0.4, 0.6]\n"
+    text = f"{CONTACT}{LOADS}{more}tangential_amplitude = [1e-3, 3e-3]\n".replace("friction = 0.5\n", "")
+    found = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
+    assert found.cycles_10.dims == ("sample",)
+    assert bool((found.cycles_10 <= found.cycles_90).all())
+
+
+def test_a_study_is_written_with_its_draws() -> None:
+    study = Study.from_text(f"{CONTACT}{LOADS}{AXES}{SAMPLE}{COVARIANCE}")
+    again = Study.from_text(to_toml(study.title, study.rtol, study.grid, study.figure, study.asked))
+    assert again.grid.scatter == study.grid.scatter  # type: ignore[attr-defined]
+
+
+def test_each_body_has_lives_of_its_own_modulus(tmp_path: Path) -> None:
+    text = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{RANGE}".replace("= 73.1e3", "= [73.1e3, 60e3]")
+    text = text.replace("[fixed]", "[fixed]\nsimilar = 1")
+    found = swtstudy.run(Study.from_text(text), tmp_path / "two.nc")
+    one, other = (found.sel(body=body) for body in (1, 2))
+    assert not np.allclose(one.cycles, other.cycles, rtol=1e-3)
+    np.testing.assert_allclose(one.cycles_50 / other.cycles_50, one.cycles / other.cycles, rtol=1e-4)
+
+
+def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
+    figure = '[figure]\nx = "tangential_amplitude"\ny = ["cycles", "failure_probability"]\n'
+    found = results(tmp_path, SAMPLE + RANGE + figure)
+    told = "\n".join(describe(found))
+    assert re.search(r"scatter        256 draws: strength 9\d\d(\.\d)? ± 30", told)
+    assert "scatter of the constants, shortest lives: N10 = " in told
+    assert "probability of a crack before 400000 load cycles: up to 1." in told
+    assert "cycles_10 extrapolated" not in told
+    upper, lower = found.swt.figure().axes
+    (band,) = upper.collections
+    ends = band.get_paths()[0].vertices[:, 1]
+    assert float(found.cycles_10.min()) == pytest.approx(ends.min())
+    assert float(found.cycles_90.max()) == pytest.approx(ends.max())
+    assert lower.get_ylabel().replace("\n", " ") == "probability of a crack before 400000 load cycles, $P$"
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        (SAMPLE + "[sample.ranges]\nstrength = 3\n", "sample.ranges.strength: found 3"),
+        (SAMPLE.replace("sobol", "saltelli") + RANGE, "a design other than saltelli"),
+        (RANGE, "design None"),
+        (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "symmetric and positive"),
+        (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance: found"),
+        (SAMPLE + COVARIANCE + RANGE, "strength, which has a range; allowed: one of the two"),
+        (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
+        (SAMPLE.replace("4e5", "-1") + RANGE, "sample.target_life: found -1"),
+        ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "draws of different length"),
+    ],
+)
+def test_mistakes_are_told(more: str, words: str) -> None:
+    with pytest.raises(swtstudy.StudyError) as error:
+        Study.from_text(f"{CONTACT}{LOADS}{AXES}{more}")
+    assert words in str(error.value)
+
+
+def test_constants_that_are_lacking_cannot_scatter() -> None:
+    text = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{RANGE}".partition("[material]")
+    bare = text[0] + "[fixed]" + text[2].partition("[fixed]")[2]
+    with pytest.raises(swtstudy.StudyError, match="found constants that scatter; allowed: with"):
+        Study.from_text(bare)
