@@ -129,7 +129,7 @@ class _Compiling(event.Listener):
 
     def on_start(self, event):
         if not self.begun and sys.stderr is not None and sys.stderr.isatty():
-            print("compiling the solver, once, about 30 s", file=sys.stderr, flush=True)
+            print("compiling the solver, once, about a minute", file=sys.stderr, flush=True)
         self.begun = True
 
     def on_end(self, event):

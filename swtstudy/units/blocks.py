@@ -143,7 +143,10 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
 
 
 def _to_a_crack(times: xr.DataArray, shares: xr.DataArray, by: str) -> str:
-    """One life in `sequence_words`."""
+    """One life in `sequence_words`; points of other criteria do not have it."""
+    if "criterion" in times.dims:
+        times = times.dropna("criterion", how="all")
+        shares = shares.sel(criterion=times.criterion)
     known = times.values[np.isfinite(times.values)]
     if not known.size:
         return f"{_NO_CRACK}{by}"

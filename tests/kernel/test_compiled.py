@@ -129,7 +129,7 @@ def test_a_terminal_is_told_of_the_first_compile(tmp_path: Path, environment: di
         heard.append(words.decode())
         os.close(ours)
         os.close(theirs)
-    assert heard == ["compiling the solver, once, about 30 s\r\n.", "."]
+    assert heard == ["compiling the solver, once, about a minute\r\n.", "."]
 
 
 def test_folders_not_used_for_long_are_removed(tmp_path: Path, environment: dict[str, str]) -> None:
