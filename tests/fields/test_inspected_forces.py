@@ -143,7 +143,7 @@ def test_panels(points, name):
     band = next(each for each in plane.collections if len(each.get_edgecolor()) > 1)
     colours = [to_hex(colour).upper() for colour in band.get_edgecolor()]
     assert colours == [STATE_COLOURS[state] for state in point.edge_state.values[:-1]]
-    assert loop.get_title("left").endswith(f"area {float(point.dissipation):.3g}")
+    assert loop.get_title("left").endswith(f"area = dissipation {float(point.dissipation):.3g}")
 
 
 @pytest.mark.slow

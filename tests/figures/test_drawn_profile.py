@@ -146,7 +146,7 @@ def test_the_command_draws_a_table_with_a_study(tmp_path, monkeypatch):
     assert (table.name, table.smoothing, table.radius[-1]) == ("tip", 2e-5, 2.0)
     rough = CliRunner().invoke(main, arguments[:4])
     assert rough.exit_code == 2
-    assert "ask for smoothing" in rough.stderr
+    assert "if its heights are noisy, smoothing takes that away" in rough.stderr
     still_rough = CliRunner().invoke(main, [*arguments[:-1], "1e-12"])
     assert "; its smoothing is 1e-12: more takes noise away, less leaves its shape" in still_rough.stderr
     none = CliRunner().invoke(main, ["show", "rig.toml", "--profile", "paraboloid", "--smoothing", "1"])

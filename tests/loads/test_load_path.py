@@ -308,7 +308,7 @@ def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, word
         Study.from_text(STUDY + table, "study", tmp_path)
     found = [str(mistake) for mistake in caught.value.mistakes]
     assert any(re.match(f"study: {words}", line) for line in found), found
-    assert len(found) == (2 if "files" in table else 1), found
+    assert len(found) == 1, found
 
 
 @pytest.mark.parametrize(
