@@ -23,7 +23,8 @@ from swtstudy.vocabulary.choices import REGIMES
 FINEST_GROWTH = 1e-11
 #: Rounding of the distance of two slip fronts, and what is no distance, over the largest contact.
 OF_DISTANCE, ONE_PLACE = 1e-13, 1e-15
-#: Rounding of the pressure next to a moving edge, of which it is the root: that of the edge is some 4e-16.
+#: Rounding of the pressure next to an edge, of which it is the root: that of the edge is some 4e-16. An edge
+#: that rests has none where its place is known in closed form.
 OF_PRESSURE = 3e-8
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
 #: there is no continuum that small.
@@ -130,7 +131,7 @@ def rounding_share(C, P, Q, place, tension):
                 if distance > ONE_PLACE:
                     nearest = min(nearest, distance)
     root = sqrt(nearest + OF_DISTANCE) - sqrt(max(nearest - OF_DISTANCE, 0.0))
-    of_pressure = OF_PRESSURE if C.largest > C.smallest else 0.0
+    of_pressure = OF_PRESSURE if C.largest > C.smallest or not P.is_hertz else 0.0
     return (Q.friction * sqrt(2.0) * root + of_pressure) * sqrt(C.largest) / tension
 
 
