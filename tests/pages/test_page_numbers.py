@@ -135,7 +135,7 @@ def chart() -> None:
     says(said, 64, min(peers), max(peers))
     assert max(at("batches of 64", "rtol 1e-04")) < 1e-5
     seconds = [1e3 * each for each in at("batches of 64", "rtol 1e-04", "seconds a value")]
-    said = "this solver asked for 1e-4 stays below 1e-6 there, in {} to {} ms a value"
+    said = "this solver asked for 1e-4 stays below 1e-5 there, in {} to {} ms a value"
     says(said, min(seconds), max(seconds))
     (table,) = tables("accuracy_speed.md")
     away = [abs(float(row[-1])) for row in table[1:]]
