@@ -1,5 +1,6 @@
 """Sphinx: pages in MyST Markdown; what the package says of itself is generated, never retyped."""
 
+import re
 import sys
 from pathlib import Path
 
@@ -39,7 +40,6 @@ nitpick_ignore = [
     )
 ]
 autodoc_member_order = "bysource"
-autodoc_preserve_defaults = True  # solver=solve_points, not where that lies in memory
 autodoc_typehints = "none"  # docstrings say shapes and units
 napoleon_google_docstring = False
 napoleon_use_ivar = True
@@ -53,3 +53,13 @@ html_show_copyright = False
 
 # Reports of all studies take minutes: they are made where asked for, as by ``sphinx-build -t reports``.
 generate(HERE / "generated", reports=tags.has("reports"))  # noqa: F821
+
+
+def name_functions(app, what, name, obj, options, signature, returns):
+    """Write defaults that are functions by their names: not where these lie in memory."""
+    return (re.sub(r"<function (\w+) at \w+>", r"\1", signature), returns) if signature else None
+
+
+def setup(app):
+    """Connect what is done to signatures."""
+    app.connect("autodoc-process-signature", name_functions)

@@ -188,7 +188,7 @@ class TabulatedProfile(Definition):
     def least_smoothing(self, radius: float) -> float | None:
         """The least smoothing above its own with which contacts are one disc or strip up to a radius.
 
-        It is known to a fifth. None if `MOST_SMOOTHED` times its own is not enough.
+        It is known to a fifth. None if ``MOST_SMOOTHED`` times its own is not enough.
         """
 
         def compact(smoothing: float) -> bool:
