@@ -16,6 +16,16 @@ ductility = 0.409
 ductility_exponent = -0.713
 """
 ALLOY = f"{UNITS}[material]\n{CONSTANTS}"
+#: A contact with the load of a rig, whose table is to follow.
+RIG = f"""
+title = "A rig"
+{UNITS}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+load = "rig"
+"""
 STUDY = f"""
 title = "A sphere on a flat"
 rtol = 1e-3

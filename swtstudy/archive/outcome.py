@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.points.validity import outside_words, point_words
+from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.blocks import sequence_words
 from swtstudy.units.reading import read_contact
@@ -80,7 +81,7 @@ def _position(dataset: xr.Dataset, flat: int) -> str:
     name = "critical_position" if "critical_position" in dataset else "critical_x"
     if name not in dataset:
         return ""
-    x = float(dataset[name].broadcast_like(dataset.s).transpose(*dataset.s.dims).values.ravel()[flat])
+    x = float(dataset[name].isel(index_at(dataset.s, flat), missing_dims="ignore"))
     symbol = "x" if name == "critical_position" else "x/a_H"
     unit = unit_words(str(dataset[name].attrs.get("units", "1")))
     return f"{symbol} = {number_words(x, 3)}{unit}" if math.isfinite(x) else ""

@@ -29,8 +29,6 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, n
 OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
 #: Places of our components in the order of Abaqus.
 _PLACES = [0, 1, 2, 5, 4, 3]
-#: Places of the components in the tensor.
-_OF_TENSOR = [[0, 5, 4], [5, 1, 3], [4, 3, 2]]
 ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
 
@@ -194,17 +192,16 @@ def cycle_shares(
         As of `swtstudy.kernel.line.ask`. The shear stress counts along the longest chord of its path.
     """
     from swtstudy.kernel.cycles import count_cycles, counting
+    from swtstudy.kernel.field import curves_on_plane
     from swtstudy.kernel.line import ask
 
     memory, own, found = counting(), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
     memory["points"] = count = stress.shape[1]
     for history, normal in zip(stress, normals, strict=True):
-        traction = history[:, _OF_TENSOR] @ normal
-        tension = traction @ normal
-        if criterion == SWT:
-            swing = (1.0 + poisson_ratio) * tension - poisson_ratio * history[:, :3].sum(axis=1)
-        else:
-            shear = traction - tension[:, None] * normal
+        tension, *curves = curves_on_plane(history, normal, poisson_ratio, criterion == SWT)
+        swing = curves[0]
+        if criterion != SWT:
+            shear = np.stack(curves, axis=1)
             squares = np.square(shear[:, None] - shear[None]).sum(axis=-1)
             one, other = np.unravel_index(squares.argmax(), squares.shape)
             swing = shear @ (shear[one] - shear[other]) / max(float(np.sqrt(squares.max())), TINY)

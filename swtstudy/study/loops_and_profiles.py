@@ -56,8 +56,8 @@ def read_loops(
         key = f"loads.{name}"
         # A wrong loop stands for any: that it is used is no mistake of its own.
         found[name] = ANY_MEASURED if {"absolute", "mean_normal"} & {*table} else ANY
-        form, wrong = read_keys(LoadTable, table)
-        if form is None or wrong:
+        form, _ = read_keys(LoadTable, table)
+        if form is None:
             continue  # reported with the structure
         kind = _kind(table)
         if isinstance(kind, Mistake):

@@ -60,7 +60,6 @@ USUAL_CONSTANTS = {
 _BOTH = 2
 
 
-#: Moduli of both bodies, as far as they are single values.
 def critical_distance(intensity: float, limit: float, load_ratio: float | None, units: Units) -> float:
     """L of a threshold and a fatigue limit, both ranges; a message tells it, a warning one of no metal."""
     length = (intensity / limit) ** 2 / math.pi
@@ -82,6 +81,7 @@ def critical_distance(intensity: float, limit: float, load_ratio: float | None, 
     return length
 
 
+#: Moduli of both bodies, as far as they are single values.
 _Moduli = tuple[object, object] | None
 _Constants = TypeVar("_Constants", FatigueConstants, ShearConstants)
 

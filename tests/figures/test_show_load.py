@@ -6,21 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import real
 from click.testing import CliRunner
-from real import UNITS
 
 from swtstudy import Study, StudyError, draw_load, read_signal
 from swtstudy.cli import main
 
-RIG = f"""
-title = "A rig"
-{UNITS}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-load = "rig"
-[loads.rig]
+RIG = f"""{real.RIG}[loads.rig]
 file = "rig.csv"
 absolute = true
 recorded_cycles = 3

@@ -9,20 +9,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from real import UNITS
+import real
 
 import swtstudy
 from swtstudy import Study, StudyError, read_signal
 
-RIG = f"""
-title = "A rig"
-{UNITS}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-load = "rig"
-[loads.rig]
+RIG = f"""{real.RIG}[loads.rig]
 file = "rig.csv"
 absolute = true
 """

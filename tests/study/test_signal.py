@@ -8,23 +8,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from real import UNITS
+import real
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
 from swtstudy.study.cycles import drift, harmonics, mean_over, scatter
 from swtstudy.units.loads import mean_of_loads
 
-RIG = f"""
-title = "A rig"
-rtol = 1e-3
-{UNITS}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-load = "rig"
-"""
+RIG = f"rtol = 1e-3{real.RIG}"
 #: A cycle in N, N and MPa.
 CYCLE = np.array(
     [[200, 0, 0], [220, 60, 30], [205, 20, 10], [190, -60, -30], [185, -60, -25], [200, -20, -10]]
