@@ -10,7 +10,7 @@ from swtstudy.vocabulary.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from swtstudy.archive.archive import open_results as open_results
-    from swtstudy.contacts.physical import physical as physical
+    from swtstudy.contacts import physical as physical
     from swtstudy.fields.elements import evaluate_history as evaluate_history
     from swtstudy.fields.elements import read_history as read_history
     from swtstudy.fields.history import criterion_of_history as criterion_of_history
@@ -56,7 +56,7 @@ _HOMES = {
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.archive",
     "optimise": "swtstudy.results.optimise",
-    "physical": "swtstudy.contacts.physical",
+    "physical": "swtstudy.contacts",
     "read_history": "swtstudy.fields.elements",
     "read_signal": "swtstudy.study.signal",
     "read_trace": "swtstudy.study.trace",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
-    from swtstudy.contacts.contact import PhysicalContact
+    from swtstudy.contacts import PhysicalContact
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
 
@@ -238,7 +238,7 @@ class SwtAccessor:
         StudyError
             A ValueError, if the results have no units.
         """
-        from swtstudy.contacts.of_results import contact_of
+        from swtstudy.contacts import contact_of
 
         return contact_of(self._dataset)
 

@@ -15,12 +15,10 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.blocks import sequence_words
-from swtstudy.units.labels import Units
-from swtstudy.units.life import FatigueConstants, ShearConstants
+from swtstudy.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import is_uncounted
-from swtstudy.units.scatter import Scatter
+from swtstudy.units.results import is_uncounted, sequence_words
+from swtstudy.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE

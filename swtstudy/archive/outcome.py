@@ -12,11 +12,9 @@ import xarray as xr
 from swtstudy.points.validity import outside_words, point_words
 from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.blocks import sequence_words
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import measures
-from swtstudy.units.scatter import PERCENTS
-from swtstudy.units.variables import KINDS, LIVES
+from swtstudy.units.results import measures, sequence_words
+from swtstudy.units.variables import KINDS, LIVES, PERCENTS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import CONTACT, has_units

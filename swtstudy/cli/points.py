@@ -11,8 +11,7 @@ import click
 
 from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
 from swtstudy.cli.terminal import fitted, line_length, wrapped
-from swtstudy.units.labels import Units
-from swtstudy.units.rows import rows
+from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
@@ -219,8 +218,8 @@ def _of_study(
     width: Any,
 ) -> Figure:
     """The one contact of a study, in its units if it has them, or a profile of it alone."""
-    from swtstudy.contacts.contact import PhysicalContact
-    from swtstudy.contacts.of_results import one_of_study
+    from swtstudy.contacts import PhysicalContact
+    from swtstudy.study.one_point import one_of_study
     from swtstudy.units.grid import PhysicalGrid
 
     of_shape = _of_shape(values)

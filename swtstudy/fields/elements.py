@@ -17,10 +17,9 @@ from swtstudy.study.contacts import read_given
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import sound_keys, with_keys
 from swtstudy.units.grid import ContactDetails
-from swtstudy.units.labels import Units
 from swtstudy.units.life import ShearConstants
 from swtstudy.units.material import two_of
-from swtstudy.units.rows import OF_BODIES
+from swtstudy.units.rows import OF_BODIES, Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest

@@ -21,7 +21,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
-from swtstudy.contacts.of_results import contact_of
+from swtstudy.contacts import contact_of
 from swtstudy.figures.draw import draw, layout_of
 from swtstudy.figures.inspection import inspect
 from swtstudy.figures.sheet import PANEL

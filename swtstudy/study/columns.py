@@ -9,15 +9,14 @@ import math
 import re
 import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 
 from swtstudy.study.keys import Allowed, Table, key
-from swtstudy.units.labels import KNOWN
+from swtstudy.units.rows import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
@@ -80,8 +79,7 @@ class FileTable(Table):
 PLAIN = FileTable()
 
 
-@dataclass(frozen=True)
-class UserTable:
+class UserTable(NamedTuple):
     """A table from a file.
 
     Attributes
@@ -123,16 +121,16 @@ class UserTable:
         texts = self.texts(name)
         values = np.array([number(text, self.form.decimal) for text in texts])
         if (wrong := np.flatnonzero(~np.isfinite(values))).size:
-            text, allowed = texts[wrong[0]], "a finite number"
-            found = literal(text) if text else "nothing"
+            text, hint = texts[wrong[0]], ""
             if not text:
-                allowed += "; with the header of the time, time = ..., such rows are left out"
+                hint = "; with the header of the time, time = ..., such rows are left out"
             elif "," in text and self.form.decimal == ".":
-                allowed += "; a comma in numbers is decimal = ','"
+                hint = "; a comma in numbers is decimal = ','"
             elif wrong[0] == 0:
-                allowed += "; lines above the header are skip_rows, a row of units is units_row = true"
+                hint = "; lines above the header are skip_rows, a row of units is units_row = true"
             place = f"line {self.cells.index[wrong[0]]}, {self.form.header(name)}"
-            raise StudyError([Mistake(place, found, allowed, self.source)])
+            found = literal(text) if text else "nothing"
+            raise _refused(self.source, found, f"a finite number{hint}", place)
         return values
 
     def values(self, name: str) -> list[object]:
@@ -207,27 +205,22 @@ def read_columns(
         # Such as Bulk, or bulk_stress: left alone it would count as 0.
         if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
             found, allowed = f"the column {literal(alike[0])}", f"{name}, if that is meant, or another name"
-            raise StudyError([Mistake(f"line {table.line}", found, allowed, table.source)])
+            raise _refused(table.source, found, allowed, f"line {table.line}")
     names = [*names, *filter(table.has, optional)]
-    for name in names if labels else ():
-        _check_unit(table, name, (kinds or {}).get(name, ""), labels or {})
+    for name, kind in (kinds or {}).items():
+        if name not in names or name in form.scale or not labels:
+            continue
+        unit, label, units = table.unit(name, kind), str(labels.get(kind)), KNOWN[kind]
+        if unit and label in units and units[unit] != units[label]:
+            found = f"{literal(form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
+            allowed = f"scale = {{ {name} = {units[unit] / units[label]:g} }}"
+            raise _refused(table.source, found, f"{allowed}; {name} = 1 if the unit in the file is wrong")
     empty = (table.cells[[table.headers.index(form.header(name)) for name in names]] == "").any(axis=1)
     if gaps and empty.any() and not empty.all():
         more = f" and {empty.sum() - 1} more" if empty.sum() > 1 else ""
         _tell(table.source, f"line {empty.idxmax()}{more} left out: a value is missing")
-        table = replace(table, cells=table.cells[~empty])
+        table = table._replace(cells=table.cells[~empty])
     return table.numbers(names)
-
-
-def _check_unit(table: UserTable, name: str, kind: str, labels: Mapping[str, Any]) -> None:
-    """Refuse a column in another unit than the study's, unless it is scaled."""
-    unit = table.unit(name, kind) if kind and name not in table.form.scale else None
-    factor = KNOWN[kind][unit] / KNOWN[kind].get(str(labels.get(kind)), math.nan) if unit else 1.0
-    if factor != 1.0 and math.isfinite(factor):
-        header, label = literal(table.form.header(name)), labels[kind]
-        found = f"{header} in {unit} as {name}, while [units] has {kind} in {label}"
-        allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
-        raise StudyError([Mistake("", found, allowed, table.source)])
 
 
 def read_table(
@@ -257,19 +250,30 @@ def read_table(
     try:
         data = read_file(path, LARGEST_TABLE)
     except OSError as error:
-        raise StudyError([Mistake("", reason_of(error), "a CSV file that can be read", source)]) from None
+        raise _refused(source, reason_of(error), _READABLE) from None
     content = _workbook(data, form, source) if data.startswith(b"PK") else _text(data, form, source)
-    form, rows = _header(content, names, known, form, source)
-    (line, headers), *below = rows
-    units = _units(below, [headers.index(form.header(name)) for name in names], form)
+    form, ((line, headers), *below) = _header(content, names, known, form, source)
+    needed = [headers.index(form.header(name)) for name in names]
+    units: list[str] = []
+    if below and form.units_row is not False:
+        # One of units has no number, and numbers are beneath.
+        first, *others = ([cells[k] for k in needed if k < len(cells)] for _, cells in below)
+        numbers = others and all(map(_is_number, others[0])) and not any(map(_is_number, below[0][1]))
+        units = below[0][1] if form.units_row or (any(first) and numbers) else []
     if units and form.units_row is None:
         _tell(source, f"line {below[0][0]} is read as units: {', '.join(filter(None, units))}")
     cells = _cells(content, below[0][0] if units else line, len(headers), form, most, source)
     if form.separator == form.decimal == ",":
         raise StudyError([Mistake("separator, decimal", "both ','", "two different signs")])
     if form.decimal is None:
-        form = form.model_copy(update={"decimal": _decimal(cells, headers, names, form)})
-        if form.decimal == ",":
+        # A comma if numbers have commas, and none has a point.
+        texts = cells[needed or [*range(len(headers))]].head(WITHIN).to_numpy().ravel().tolist()
+        commas, points = (
+            any(re.match(rf"[+-]?\d*{sign}\d", text) for text in texts) for sign in (",", r"\.")
+        )
+        comma = commas and not points and form.separator != ","
+        form = form.model_copy(update={"decimal": "," if comma else "."})
+        if comma:
             _tell(source, "numbers with a comma are read with decimal = ','")
     return UserTable(headers, units, cells, form, source, line)
 
@@ -278,7 +282,10 @@ def _text(data: bytes, form: FileTable, source: str) -> str:
     """The text in a file, its lines ended by newlines."""
     for start, what, way in FORMATS:
         if data.startswith(start):
-            raise StudyError([Mistake("", what, f"a table in a text file: {way}", source)])
+            raise _refused(source, what, f"a table in a text file: {way}")
+    if form.sheet is not None:
+        found = f"{literal(form.sheet)}, and {Path(source).name}, a text file"
+        raise StudyError([Mistake("sheet", found, "a sheet of an Excel workbook only")])
     has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
     encoding = form.encoding or ("utf-16" if has_mark else "utf-8-sig")
     try:
@@ -287,22 +294,17 @@ def _text(data: bytes, form: FileTable, source: str) -> str:
         allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
         raise StudyError([Mistake("encoding", literal(encoding), allowed)]) from None
     except UnicodeDecodeError as error:
-        raise StudyError([_undecoded(data, error, source)]) from None
+        # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
+        line = data.count(b"\n", 0, error.start) + 1
+        begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
+        piece = data[begin : error.start + 8].partition(b"\n")[0]
+        read = literal(piece.decode(ENCODINGS[0], "replace").strip())
+        found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
+        allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"'
+        raise _refused(source, found, f"{allowed}; or the file saved as UTF-8") from None
     if "\0" in text:
-        raise StudyError([Mistake("", "a binary file", "a table in a text file", source)])
+        raise _refused(source, "a binary file", "a table in a text file")
     return io.StringIO(text, newline=None).read()
-
-
-def _undecoded(data: bytes, error: UnicodeDecodeError, source: str) -> Mistake:
-    """Name the line with bytes that cannot be decoded, and what they would be in another encoding."""
-    line = data.count(b"\n", 0, error.start) + 1
-    found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
-    begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
-    end = data.find(b"\n", error.start)
-    piece = data[begin : min(error.start + 8, end if end >= 0 else len(data))]
-    read = literal(piece.decode(ENCODINGS[0], "replace").strip())
-    allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"'
-    return Mistake("", found, f"{allowed}; or the file saved as UTF-8", source)
 
 
 def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
@@ -310,9 +312,7 @@ def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
     import pandas as pd
 
     if b"xl/" not in data:
-        raise StudyError(
-            [Mistake("", "a zip archive", "a table in a text file, or an Excel workbook", source)]
-        )
+        raise _refused(source, "a zip archive", "a table in a text file, or an Excel workbook")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of styles and the like that are not read
@@ -324,13 +324,11 @@ def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
             cells = book.parse(sheet if isinstance(sheet, str) else sheet - 1, header=None, dtype=object)
     except ImportError:
         allowed = f"pip install openpyxl, which reads it; or {FORMATS[0][2]}"
-        raise StudyError([Mistake("", "an Excel workbook", allowed, source)]) from None
+        raise _refused(source, "an Excel workbook", allowed) from None
     except StudyError:
         raise
     except Exception as error:  # a damaged workbook fails anywhere in openpyxl
-        raise StudyError(
-            [Mistake("", f"a workbook that cannot be read ({error})", FORMATS[0][2], source)]
-        ) from None
+        raise _refused(source, f"a workbook that cannot be read ({error})", FORMATS[0][2]) from None
     texts = cells.map(lambda cell: "" if pd.isna(cell) else str(cell).strip())
     texts.index = texts.index + 1
     return texts
@@ -338,23 +336,24 @@ def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
 
 def _rows(content: str | pd.DataFrame, separator: str, skipped: int) -> Iterator[tuple[int, list[str]]]:
     """Rows that are not empty: the number of the last line of each, and its cells."""
-    if not isinstance(content, str):
-        for row in content.iloc[skipped:].itertuples():
-            if any(row[1:]):
-                yield row[0], [_plain(cell) for cell in row[1:]]
-        return
-    lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
-    if separator == " ":
-        lines = (" ".join(line.split()) for line in lines)
-    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-    for cells in reader:
-        if any(map(str.strip, cells)):
-            yield reader.line_num + skipped, [_plain(cell) for cell in cells]
+    if isinstance(content, str):
+        lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
+        if separator == " ":
+            lines = (" ".join(line.split()) for line in lines)
+        reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
+        rows: Iterator[tuple[int, list[str]]] = ((reader.line_num + skipped, cells) for cells in reader)
+    else:
+        rows = ((number, cells) for number, *cells in content.iloc[skipped:].itertuples())
+    return ((number, [*map(_plain, cells)]) for number, cells in rows if any(map(str.strip, cells)))
 
 
 def _plain(cell: str) -> str:
     """A cell in one line, as a header may be given."""
     return " ".join(cell.split())
+
+
+def _is_number(cell: str) -> bool:
+    return any(math.isfinite(number(cell, sign)) for sign in ".,")
 
 
 def _header(
@@ -365,47 +364,43 @@ def _header(
     first: dict[str, list[str]] = {}
     found: dict[str, list[tuple[int, list[str]]]] = {}
     for separator in SEPARATORS:
-        rows = _first_rows(content, separator, form.skip_rows, source)
+        rows: list[tuple[int, list[str]]] = []
+        try:
+            rows.extend(islice(_rows(content, separator, form.skip_rows), WITHIN))
+        except csv.Error as error:  # a stray quote makes the rest one cell
+            if not rows and separator == SEPARATORS[0]:
+                raise _refused(source, str(error), _READABLE) from None
         first[separator] = rows[0][1] if rows else []
         place = next((k for k, (_, cells) in enumerate(rows) if wanted <= {*cells}), None)
         if place is not None:
             found[separator] = rows[place:]
+    likely = max(first, key=lambda each: (each != " ") * len(first[each]))
     if found:
         likely = max(found, key=lambda each: len((wanted | others) & {*found[each][0][1]}))
-    else:
-        likely = max(first, key=lambda each: (each != " ") * len(first[each]))
     separator = form.separator or likely
     if separator not in found:
         wrong = _missing(first[separator], names, form)
         if likely in found or len(first[likely]) >= len(names) > len(first[separator]):
             wrong = f"cells parted by {likely!r}, while separator is {separator!r}", f"separator = {likely!r}"
-        raise StudyError([Mistake(f"line {form.skip_rows + 1}", *wrong, source)])
+        raise _refused(source, *wrong, f"line {form.skip_rows + 1}")
     rows = found[separator][:3]
     line, headers = rows[0]
     if len(headers) > MOST_COLUMNS:
-        raise StudyError([Mistake(f"line {line}", f"more than {MOST_COLUMNS} columns", "fewer", source)])
-    if doubt := _doubt(headers, names, known, form):
-        raise StudyError([Mistake(f"line {line}", *doubt, source)])
+        raise _refused(source, f"more than {MOST_COLUMNS} columns", "fewer", f"line {line}")
+    for other in map(form.header, names):
+        if len(alike := [name for name in names if form.header(name) == other]) > 1:
+            found_twice = f"the column {literal(other)} as {' and '.join(alike)}"
+            raise _refused(source, found_twice, "a column of its own for each", f"line {line}")
+    lower = [header.lower() for header in headers]
+    for name in map(form.header, (*names, *known)):
+        if lower.count(name.lower()) > 1:
+            raise _refused(source, f"the column {name} twice", "each column once", f"line {line}")
     for below, cells in rows[1:]:
         if len(cells) - (cells[-1] == "") > len(headers):
-            raise StudyError([_too_long(len(cells), len(headers), below, source)])
+            raise _too_long(source, len(cells), len(headers), below)
     if first[separator] != headers:
         _tell(source, f"the header is found in line {line}: what is above it is skipped")
     return form.model_copy(update={"separator": separator}), rows
-
-
-def _first_rows(
-    content: str | pd.DataFrame, separator: str, skipped: int, source: str
-) -> list[tuple[int, list[str]]]:
-    """The first rows that are not empty; fewer where a stray quote makes the others one cell."""
-    rows = []
-    try:
-        for row in islice(_rows(content, separator, skipped), WITHIN):
-            rows.append(row)
-    except csv.Error as error:
-        if not rows and separator == SEPARATORS[0]:
-            raise StudyError([Mistake("", str(error), "a CSV file that can be read", source)]) from None
-    return rows
 
 
 def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:
@@ -418,38 +413,6 @@ def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple
         return "an empty file", f"a header{' with ' * bool(names)}{', '.join(names)}, and rows of values"
     allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
     return f"the columns {', '.join(headers)}", allowed
-
-
-def _doubt(
-    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable
-) -> tuple[str, str] | None:
-    """Return what was found in a header and what is allowed, if it leaves a column in doubt."""
-    for other in map(form.header, names):
-        alike = [name for name in names if form.header(name) == other]
-        if len(alike) > 1:
-            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
-    lower = [header.lower() for header in headers]
-    for name in map(form.header, (*names, *known)):
-        if lower.count(name.lower()) > 1:
-            return f"the column {name} twice", "each column once"
-    return None
-
-
-def _units(below: list[tuple[int, list[str]]], columns: list[int], form: FileTable) -> list[str]:
-    """The row beneath the header if it is one of units: it has no number, and numbers are beneath."""
-    if not below or form.units_row is False:
-        return []
-    (_, first), *others = below
-    needed = [[cells[k] for k in columns if k < len(cells)] for _, cells in below]
-    if form.units_row or (
-        others and any(needed[0]) and all(map(_is_number, needed[1])) and not any(map(_is_number, first))
-    ):
-        return first
-    return []
-
-
-def _is_number(cell: str) -> bool:
-    return any(math.isfinite(number(cell, sign)) for sign in ".,")
 
 
 def _cells(
@@ -468,39 +431,32 @@ def _cells(
         try:
             table = pd.read_csv(stream, names=range(width + 1), **options)
         except (pd.errors.ParserError, ValueError) as error:
-            raise StudyError([_unreadable(str(error), width, line, source)]) from None
+            counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", str(error))
+            if counts:
+                raise _too_long(source, int(counts[2]), width, line + int(counts[1])) from None
+            raise _refused(source, str(error).rpartition("C error: ")[2].strip(), _READABLE) from None
         table = table.fillna("").apply(lambda column: column.str.strip())
         table.index = table.index + line + 1
     else:
         table = content.iloc[line:].reindex(columns=range(width + 1), fill_value="")
     if len(table) > most + 1:
-        raise StudyError([Mistake("", f"{len(table)} rows", f"at most {most}", source)])
+        raise _refused(source, f"{len(table)} rows", f"at most {most}")
     table = table[(table != "").any(axis=1)]
     if (table[width] != "").any():
-        raise StudyError([_too_long(width + 1, width, int((table[width] != "").idxmax()), source)])
+        raise _too_long(source, width + 1, width, int((table[width] != "").idxmax()))
     return table
 
 
-def _unreadable(error: str, width: int, line: int, source: str) -> Mistake:
-    """Say in our words what pandas could not read."""
-    counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", error)
-    if counts:
-        return _too_long(int(counts[2]), width, line + int(counts[1]), source)
-    return Mistake("", error.rpartition("C error: ")[2].strip(), "a CSV file that can be read", source)
+_READABLE = "a CSV file that can be read"
 
 
-def _too_long(found: int, width: int, line: int, source: str) -> Mistake:
+def _refused(source: str, found: str, allowed: str, place: str = "") -> StudyError:
+    return StudyError([Mistake(place, found, allowed, source)])
+
+
+def _too_long(source: str, found: int, width: int, line: int) -> StudyError:
     allowed = "as many as columns: a comma between cells, a point in numbers; or say separator and decimal"
-    return Mistake(f"line {line}", f"{found} cells under {width} columns", allowed, source)
-
-
-def _decimal(cells: pd.DataFrame, headers: list[str], names: Sequence[str], form: FileTable) -> str:
-    """The decimal sign of the first rows: a comma if numbers have commas, and none has a point."""
-    columns = [headers.index(form.header(name)) for name in names] or list(range(len(headers)))
-    texts = cells[columns].head(WITHIN).to_numpy().ravel().tolist()
-    commas = any(re.match(r"[+-]?\d*,\d", text) for text in texts)
-    points = any(re.match(r"[+-]?\d*\.\d", text) for text in texts)
-    return "," if commas and not points and form.separator != "," else "."
+    return _refused(source, f"{found} cells under {width} columns", allowed, f"line {line}")
 
 
 def _tell(source: str, words: str) -> None:

@@ -7,14 +7,14 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from swtstudy.units.blocks import Block, wrong_rounds
+from swtstudy.units.life import Block, wrong_rounds
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE
 
 if TYPE_CHECKING:
     from swtstudy.units.grid import ContactDetails
-    from swtstudy.units.labels import Units
+    from swtstudy.units.rows import Units
     from swtstudy.vocabulary.parameter import Parameter
 
 
@@ -81,8 +81,8 @@ def read_given(
         return None, None
     from swtstudy.units.at_rest import Moduli
     from swtstudy.units.grid import ContactDetails
-    from swtstudy.units.labels import Units, read_units
     from swtstudy.units.material import read_material, two_of, warn_of_units
+    from swtstudy.units.rows import Units, read_units
 
     # Wrong units are reported: meanwhile others stand for them.
     units = read_units(raw["units"], report) or Units("the unit of length", "that of force", "that of stress")

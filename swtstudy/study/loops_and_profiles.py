@@ -17,7 +17,7 @@ from swtstudy.study.keys import place_of, read_keys
 from swtstudy.study.signal import BULK, COLUMNS, Signal, SignalTable, signal_from
 from swtstudy.study.tables import LoadTable, ProfileTable
 from swtstudy.study.trace import trace_from
-from swtstudy.units.loads import ANY, ANY_MEASURED
+from swtstudy.units.reading import ANY, ANY_MEASURED
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml

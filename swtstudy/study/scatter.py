@@ -9,7 +9,7 @@ import numpy as np
 
 from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.study.design import DESIGNS, Design, read_distribution
-from swtstudy.units.scatter import SCATTERED, Scatter
+from swtstudy.units.life import SCATTERED, Scatter
 from swtstudy.vocabulary.mistakes import Report, is_seed, is_whole, literal, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 

@@ -10,10 +10,9 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import NUMERIC
 from swtstudy.study.design import DISTRIBUTIONS
 from swtstudy.study.tables import StudyTable
-from swtstudy.units.labels import KNOWN
-from swtstudy.units.labels import UNIT_KINDS as UNITS
 from swtstudy.units.material import KEYS
-from swtstudy.units.rows import NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.units.rows import UNIT_KINDS as UNITS
 from swtstudy.vocabulary.choices import families_with
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES

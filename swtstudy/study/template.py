@@ -11,8 +11,7 @@ from string import Template
 from swtstudy.study.design import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
-from swtstudy.units.labels import Units
-from swtstudy.units.rows import rows
+from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.vocabulary.parameter import Parameter

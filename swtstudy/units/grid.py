@@ -1,36 +1,92 @@
-"""A grid of real contacts, whose points are solved as the non-dimensional ones that they are."""
+"""The door in: a grid of real contacts, whose points are solved as the non-dimensional ones that they are.
+
+A loop that was measured lacks what the parameters of a contact say otherwise: its mean is the mean load. The
+loads of plane contacts are per length, unless their length is given.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+import itertools
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
-from swtstudy.units.blocks import Block
-from swtstudy.units.contacts_at_rest import ContactsAtRest, contacts_at_rest
-from swtstudy.units.labels import Units
-from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.units.loads import ends_of_bulk, labels_of, mean_of_bulk, mean_of_loads
-from swtstudy.units.rows import SIMILAR, rows
-from swtstudy.units.scatter import Scatter
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, is_plane
+from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
+from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
+from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS, STRAIN_SHARE
+from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES, PARAMETERS, STRAIN_SHARE
 from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.units.at_rest import Contact
     from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+
+#: What a contact at rest depends on, and its slip with it.
+AT_REST_NAMES = (
+    *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
+    *("contact_length", *SHAPE_COLUMNS),
+)
+
+
+def are_measured(loads: Sequence[Value]) -> bool:
+    """Return whether there are loads, of which each is a loop that knows its mean normal load."""
+    known = [isinstance(load, Loop) and load.mean_normal is not None for load in loads]
+    return bool(known) and all(known)
+
+
+def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
+    """Which of `MEAN_LOADS` each load has the mean of; None where the load at rest is given by itself."""
+    if {*MEAN_LOADS} & {*given} or not are_measured(loads):
+        return None
+    return "depth" if "normal_amplitude" in given else "normal_force"
+
+
+def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[str, float]:
+    """Factors of the columns of measured loads, unless they are given: the columns are loads themselves.
+
+    Forces, if not told otherwise; beside a depth also a displacement.
+    """
+    found: dict[str, float] = {}
+    if are_measured(loads):
+        if NORMAL_AMPLITUDES.isdisjoint(given):
+            found["normal_force_amplitude"] = LOOP_AMPLITUDE
+        if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
+            kind = "" if "normal_amplitude" in given else "force_"
+            found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
+    return found
+
+
+def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
+    """A constant normal load of plane contacts, unless something is said of it."""
+    silent = NORMAL_AMPLITUDES.isdisjoint(given)
+    return {"normal_force_amplitude": 0.0} if silent and any(map(is_plane, profiles)) else {}
+
+
+def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) -> Units:
+    """The labels of a study with these profiles, in which parameters of some names are given."""
+    per_length = "contact_length" not in given and any(map(is_plane, profiles))
+    return LineUnits(**vars(units)) if per_length else units
+
+
+def mean_of_bulk(ratio: Any, amplitude: Any, least: Any, largest: Any) -> Any:
+    """The mean at which a bulk stress has a ratio of least over largest.
+
+    ``least`` and ``largest`` are the ends of what its amplitude scales.
+    """
+    return amplitude * (ratio * largest - least) / (1.0 - ratio)
 
 
 @dataclass(frozen=True)
@@ -74,6 +130,41 @@ class ContactDetails:
     shear_materials: tuple[ShearConstants, ...] = ()
     findley_limits: tuple[float, ...] = ()
     scatter: Scatter | None = None
+
+
+@dataclass(frozen=True)
+class ContactsAtRest:
+    """The contacts of a grid at rest, over the dimensions that they depend on.
+
+    Attributes
+    ----------
+    dims
+        The dimensions of the grid that they depend on.
+    contacts
+        An array of `Contact` over these dimensions; None where there is none.
+    wrong
+        What is wrong with contacts, and the values of theirs: the first ones.
+    """
+
+    dims: tuple[str, ...]
+    contacts: Any
+    wrong: tuple[tuple[StudyError, dict[str, Value]], ...] = ()
+
+    def each(self, value: Callable[[Contact], float]) -> xr.DataArray:
+        """A number of every contact."""
+        import xarray as xr
+
+        numbers = {id(each): value(each) for each in {id(each): each for each in self.contacts.flat}.values()}
+        found = [numbers[id(each)] for each in self.contacts.flat]
+        return xr.DataArray(np.reshape(np.array(found, float), self.contacts.shape), dims=self.dims)
+
+    def scale(self, name: str) -> xr.DataArray:
+        """One of `SCALES` that is not made of another parameter."""
+        return self.each(SCALES[name].of)
+
+    def shape(self, name: str) -> xr.DataArray:
+        """A non-dimensional shape parameter; 0 where the profile has none of it."""
+        return self.each(lambda contact: contact.shape_parameters.get(name, 0.0))
 
 
 @dataclass(frozen=True)
@@ -122,10 +213,55 @@ class PhysicalGrid(ContactDetails, Grid):
         """See `Grid.row`."""
         return self.rows[name]
 
+    @property
+    def at_rest_dims(self) -> tuple[str, ...]:
+        """The dimensions that its contacts at rest depend on."""
+        varying = {self.dimension(name) for name in AT_REST_NAMES}
+        return tuple(dim for dim in self.dims if dim in varying)
+
     @cached_property
     def at_rest(self) -> ContactsAtRest:
         """The contacts at rest."""
-        return contacts_at_rest(self)
+        dims = self.at_rest_dims
+        shape = tuple(size for dim, size in zip(self.dims, self.shape, strict=True) if dim in dims)
+        values = {name: self.values(name) for name in AT_REST_NAMES if self.values(name)}
+        along = {name: self.dimension(name) for name in values}
+        known: dict[tuple[Value, ...], Contact | None] = {}
+        wrong: list[tuple[StudyError, dict[str, Value]]] = []
+        contacts = np.empty(shape, object)
+        for place in itertools.product(*map(range, shape)):
+            at = dict(zip(dims, place, strict=True))
+            own = {name: each[at[dim] if (dim := along[name]) else 0] for name, each in values.items()}
+            key = tuple(own.values())
+            if key not in known:
+                try:
+                    known[key] = self._contact(own)
+                except StudyError as error:
+                    known[key] = None
+                    wrong.append((error, own))
+            contacts[place] = known[key]
+        return ContactsAtRest(dims, contacts, tuple(wrong))
+
+    def _contact(self, own: Mapping[str, Any]) -> Contact:
+        """The contact with values of `AT_REST_NAMES`."""
+        young, poisson = (
+            self.pairs.get(name) or (float(own[name]),) * 2 for name in ("young_modulus", "poisson_ratio")
+        )
+        profile, length, radius = own["profile"], own.get("contact_length"), own.get("radius")
+        contact = Contact(
+            Moduli(young, poisson),
+            radius=radius,
+            depth=own.get("depth", 1.0),
+            friction=own["friction"],
+            profile=profile,
+            shape={name: own[name] for name in family_of(profile).shape},
+            contact_length=length,
+        )
+        if "normal_force" in own:
+            contact = replace(contact, depth=depth_at(contact, own["normal_force"]))
+        if isinstance(profile, Definition):
+            refuse_beyond(contact.profile, contact.depth)  # type: ignore[arg-type]
+        return contact
 
     @property
     def definitions(self) -> dict[int, Definition]:
@@ -148,7 +284,7 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def bodies(self) -> xr.DataArray:
         """Indices of the bodies of the points, 0 or 1; the first one where they are alike."""
-        return self.along("body").astype(int) - 1 if self.values("body") else _scalar(0)
+        return (self.along("body") - 1 if self.values("body") else _scalar(0)).astype(int)
 
     @cached_property
     def numbers(self) -> dict[str, xr.DataArray]:
@@ -157,19 +293,20 @@ class PhysicalGrid(ContactDetails, Grid):
         found["poisson_ratio"] = self.of_body("poisson_ratio")
         found[STRAIN_SHARE] = self._strain_share
         for column, row in PARAMETERS.items():
-            source = self._source(column)
-            if (
-                row.kind == "number"
-                and column not in found
-                and column in GIVEN_COLUMNS
-                and self.values(source)
-            ):
-                scale = PARAMETERS[source].scale
-                found[column] = _over(
-                    self.along(source), self.at_rest.scale(scale) if scale else _scalar(1.0)
-                )
+            source, known = self._source(column), {*GIVEN_COLUMNS} - {*found}
+            if row.kind == "number" and column in known and self.values(source):
+                scale, values = PARAMETERS[source].scale, self.along(source)
+                unit = self.at_rest.scale(scale) if scale else _scalar(1.0)
+                with np.errstate(divide="ignore", invalid="ignore"):
+                    found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
-            found["normal_sensitivity"] = found["normal_sensitivity"] * self._sensitivity_scale
+            # κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1.
+            one, two = (self.at_rest.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
+            is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
+            scale_of_k = one.where(self.bodies == 0, two).where(
+                self.over_dimension("criterion", is_ours), 1.0
+            )
+            found["normal_sensitivity"] = found["normal_sensitivity"] * scale_of_k
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
             found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
@@ -178,17 +315,11 @@ class PhysicalGrid(ContactDetails, Grid):
             found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
-    @property
-    def _sensitivity_scale(self) -> xr.DataArray:
-        """κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1."""
-        one, two = (self.at_rest.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
-        is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
-        return one.where(self.bodies == 0, two).where(self.over_dimension("criterion", is_ours), 1.0)
-
     def ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
-        """See `ends_of_bulk`, over the loads."""
-        ends = np.array([ends_of_bulk(load) for load in self.values("load")])
-        least, largest = (self.over_dimension("load", each) for each in ends.T)
+        """Least and largest value of what the amplitude of the bulk stress scales, over the loads."""
+        loads = self.values("load")
+        ends = [(load.bulk_ends or (0.0, 0.0)) if isinstance(load, Loop) else (-1.0, 1.0) for load in loads]
+        least, largest = (self.over_dimension("load", each) for each in np.array(ends).T)
         return least, largest
 
     def of_both(self, name: str) -> list[tuple[float, float]]:
@@ -198,12 +329,10 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def of_body(self, name: str) -> xr.DataArray:
         """A parameter of the bodies, of each point's own body."""
-        import xarray as xr
-
         if name not in self.pairs:
             return self.along(name)
-        of_both = np.array(self.pairs[name])[self.bodies.values]
-        return xr.DataArray(of_both, dims=self.bodies.dims)
+        one, two = self.pairs[name]
+        return _scalar(one).where(self.bodies == 0, two)
 
     @cached_property
     def _codes_over(self) -> dict[str, tuple[tuple[str, ...], NDArray]]:
@@ -218,8 +347,7 @@ class PhysicalGrid(ContactDetails, Grid):
                 profiles = np.array([code_of(contact.pure_profile, name) for contact in contacts.flat])
                 found[name] = self.at_rest.dims, profiles.reshape(contacts.shape)
             else:
-                dim = self.dimension(self._source(name))
-                codes = self._codes[name]
+                dim, codes = self.dimension(self._source(name)), self._codes[name]
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
         return found
 
@@ -245,13 +373,11 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def curvatures(self) -> FloatArray:
         """a_H/R of each point; tables have the R of the paraboloid with their a and δ0. Shape (size,)."""
-        return self._of_points(
-            self.at_rest.each(
-                lambda contact: (
-                    contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
-                )
-            )
-        )
+
+        def of(contact: Contact) -> float:
+            return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
+
+        return self._of_points(self.at_rest.each(of))
 
     @property
     def slip_scales(self) -> FloatArray:
@@ -296,13 +422,6 @@ class PhysicalGrid(ContactDetails, Grid):
             return super().distances(asked)
         length = self._of_points(self.at_rest.scale("a_H"))
         return rounded(np.array(asked.distances) / length[:, None])
-
-
-def _over(values: xr.DataArray, scale: xr.DataArray) -> xr.DataArray:
-    """A ratio, 0 for nothing over nothing."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = values / scale
-    return ratio.where((values != 0.0) | (scale != 0.0), 0.0)
 
 
 def _scalar(value: float) -> xr.DataArray:

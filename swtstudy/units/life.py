@@ -1,23 +1,24 @@
-"""From SWT or the Fatemi–Socie parameter to cycles, and to rounds of several, by strain–life constants."""
+"""From SWT or the Fatemi–Socie parameter to load cycles, by strain–life constants, which may scatter."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.units.labels import wrong_size
+from swtstudy.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
-#: Newton steps: the logarithm of the relation is convex and monotone, so that they cannot miss.
-_STEPS = 60
+#: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
+#: the last step of a logarithm, whose square is beyond rounding.
+_STEPS, _ROUNDING = 60, 1e-9
 #: What a life is one of, in comments of data variables.
 ROUNDS = (
     "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
@@ -140,33 +141,49 @@ class FatigueConstants:
         >>> float(steel.rounds(steel.swt(1e5), [[1.0, 0.9]], [[4.0, np.nan]]).round())
         25000.0
         """
-        return rounds(self.cycles, swt, counted, counted_number, "swt")
+        return rounds(*self._terms, swt, counted, counted_number, "swt")
 
 
-def rounds(
-    cycles: Callable[[Any], FloatArray], value: Any, counted: Any, counted_number: Any, name: str
-) -> Any:
-    """See `FatigueConstants.rounds`; the cycles at a value, which has a name, are given by a function."""
+def rounds(level: FloatArray, slopes: FloatArray, value: Any, counted: Any, number: Any, name: str) -> Any:
+    """See `FatigueConstants.rounds`: of terms of a strength, and a value that has a name."""
     import xarray as xr
 
     if not isinstance(value, xr.DataArray):
-        return _rounds(cycles, not_negative(name, value), np.asarray(counted), np.asarray(counted_number))
+        return lives(level, slopes, not_negative(name, value), np.asarray(counted), np.asarray(number))
     dims = (*value.dims, *COUNTED_SIZES)
-    both = (each.broadcast_like(value).transpose(*dims).values for each in (counted, counted_number))
-    return value.copy(data=_rounds(cycles, not_negative(name, value.values), *both))
+    both = (each.broadcast_like(value).transpose(*dims).values for each in (counted, number))
+    return value.copy(data=lives(level, slopes, not_negative(name, value.values), *both))
 
 
-def _rounds(
-    cycles: Callable[[Any], FloatArray], value: FloatArray, counted: FloatArray, number: FloatArray
-) -> FloatArray:
-    """`rounds` of arrays."""
-    each = value[..., None, None] * counted
-    known = np.broadcast_to((counted > 0.0) & (number > 0.0), each.shape)
-    damage = np.zeros(each.shape)
-    with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
-        damage[known] = np.broadcast_to(number, each.shape)[known] / cycles(each[known])
-        lives = 1.0 / damage.sum(axis=-1).max(axis=-1)
-    return np.where(known.any(axis=(-2, -1)), lives, cycles(value))
+def lives(level: FloatArray, slopes: FloatArray, value: FloatArray, *counted: FloatArray) -> FloatArray:
+    """Rounds of the load to the initiation of a crack, see `FatigueConstants.rounds`.
+
+    Parameters
+    ----------
+    level, slopes
+        Both terms of the strength over the logarithm of 2N, shape (2,), or (n, 2) for n draws of constants.
+    value
+        Values ≥ 0 of the criterion, of any shape.
+    counted
+        None, or the ratios of counted cycles to the value, and their numbers, along two more axes.
+
+    Returns
+    -------
+    array
+        Of the shape of ``value``, behind that of the draws.
+    """
+    of_draws = level.shape[:-1]
+    level, slopes, flat = level[..., None, :], slopes[..., None, :], value.reshape(-1)
+    found = life(level, slopes, flat)
+    if counted:
+        shape = (*value.shape, *counted[0].shape[-2:])
+        ratio, number = (np.broadcast_to(v, shape).reshape(flat.size, *shape[-2:]) for v in counted)
+        known = (ratio > 0.0) & (number > 0.0)
+        damage = np.zeros((*of_draws, *known.shape))
+        with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
+            damage[..., known] = number[known] / life(level, slopes, (flat[:, None, None] * ratio)[known])
+            found = np.where(known.any(axis=(-2, -1)), 1.0 / damage.sum(axis=-1).max(axis=-1), found)
+    return found.reshape((*of_draws, *value.shape))
 
 
 def not_negative(name: str, values: object) -> FloatArray:
@@ -184,19 +201,21 @@ def at_cycles(level: FloatArray, slopes: FloatArray, cycles: ArrayLike) -> Float
         return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
 
 
-def life(level: FloatArray, slopes: FloatArray, value: FloatArray, steps: int = _STEPS) -> FloatArray:
-    """The inverse of `at_cycles` for values ≥ 0, by so many Newton steps; its arrays are broadcast."""
+def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray:
+    """The inverse of `at_cycles` for values ≥ 0, by Newton steps; its arrays are broadcast."""
     with np.errstate(divide="ignore"):
         level = level - np.log(value)[..., None]
     # Each term alone gives too short a life: from there Newton's steps only go up.
     x = np.max(-level / slopes, axis=-1)
     known = np.isfinite(x)[..., None]
-    for _ in range(steps):
+    for _ in range(_STEPS):
         # Of both terms over the value the larger one is near 1: nothing overflows.
         terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
         total = terms.sum(axis=-1)
         step = np.log(total) * total / (terms * slopes).sum(axis=-1)
         x = np.where(known[..., 0], x - step, x)
+        if not (np.abs(step) > _ROUNDING)[known[..., 0]].any():
+            break
     with np.errstate(over="ignore"):
         return np.asarray(0.5 * np.exp(x))
 
@@ -280,4 +299,79 @@ class ShearConstants:
 
     def rounds(self, parameter: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack, as `FatigueConstants.rounds`."""
-        return rounds(self.cycles, parameter, counted, counted_number, "parameter")
+        return rounds(*self._terms, parameter, counted, counted_number, "parameter")
+
+
+#: Constants that may scatter, in the order of `FatigueConstants`.
+SCATTERED = ("strength", "strength_exponent", "ductility", "ductility_exponent")
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Draws of constants of the materials of both bodies.
+
+    Attributes
+    ----------
+    names
+        The constants that scatter, of `SCATTERED`.
+    draws
+        The values of each, all of one length.
+    target
+        A life in load cycles, before which the probability of a crack is asked for; 0 for none.
+    """
+
+    names: tuple[str, ...]
+    draws: tuple[tuple[float, ...], ...]
+    target: float = 0.0
+
+    def terms(self, constants: FatigueConstants) -> tuple[FloatArray, FloatArray]:
+        """Levels and slopes of both terms of the life over the logarithm of 2N, each of shape (n, 2)."""
+        own = dict(zip(self.names, np.array(self.draws), strict=True))
+        every = (own.get(n, np.full(len(self.draws[0]), getattr(constants, n))) for n in SCATTERED)
+        strength, b, ductility, c = every
+        level = 2.0 * np.log(strength) - np.log(constants.young_modulus), np.log(strength) + np.log(ductility)
+        return np.stack(level, axis=-1), np.stack([2.0 * b, b + c], axis=-1)
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rounds of one load within a sequence that repeats, for Miner's sum.
+
+    Attributes
+    ----------
+    load
+        Name of the load.
+    rounds
+        How many in each repetition of the sequence.
+    """
+
+    load: str
+    rounds: float
+
+
+def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
+    """Return the mistake in a number of rounds."""
+    sound = 0.0 < plain_number(rounds) < math.inf
+    return [] if sound else [Mistake(key, literal(rounds), "a positive number of rounds")]
+
+
+def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tuple[Block, ...]:
+    """Blocks of some rounds of each of the loads, by their names.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake in them; also if one of the loads is in no block.
+    """
+    known, report = list(map(str, loads)), Report()
+    if not isinstance(rounds, Mapping):
+        report("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
+        report.refuse()
+    report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
+    for name, number in rounds.items():
+        report += wrong_rounds(number, f"blocks.{name}")
+    if left := [name for name in known if name not in rounds]:
+        found = f"no rounds of {', '.join(map(literal, left))}"
+        report("blocks", found, "rounds of each load, or none of these loads")
+    report.refuse()
+    return tuple(Block(name, plain_number(number)) for name, number in rounds.items())

@@ -15,8 +15,8 @@ from typing import Any, TypeVar
 
 from swtstudy.points.values import read_exact
 from swtstudy.units.grid import ContactDetails
-from swtstudy.units.labels import KNOWN, Units, wrong_size
 from swtstudy.units.life import FatigueConstants, ShearConstants
+from swtstudy.units.rows import KNOWN, Units, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, meant, nearest, plain_number
 

@@ -9,30 +9,30 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
 from swtstudy.points.shapes import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
-from swtstudy.units.bodies import LABELS, labels_or
 from swtstudy.units.contacts_at_rest import check_contacts, check_distances
-from swtstudy.units.grid import ContactDetails, PhysicalGrid
-from swtstudy.units.loads import (
-    ANY,
-    ANY_MEASURED,
-    check_lengths,
+from swtstudy.units.grid import (
+    ContactDetails,
+    PhysicalGrid,
     labels_of,
     mean_of_loads,
     measured_amplitudes,
     still_load,
 )
 from swtstudy.units.rows import (
+    LABELS,
     MEAN_LOADS,
     NAMES_KEY,
     NOTICEABLE_MISMATCH,
     OF_BODIES,
     SIMILAR_KEY,
+    labels_or,
     rows,
     wrong_mean_load,
 )
@@ -42,6 +42,10 @@ from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
+
+#: Loads that stand for wrong ones: one in shares of the mean load, and one that was measured.
+ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
+ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
 
 
 def read_contacts(
@@ -60,7 +64,12 @@ def read_contacts(
     """
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
-    profiles = _profiles(everything, known)
+    raw = everything.get("profile", PARAMETERS["profile"].default)
+    tables = known.get("profile", {})
+    profiles = [
+        tables.get(each, each) if isinstance(each, str) else each
+        for each in (raw if isinstance(raw, list | tuple) else [raw])
+    ]
     labels = labels_of(given.units, profiles, everything)
     own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, report)
@@ -72,7 +81,7 @@ def read_contacts(
         single, axes, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
     )
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    check_lengths(profiles, everything, report)
+    _check_lengths(profiles, everything, report)
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     _check_given(everything, good, own, report)
     check_amplitudes(everything, good, report)
@@ -109,6 +118,19 @@ def _check_units_of_criteria(
         report("material", "shear constants alone", allowed)
 
 
+def _check_lengths(profiles: Sequence[object], given: Collection[str], report: Report) -> None:
+    """A depth of plane contacts, a length where none has one, and none where loads need it."""
+    plane, length = [is_plane(profile) for profile in profiles], "contact_length"
+    if any(plane) and "depth" in given:
+        why = "a plane contact has no depth, only a load"
+        report.of("depth", "a depth with a plane profile", f"normal_force: {why}")
+    if length in given and not any(plane):
+        report.of(length, "a length without a plane profile", "only with profiles such as cylinder")
+    if any(plane) and not all(plane) and length not in given:
+        allowed = "the length of the plane contacts: beside axisymmetric ones their loads are forces"
+        report.of(length, "nothing", allowed)
+
+
 def completed(
     fixed: dict[str, Value], axes: NamedValues, samples: NamedValues, about: ContactDetails
 ) -> PhysicalGrid:
@@ -133,9 +155,12 @@ def completed(
     fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
     own = {name: fixed[name] for name in table if name in fixed}
     grid = PhysicalGrid(own, dict(axes), dict(samples), **vars(about))
-    if "body" in given or not _differ(grid):
-        return grid
-    return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, about)
+    # Bodies with different s, SWT or cycles are both there.
+    pulled = any(v != 0.0 for n in ("bulk_stress_amplitude", "bulk_stress_mean") for v in grid.values(n))
+    of_both = (grid.materials, grid.yield_strengths, grid.shear_materials, grid.findley_limits)
+    if "body" not in given and (grid.pairs or pulled or any(len({*each}) > 1 for each in of_both)):
+        return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, about)
+    return grid
 
 
 def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
@@ -154,21 +179,6 @@ def _body_names(single: dict[str, object], given: tuple[str, ...], report: Repor
             report.of("body", literal(body), labels_or(names))
         single["body"] = names.index(body) + 1 if body in names else 1
     return names
-
-
-def _profiles(everything: Mapping[str, Any], known: Known) -> list[object]:
-    """The profiles that are given, as far as they can be told."""
-    raw = everything.get("profile", PARAMETERS["profile"].default)
-    several = raw if isinstance(raw, list | tuple) else [raw]
-    return [known.get("profile", {}).get(each, each) if isinstance(each, str) else each for each in several]
-
-
-def _differ(grid: PhysicalGrid) -> bool:
-    """Return whether the two bodies have different s, SWT or cycles."""
-    bulk = ("bulk_stress_amplitude", "bulk_stress_mean")
-    pulled = any(value != 0.0 for name in bulk for value in grid.values(name))
-    properties = grid.materials, grid.yield_strengths, grid.shear_materials, grid.findley_limits
-    return bool(grid.pairs) or pulled or any(len({*of_both}) > 1 for of_both in properties)
 
 
 def _pairs(

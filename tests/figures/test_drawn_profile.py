@@ -11,7 +11,7 @@ from oracles import profiles as oracle
 
 import swtstudy
 from swtstudy.cli import main
-from swtstudy.contacts.measured import InUnits
+from swtstudy.contacts import PhysicalContact
 from swtstudy.figures.profile import draw_profile
 
 
@@ -137,7 +137,9 @@ def test_the_command_draws_a_table_with_a_study(tmp_path, monkeypatch):
     np.savetxt("tip.csv", table, delimiter=",", header="radius,height", comments="")
     Path("rig.toml").write_text(STUDY, encoding="utf-8")
     drawn = []
-    monkeypatch.setattr(InUnits, "draw_profile", lambda contact, *_: drawn.append(contact) or Figure())
+    monkeypatch.setattr(
+        PhysicalContact, "draw_profile", lambda contact, *_: drawn.append(contact) or Figure()
+    )
     arguments = ["show", "rig.toml", "--profile", "tip.csv", "--smoothing", "2e-5"]
     done = CliRunner().invoke(main, arguments)
     assert done.exit_code == 0, done.stderr

@@ -13,7 +13,7 @@ import real
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
 from swtstudy.study.cycles import drift, harmonics, mean_over, scatter
-from swtstudy.units.loads import mean_of_loads
+from swtstudy.units.grid import mean_of_loads
 
 RIG = f"rtol = 1e-3{real.RIG}"
 #: A cycle in N, N and MPa.

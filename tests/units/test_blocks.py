@@ -14,7 +14,7 @@ from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results
 from swtstudy.archive.describe import describe
 from swtstudy.reports.findings import sentences
 from swtstudy.runner.work import assess
-from swtstudy.units.blocks import sequence_words
+from swtstudy.units.results import sequence_words
 from swtstudy.vocabulary.wording import number_words
 
 RIG = f"""

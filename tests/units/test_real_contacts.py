@@ -9,7 +9,7 @@ from scipy import constants
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
 from swtstudy.archive.recall import grid_of
-from swtstudy.units.labels import KNOWN
+from swtstudy.units.rows import KNOWN
 
 RIG = {
     "young_modulus": 73.1e3,

@@ -17,9 +17,8 @@ from scipy.integrate import trapezoid
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.units.at_rest import Moduli
-from swtstudy.units.labels import wrong_size
 from swtstudy.units.life import UNCOUNTED
-from swtstudy.units.rows import SCALES
+from swtstudy.units.rows import SCALES, wrong_size
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 LABELLED = xr.DataArray([0.1, 0.2], {"body": [1, 2]})

@@ -11,9 +11,8 @@ from swtstudy import Study, StudyError, physical
 from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
 from swtstudy.cli import main
-from swtstudy.contacts.contact import PhysicalContact
-from swtstudy.contacts.measured import InUnits
-from swtstudy.contacts.of_results import one_of_study
+from swtstudy.contacts import PhysicalContact
+from swtstudy.study.one_point import one_of_study
 from swtstudy.study.writing import to_toml
 
 RIG = {
@@ -258,7 +257,7 @@ def test_the_command_shows_a_study(tmp_path, monkeypatch):
         shown.update(contact.parameters(body), body=body)
         return Figure()
 
-    monkeypatch.setattr(InUnits, "inspect", inspect)
+    monkeypatch.setattr(PhysicalContact, "inspect", inspect)
     done = CliRunner().invoke(
         main, [*given, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2"]
     )

@@ -1,42 +1,24 @@
-"""The contacts of results, and one point of a study."""
+"""One point of a study file, for commands that look at one."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
-import xarray as xr
-
-from swtstudy.archive.recall import grid_of
-from swtstudy.contacts.contact import PhysicalContact
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.study.contacts import rows_of
 from swtstudy.study.definition import sample_of, study_from, tables_of, with_loads
 from swtstudy.study.shipped import find_study
 from swtstudy.study.tables import read_structure
-from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.labels import read_units
 from swtstudy.units.material import STRENGTH
-from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON
+from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, read_units
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 from swtstudy.vocabulary.quantities import DISTANCE
 
-
-def contact_of(dataset: xr.Dataset) -> PhysicalContact:
-    """The contacts of results.
-
-    Raises
-    ------
-    StudyError
-        If they have no units, or what a contact needs has been dropped.
-    """
-    grid = grid_of(dataset)
-    if not isinstance(grid, PhysicalGrid):
-        raise StudyError([Mistake("units", "results without units", "those of a study with [units]")])
-    return PhysicalContact(grid)
+#: What a study has that is nothing of one contact.
+_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
 
 
 def one_of_study(
@@ -72,11 +54,25 @@ def one_of_study(
     replaced = {*values}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
     loads = [block["load"] for block in raw.get("blocks", ())]
     fixed, axes = with_loads(raw.get("fixed", {}), raw.get("axes", {}), loads)
-    values, profiles = _with_profile(values, fixed, raw.get("profiles", {}), smoothing)
+    profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
+    if Path(name).suffix == ".csv":
+        profiles[Path(name).stem] = {"file": str(Path(name).resolve())}
+        name = Path(name).stem
+        values = {**values, "profile": name}
+    if smoothing is not None:
+        if not isinstance(profiles.get(name), dict):
+            raise StudyError([Mistake("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")])
+        profiles[name] = {**profiles[name], "smoothing": smoothing}
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
-    replaced |= _not_of(values)
-    firsts = _firsts(axes, raw, Path(path).parent)
+    if "profile" in values:  # what the profile does not have
+        replaced |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
+    if "criterion" in values:
+        replaced |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
+    firsts = {name: _first(axis) for name, axis in axes.items() if name not in (DISTANCE, "body")}
+    units = read_units(raw["units"], Report()) if isinstance(raw.get("units"), dict) else None
+    sample, sampled = sample_of(raw, Path(path).parent, {}, Report(), rows_of(units))
+    firsts |= {name: sample.values[name][0] if sample else None for name in sampled}
     several = {name: first for name, first in firsts.items() if name not in replaced}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
@@ -98,49 +94,8 @@ def one_of_study(
     return study_from(kept, "", path, Path(path).parent).grid
 
 
-def _firsts(axes: Mapping[str, Any], raw: Mapping[str, Any], folder: Path) -> dict[str, object]:
-    """The first value of each axis of a study, and of each parameter that it samples."""
-    found = {name: _first(axis) for name, axis in axes.items() if name not in (DISTANCE, "body")}
-    units = read_units(raw["units"], Report()) if isinstance(raw.get("units"), dict) else None
-    sample, names = sample_of(raw, folder, {}, Report(), rows_of(units))
-    return found | {name: sample.values[name][0] if sample else None for name in names}
-
-
 def _first(axis: object) -> object:
     """The first value of an axis as a study has it: a list, or a range."""
     if isinstance(axis, dict):
         return axis.get("start")
     return axis[0] if isinstance(axis, list) and axis else axis
-
-
-#: What a study has that is nothing of one contact.
-_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
-
-
-def _not_of(values: Mapping[str, object]) -> set[str]:
-    """Parameters that a profile or a criterion does not have, if it is among these values."""
-    names: set[str] = set()
-    if "profile" in values:
-        names |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
-    if "criterion" in values:
-        names |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
-    return names - values.keys()
-
-
-def _with_profile(
-    values: Mapping[str, object], fixed: Mapping[str, Any], tables: Mapping[str, Any], smoothing: float | None
-) -> tuple[Mapping[str, object], dict[str, Any]]:
-    """The values with the name of the profile, and the study's tables of profiles with that of a file."""
-    profiles = dict(tables)
-    name = values.get("profile", fixed.get("profile"))
-    if Path(str(name)).suffix == ".csv":
-        path = Path(str(name))
-        name = path.stem
-        profiles[name] = {"file": str(path.resolve())}
-        values = {**values, "profile": name}
-    if smoothing is None:
-        return values, profiles
-    if not isinstance(profiles.get(str(name)), dict):
-        raise StudyError([Mistake("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")])
-    profiles[str(name)] = {**profiles[str(name)], "smoothing": smoothing}
-    return values, profiles

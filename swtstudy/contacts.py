@@ -1,0 +1,809 @@
+"""Real contacts in physical units: their parameters, fields, SWT and lives, and results of both bodies."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.validity import validity_lines
+from swtstudy.points.values import as_number
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.solving import dimensions_of, solve_grid, spanned
+from swtstudy.units.at_rest import Contact, Moduli
+from swtstudy.units.contacts_at_rest import check_distances
+from swtstudy.units.grid import ContactDetails, PhysicalGrid, mean_of_bulk
+from swtstudy.units.life import (
+    ROUNDS,
+    UNCOUNTED,
+    Block,
+    FatigueConstants,
+    ShearConstants,
+    checked_blocks,
+    not_negative,
+)
+from swtstudy.units.material import warn_of_units
+from swtstudy.units.measured import Measured, headline, words_of
+from swtstudy.units.reading import completed, read_contacts
+from swtstudy.units.rows import (
+    LABELS,
+    NAMES_KEY,
+    ONE_OF,
+    SIMILAR,
+    SIMILAR_KEY,
+    Units,
+    checked_body,
+    length_of,
+    rows,
+    wrong_size,
+)
+from swtstudy.units.variables import KINDS, NAMES, variables
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.choices import FINDLEY, SWT, family_of, is_plane, is_profile
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    DEFAULT_RTOL,
+    Mistake,
+    Report,
+    StudyError,
+    is_rtol,
+    literal,
+    plain_number,
+)
+from swtstudy.vocabulary.naming import with_parameters
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, YIELD, Request, read_quantities
+from swtstudy.vocabulary.wording import html_table
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from swtstudy.figures.quantity_words import Label
+    from swtstudy.figures.sheet import Width
+    from swtstudy.figures.style import Style
+
+    #: Values with names for their dimensions keep them.
+    Values = FloatArray | xr.DataArray
+
+#: What a contact is at rest.
+AT_REST = (
+    *("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure", "length_scale"),
+    *("slip_scale", "stress_scale", "swt_scale", "work_scale", "force_factor"),
+)
+#: Attributes of SWT and of lives.
+_SWT = {
+    "long_name": "Smith-Watson-Topper parameter of the body",
+    "units": "unit of stress of the moduli",
+    "symbol": r"\mathrm{SWT}",
+}
+_CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
+
+
+@lru_cache(maxsize=8)
+def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
+    """`TabulatedProfile.scaled`, whose fit takes time."""
+    return table.scaled(length, depth)
+
+
+@dataclass(frozen=True, repr=False)
+class PhysicalContact:
+    """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
+
+    Each parameter is an attribute, None where another one is given in its place; so is what the contact is
+    at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
+    at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
+    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale``, the unit of the work of friction,
+    and ``force_factor``, the force over E* δ0 a_H. Of several contacts these are DataArrays over the
+    dimensions on which they depend.
+
+    Attributes
+    ----------
+    grid
+        Their parameters; the bodies, 1 and 2, are the last dimension unless one of them is asked for.
+    """
+
+    grid: PhysicalGrid
+
+    def __repr__(self) -> str:
+        several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
+        words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
+        count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
+        rows = [*self._words()]
+        wide = [max(len(row[column]) for row in rows) for column in range(3)]
+        lines = (
+            f"  {kind:<{wide[0]}}  {name:<{wide[1]}}  {value:>{wide[2]}}  {meaning}".rstrip()
+            for kind, name, value, meaning in rows
+        )
+        return "\n".join((f"<PhysicalContact: {count}{words}>", *lines))
+
+    def _repr_html_(self) -> str:
+        """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
+        return f"<div><b>Real contact</b>, in any consistent set of units{html_table(self._words())}</div>"
+
+    def _words(self) -> Iterator[tuple[str, str, str, str]]:
+        single = self.grid.dims in ((), ("body",))
+        return words_of(self.grid, self.parameters(self.grid.bulk_stress_body + 1) if single else {})
+
+    def __getattr__(self, name: str) -> Any:
+        if name in AT_REST:
+            return self._plain(self.grid.at_rest.each(lambda contact: getattr(contact, name)))
+        if name == "grid" or name not in self.grid.rows:
+            raise AttributeError(f"a contact has no {name!r}")
+        values = self.grid.values(name)
+        if name == "bulk_stress_mean" and self.grid.values("bulk_stress_ratio"):
+            ratio, amplitude = map(self.grid.along, ("bulk_stress_ratio", "bulk_stress_amplitude"))
+            return self._plain(mean_of_bulk(ratio, amplitude, *self.grid.ends_of_bulk()))
+        if len(values) < 2:
+            return values[0] if values else None
+        if self.grid.row(name).kind == "name":
+            return self._plain(self.grid.over_dimension(name, np.array(values, object)))
+        return self._plain(self.grid.along(name))
+
+    def _plain(self, values: xr.DataArray) -> Any:
+        """A number that does not vary as one of Python's, others with the values of their dimensions."""
+        names = {dim: self.grid.values(str(dim)) for dim in values.dims}
+        labels = {
+            dim: [
+                str(value) if isinstance(value, str | Definition) else as_number(value) for value in several
+            ]
+            for dim, several in names.items()
+        }
+        return values.assign_coords(labels) if labels else values.item()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *AT_REST, *self.grid.rows]
+
+    @property
+    def moduli(self) -> Moduli:
+        """Elastic constants of the two bodies."""
+        return next(iter(self.grid.at_rest.contacts.flat)).moduli
+
+    @property
+    def shape(self) -> dict[str, Any]:
+        """Shape parameters of the profile, lengths but for the exponent."""
+        profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
+        return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
+
+    def with_parameters(self, **parameters: Any) -> PhysicalContact:
+        """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake in the parameters.
+        """
+        if "poisson_ratio" in parameters:
+            raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
+        rest, grid = self._one, self.grid
+        profile = parameters.get("profile", rest.profile)
+        kept = family_of(profile).shape if isinstance(profile, Definition) or is_profile(profile) else ()
+        every = self.parameters(grid.bulk_stress_body + 1)
+        own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
+        replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
+        own = {name: value for name, value in own.items() if name not in replaced}
+        found, report = read_grid({**own, **parameters}, {})
+        if found is None:
+            raise StudyError(report)
+        fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
+        if "profile" not in parameters:
+            fixed["profile"] = rest.profile
+        elif isinstance(fixed["profile"], TabulatedProfile):
+            fixed["profile"] = _scaled(fixed["profile"], 1.0 / rest.length_scale, 1.0 / rest.depth)
+        contact = replace(rest, friction=fixed["friction"], profile=fixed["profile"], shape={})
+        shape = family_of(contact.profile).shape
+        # In the order of the table: a length may be measured in the one before it.
+        for name in sorted(fixed, key=[*PARAMETERS].index):
+            if PARAMETERS[name].scale:
+                fixed[name] = length_of(name, fixed[name], contact)
+            if name in shape:
+                contact = replace(contact, shape={**contact.shape, name: fixed[name]})
+        bodies = ("young_modulus", "poisson_ratio", "radius", "body")
+        fixed |= {name: value for name, value in grid.fixed.items() if name in bodies}
+        axes = {name: values for name, values in grid.axes.items() if name == "body"}
+        return PhysicalContact(completed(fixed | {"depth": rest.depth}, axes, {}, grid.about))
+
+    def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
+        """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
+
+        Parameters
+        ----------
+        s
+            From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
+            DataArray with the coordinate ``body``, such as `solve` gives, each value is that of its body.
+            Of several contacts a DataArray over their dimensions.
+        body
+            1 or 2, the body that has this s. Needed where the bodies differ and s does not say it.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not said which body has this s, or s is negative or no number.
+        """
+        return self._swt(s, self._bodies_of(s, self.moduli.alike, body))
+
+    def cycles(
+        self,
+        constants: FatigueConstants | Sequence[FatigueConstants],
+        s: ArrayLike | xr.DataArray,
+        body: int | None = None,
+        counted: xr.Dataset | None = None,
+    ) -> Values:
+        """Rounds of the load to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+
+        Parameters
+        ----------
+        constants
+            Of both bodies, or a pair for bodies of different materials.
+        s, body
+            As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+        counted
+            Results with counted and counted_number, as of `solve` with constants, with which s is a
+            DataArray; unless it is given a round counts as one strain cycle.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, as of `swt`, or if the constants are none.
+        """
+        report = Report()
+        both = _of_both("constants", constants, FatigueConstants, report)
+        report.refuse()
+        bodies = self._bodies_of(s, self.moduli.alike and both[0] == both[1], body)
+        swt = self._swt(s, bodies)
+        if counted is None:
+            one, two = (each.cycles(np.asarray(swt)) for each in both)
+        else:
+            one, two = (np.asarray(each.rounds(swt, *(counted[name] for name in COUNTED))) for each in both)
+        words = _CYCLES | {"comment": UNCOUNTED if counted is None else ROUNDS}
+        return _labelled("cycles", np.where(bodies == 1, two, one), swt, words)
+
+    def _swt(self, s: ArrayLike | xr.DataArray, bodies: IndexArray) -> Values:
+        """SWT from s of bodies, 0 or 1, with the SWT scale of the half-space with E*."""
+        import xarray as xr
+
+        scale = self.swt_scale
+        shares = np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])[bodies]
+        with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
+            swt: Any = _labelled("SWT", not_negative("s", s) * shares, s, _SWT) * scale
+        if isinstance(s, xr.DataArray) and np.ndim(scale):
+            return swt.transpose(*s.dims, ...).rename("SWT").assign_attrs(_SWT)
+        return swt
+
+    def _bodies_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> IndexArray:
+        """The index of the body of each value, 0 or 1, broadcastable to the shape of the values.
+
+        Raises
+        ------
+        StudyError
+            If no s of the contacts is of SWT; if ``body`` and the coordinate ``body`` name it both, or
+            neither and the bodies are not ``alike``.
+        """
+        import xarray as xr
+
+        names = [str(each) for each in self.grid.values("criterion")]
+        if SWT not in names:
+            allowed = f"{SWT}; of others solve() has the values in units"
+            raise StudyError([Mistake("criterion", ", ".join(names), allowed)])
+        if isinstance(s, xr.DataArray) and "body" in s.coords:
+            if body is not None:
+                raise StudyError([Mistake("body", literal(body), "nothing, since s has the coordinate body")])
+            if not np.isin(s.body, LABELS).all():
+                found = f"the coordinate {literal(s.body.values.tolist())}"
+                raise StudyError([Mistake("body", found, "1 and 2")])
+            return (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+        if body is None and not alike:
+            allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
+            raise StudyError([Mistake("body", "nothing", allowed)])
+        return np.array(0 if body is None else checked_body(body) - 1)
+
+    def solve(
+        self,
+        rtol: float = DEFAULT_RTOL,
+        *,
+        quantities: Sequence[str] = (),
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+        blocks: Mapping[str, float] | None = None,
+    ) -> xr.Dataset:
+        """s, SWT and, with constants, cycles of both bodies.
+
+        Parameters
+        ----------
+        rtol
+            Relative accuracy asked of s.
+        quantities
+            Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
+        critical_distance
+            One or several lengths, for nonlocal values.
+        constants
+            Of both bodies, or a pair for bodies of different materials: for cycles.
+        yield_strength
+            Of both bodies, or a pair: for von_mises and yield_ratio.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of a study with units. Its dimensions are the sequences, in the order given, and ``body``, 1
+            and 2, unless the contact is given as that of one body.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        grid, asked = self._with_request(
+            rtol, quantities, critical_distance, constants, yield_strength, blocks
+        )
+        return solve_grid(grid, float(rtol), asked)
+
+    def _with_request(
+        self,
+        rtol: object,
+        quantities: Sequence[str],
+        critical_distance: object,
+        constants: object,
+        yield_strength: object,
+        blocks: Mapping[str, float] | None = None,
+    ) -> tuple[PhysicalGrid, Request]:
+        """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
+        report = Report()
+        fixed, axes = spanned({} if critical_distance is None else {DISTANCE: critical_distance}, report)
+        if not is_rtol(rtol):
+            report("rtol", literal(rtol), ALLOWED_RTOL)
+        distances = read_distances(fixed, axes, report, self.grid.row(DISTANCE))
+        names = read_quantities(quantities, "quantities", report)
+        materials: tuple[FatigueConstants, ...] = ()
+        if constants is not None:
+            materials = _of_both("constants", constants, FatigueConstants, report)
+        strengths = _stresses_of_both("yield_strength", yield_strength, report) or self.grid.yield_strengths
+        sequence: tuple[Block, ...] = ()
+        with report:
+            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
+        if constants is not None and {*self.grid.values("criterion")} == {FINDLEY}:
+            report("constants", f"constants with the criterion {FINDLEY} alone", "none: it has no life")
+        if blocks and constants is None and not self.grid.shear_materials:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
+        check_distances(self.grid, distances[0], report)
+        report.refuse()
+        names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
+        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
+        warn_of_units(grid, self.moduli.young)
+        return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))
+
+    def optimise(
+        self,
+        over: Mapping[str, tuple[object, object]],
+        minimise: str = "SWT",
+        *,
+        rtol: float = DEFAULT_RTOL,
+        seed: int = 0,
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+    ) -> xr.Dataset:
+        """The load, or contact, with the least SWT or the longest life, and the other extreme.
+
+        Parameters
+        ----------
+        over
+            Ranges by name, ``(low, high)``, in your units, of parameters that are numbers; the others are
+            those of this contact.
+        minimise
+            A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
+            best is the longest. Of both bodies, and of both directions, that counts which is worse.
+        rtol, seed
+            As for `swtstudy.optimise`.
+        critical_distance, constants, yield_strength
+            As for `solve`.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of `swtstudy.optimise`, in your units.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        from swtstudy.results.objective import Box, read_ranges
+        from swtstudy.results.optimise import check_asked, optimum_in
+
+        self._one  # noqa: B018 – one contact only, or an error
+        grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
+        made = (each.name for each in variables(grid, asked) if each.of)
+        known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
+        if minimise not in known and (lacking := _lacking(grid, minimise, asked)):
+            raise StudyError([Mistake("minimise", literal(minimise), f"with {' and '.join(lacking)}")])
+        report, numbers = Report(), [name for name, row in grid.rows.items() if row.kind == "number"]
+        corners: PhysicalGrid | None = None
+        with report:
+            ranges, wrong = read_ranges(over, [name for name in numbers if name not in (DISTANCE, "body")])
+            wrong.refuse()
+            replaced = {*ranges}.union(*(pair for pair in ONE_OF if {*pair} & {*ranges}))
+            given = {**grid.fixed, **{name: [*two] for name, two in grid.pairs.items()}}
+            fixed = {name: value for name, value in given.items() if name not in replaced}
+            bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
+            corners, found = read_contacts(
+                {**fixed, SIMILAR_KEY: grid.similar},
+                {**ranges, **bodies},
+                grid.about,
+                lambda name: f"over.{name}" if name in ranges else name,
+                known=_defined(grid.given),
+            )
+            found.refuse()
+        check_asked(report, minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
+        if asked.is_axis:
+            report(DISTANCE, "several", "one: what is made least is one value")
+        report.refuse()
+        assert corners is not None
+        return optimum_in(Box.of(corners, over), minimise, float(rtol), int(seed), asked)
+
+    @cached_property
+    def _one(self) -> Contact:
+        """The contact at rest; a StudyError if there are several."""
+        several = [name for name in self.grid.dims if name != "body"]
+        if several:
+            raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
+        return self.grid.at_rest.contacts.item()
+
+    def parameters(self, body: int | str = 1) -> dict[str, Any]:
+        """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
+
+        Parameters
+        ----------
+        body
+            1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
+            the tractions do not depend on these, and the stress beneath them on those of the body alone.
+        """
+        contact, grid = self._one, self._grid_of(self._body(body))
+        control, shape = grid.control, family_of(contact.profile).shape
+        names = ("frequency_ratio", "load", "criterion", SHIFT)
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
+        own["profile"] = contact.pure_profile
+        for column, values in grid.numbers.items():
+            if PARAMETERS[column].part != "shape" or column in shape:
+                own[control.given_for(column)] = float(values.squeeze())
+        # What scales a loop is 1 unless it is given.
+        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
+        if is_plane(contact.profile):
+            # In the plane it is always a force, also where the normal load rests along a loop.
+            needed = (*needed, "normal_force_amplitude")
+            own.setdefault("normal_force_amplitude", own.pop("normal_amplitude", 0.0))
+        if own["criterion"] == SWT:
+            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
+        else:
+            needed = (*needed, "normal_sensitivity")
+        return {
+            name: own[name]
+            for name, row in PARAMETERS.items()
+            if name in own and (name in needed or not row.goes_without_saying(own[name]))
+        }
+
+    def _grid_of(self, body: int) -> PhysicalGrid:
+        """The grid of one body."""
+        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
+        return replace(self.grid, fixed=fixed, axes={**self.grid.axes, "body": (float(body),)})
+
+    def _body(self, body: int | str) -> int:
+        """The label of a body, 1 or 2, from that or its name."""
+        return checked_body(body, names=self.grid.body_names)
+
+    def _measured(self, body: int | str) -> Measured:
+        """The scales of one body of one contact."""
+        criterion = str(self.grid.values("criterion")[0])
+        return Measured(self._one, self._body(body) - 1, self.grid.labels, criterion)
+
+    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
+        body = self._body(body)
+        grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
+        asked = Request((YIELD,) if grid.yield_strengths else ())
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        return headline(self.grid, body, at_rest), validity
+
+    @contextmanager
+    def _in_equilibrium(self, body: int | str) -> Iterator[None]:
+        """Say in the units of the contact that it has no equilibrium, if that is why a cycle is refused."""
+        try:
+            yield
+        except StudyError as error:
+            lost = [line for line in self._headlines(body)[1] if line.startswith("no equilibrium")]
+            if not lost:
+                raise
+            raise StudyError(replace(mistake, found=lost[0]) for mistake in error.mistakes) from None
+
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
+        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
+        from swtstudy.fields.stress import stress_field
+
+        own = self._measured(body)
+        places = _places(own.contact, x=x, y=y, z=z)
+        with self._in_equilibrium(body):
+            field = stress_field(**places, time=time, **self.parameters(body))
+        return own.with_units(field)
+
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
+
+        By a criterion of shear FS, a strain, or findley_stress.
+        """
+        from swtstudy.fields.stress import swt_field
+
+        own = self._measured(body)
+        places = _places(own.contact, x=x, y=y, z=z)
+        with self._in_equilibrium(body):
+            field = swt_field(**places, **self.parameters(body))
+        return own.with_units(field, {"s_local": KINDS[own.criterion].name})
+
+    def inspect_point(self, body: int | str = 1) -> xr.Dataset:
+        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+
+        with self._in_equilibrium(body):
+            return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+
+    def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.fields.inspection import inspect_point
+        from swtstudy.figures.inspection import draw_inspection
+
+        labels, headlines = _labels(self._measured(body)), self._headlines(body)
+        with self._in_equilibrium(body):
+            return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+
+    def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
+        from swtstudy.figures.profile import draw_shape
+
+        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
+        given, _ = self._headlines(1, at_rest=True)
+        return draw_shape(shape, style, width, _labels(self._measured(1)), given)
+
+
+def _labelled(
+    name: str, values: FloatArray, like: ArrayLike | xr.DataArray, attributes: dict[str, str]
+) -> Values:
+    """The values with the dimensions and coordinates of others, if those have any."""
+    import xarray as xr
+
+    if not isinstance(like, xr.DataArray):
+        return values
+    return xr.DataArray(values, like.coords, like.dims, name, attributes)
+
+
+def _places(contact: Contact, **given: Any) -> dict[str, Any]:
+    """Places in lengths as those in a_H that the mechanics is asked for."""
+    import xarray as xr
+
+    from swtstudy.fields.one_point import read_places
+
+    read_places(**given, allowed="finite positions, which are lengths")  # as they are given
+    numbers = {
+        name: value if isinstance(value, xr.DataArray | float | int) else np.asarray(value)
+        for name, value in given.items()
+    }
+    return {name: value / contact.length_scale for name, value in numbers.items()}
+
+
+def _labels(measured: Measured) -> dict[str, Label]:
+    """By name of a variable what its numbers are in the units of a contact."""
+    from swtstudy.figures.quantity_words import Label
+
+    found = {name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in measured.scales().items()}
+    if measured.criterion != SWT:
+        found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
+    return found
+
+
+def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
+    """The arguments without which a data variable is not there."""
+    constants = ", ".join(field.name for field in fields(FatigueConstants))
+    needs = {
+        f"constants (swtstudy.FatigueConstants of {constants})": "cycles" in minimise and not grid.materials,
+        f"a {DISTANCE}": minimise.endswith(("_volume", "_point", "_line")) and not asked.distances,
+        "a yield_strength": minimise in ("yield_ratio", "von_mises") and not grid.yield_strengths,
+        'the criterion "fatemi_socie"': minimise.startswith("FS")
+        and "fatemi_socie" not in grid.values("criterion"),
+        'the criterion "findley"': minimise.startswith("findley")
+        and "findley" not in grid.values("criterion"),
+    }
+    return [words for words, lacks in needs.items() if minimise in NAMES and lacks]
+
+
+def _of_both(name: str, constants: object, kind: type[Any], report: Report) -> tuple[Any, ...]:
+    """Constants of each body of those of both, or of a pair; what is wrong with them is added."""
+    pair: Any = (constants, constants) if isinstance(constants, kind) else constants
+    if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
+        return pair[0], pair[1]
+    allowed = f"a {kind.__name__}, or a pair of them for bodies of different materials"
+    report(name, literal(constants), allowed)
+    return ()
+
+
+def _stresses_of_both(name: str, stress: object, report: Report) -> tuple[float, ...]:
+    """A property of both bodies that is a stress, none if not given; what is wrong with it is added."""
+    if stress is None:
+        return ()
+    pair: Any = (stress, stress) if np.ndim(stress) == 0 else tuple(stress)  # type: ignore[arg-type]
+    wrong = [each for value in pair for each in wrong_size(name, value, "a positive stress")]
+    if len(pair) != 2:
+        wrong = [Mistake(name, literal(stress), "one, or a pair, one for each body")]
+    report += dict.fromkeys(wrong)
+    return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))
+
+
+def _defined(values: Iterable[object]) -> dict[str, dict[str, Definition]]:
+    """The loops and tables among values, by parameter and name."""
+    found: dict[str, dict[str, Definition]] = {"load": {}, "profile": {}}
+    for each in values:
+        if isinstance(each, Definition):
+            found[each.parameter][each.name] = each
+    return found
+
+
+def contact_of(dataset: xr.Dataset) -> PhysicalContact:
+    """The contacts of results.
+
+    Raises
+    ------
+    StudyError
+        If they have no units, or what a contact needs has been dropped.
+    """
+    from swtstudy.archive.recall import grid_of
+
+    grid = grid_of(dataset)
+    if not isinstance(grid, PhysicalGrid):
+        raise StudyError([Mistake("units", "results without units", "those of a study with [units]")])
+    return PhysicalContact(grid)
+
+
+#: What is asked of contacts, not given of them.
+_ASKED = ("rtol", "quantities", DISTANCE, "constants")
+
+
+@with_parameters(row for name, row in rows(Units()).items() if name != DISTANCE)
+def physical(
+    *,
+    young_modulus: Any = None,
+    poisson_ratio: Any = None,
+    radius: Any = None,
+    depth: Any = None,
+    normal_force: Any = None,
+    similar: Any = SIMILAR,
+    bulk_stress_ratio: Any = None,
+    contact_length: Any = None,
+    bulk_stress_body: Any = 1,
+    bodies: Any = None,
+    yield_strength: Any = None,
+    findley_limit: Any = None,
+    shear_constants: Any = None,
+    **parameters: Any,
+) -> PhysicalContact:
+    """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
+
+    Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
+    sequence of values: then it is all contacts on the grid that these span.
+
+    Parameters
+    ----------
+    young_modulus, poisson_ratio
+        Of both bodies: one value for two equal bodies, or a pair. These and radius must be given.
+    radius
+        R of the relative curvature, 1/R = 1/R1 + 1/R2. The power law is f = rⁿ/(n Rⁿ⁻¹), with the slope 1 at
+        r = R. Not for a profile that is a `TabulatedProfile`: its radii and heights are lengths, the heights
+        those of both bodies together.
+    depth, normal_force
+        One of them: the mean indentation depth δ0, or the normal force at that depth.
+    similar
+        Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
+    bulk_stress_ratio
+        Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
+    bulk_stress_body
+        1 or 2: the body that carries the bulk stress; the other one has none.
+    bodies
+        Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
+    yield_strength
+        A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
+    findley_limit
+        A stress, of both bodies or a pair: with the criterion "findley" results have findley_usage, the
+        Findley stress over it.
+    shear_constants
+        `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
+        Unless given they are estimated from the constants that ``solve`` is given.
+    contact_length
+        Length of a plane contact across its section: its loads are forces then. Without it they are forces
+        per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
+    **parameters
+        The names below. Those with a scale are lengths:
+        tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
+        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
+        them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
+        waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
+        bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
+        its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
+        are as for `swtstudy.solve`.
+
+    Returns
+    -------
+    PhysicalContact
+        Its ``solve`` gives the Dataset of a study with units, of both bodies.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake; also if the bodies are not similar.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> contact = swtstudy.physical(
+    ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=200.0,
+    ...     friction=0.5, tangential_amplitude=0.002,
+    ... )
+    >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
+    (296, 0.568)
+    >>> contacts = swtstudy.physical(
+    ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=[100.0, 200.0],
+    ...     friction=0.5, tangential_amplitude=0.002,
+    ... )
+    >>> repr(contacts).splitlines()[0]
+    '<PhysicalContact: 2 normal_force>'
+    >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
+    [0.52, 0.58]
+    """
+    of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
+    sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
+    sizes |= {"bulk_stress_ratio": bulk_stress_ratio, "contact_length": contact_length}
+    parameters = {name: value for name, value in sizes.items() if value is not None} | parameters
+    report = Report()
+    for name in _ASKED:
+        if name in parameters:
+            report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
+    wrong = Report()
+    fixed, axes = spanned({n: value for n, value in parameters.items() if n not in _ASKED}, wrong)
+    for name, value in of_bodies.items():
+        if value is not None:
+            fixed[name] = list(value) if dimensions_of(value) == 1 else value
+    shear: tuple[ShearConstants, ...] = ()
+    if shear_constants is not None:
+        shear = _of_both("shear_constants", shear_constants, ShearConstants, report)
+    properties: dict[str, Any] = {
+        "yield_strengths": _stresses_of_both("yield_strength", yield_strength, report),
+        "findley_limits": _stresses_of_both("findley_limit", findley_limit, report),
+        "shear_materials": shear,
+    }
+    about = ContactDetails()
+    with report:
+        carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
+        about = ContactDetails(bulk_stress_body=carrier, **properties)
+    if "body" not in parameters:
+        axes = {**axes, "body": LABELS}
+    named = {} if bodies is None else {NAMES_KEY: bodies}
+    several = (parameters.get(name) for name in ("load", "profile"))
+    known = _defined(one for each in several for one in (each if isinstance(each, list | tuple) else [each]))
+    grid, found = read_contacts({**fixed, **named, SIMILAR_KEY: similar}, axes, about, known=known)
+    if grid is None or report or wrong:
+        raise StudyError([*report, *wrong, *found])
+    return PhysicalContact(grid)

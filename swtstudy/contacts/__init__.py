@@ -1,1 +1,0 @@
-"""Real contacts in physical units, and the lives of their bodies."""
