@@ -5,13 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from swtstudy.points.values import index_at
-from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.life import ROUNDS, UNCOUNTED, Block, FatigueConstants, ShearConstants, lives
 from swtstudy.units.rows import LABELS
 from swtstudy.units.variables import (
@@ -32,6 +31,9 @@ from swtstudy.vocabulary.choices import FATEMI_SOCIE, SWT
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, Request
 from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
+
+if TYPE_CHECKING:
+    from swtstudy.units.grid import PhysicalGrid
 
 #: Facts that an archive has even where there are none; without others it stays as those of before.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
