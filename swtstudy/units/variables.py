@@ -14,7 +14,7 @@ from swtstudy.units.blocks import lives_in
 from swtstudy.units.labels import Units
 from swtstudy.units.life import ROUNDS, UNCOUNTED, FatigueConstants, ShearConstants
 from swtstudy.units.scatter import scattered_in
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, WORDS
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.quantities import COUNTED, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ class _Kind:
         error, words = end.endswith("error"), end.replace("_", " ")
         place = end.removesuffix("_error").removeprefix("_")
         sign, below = r"\Delta " * error, rf"_\mathrm{{{place}}}" * bool(place)
-        meaning = f"{'error of ' * error}{WORDS[self.criterion]}{words.removesuffix(' error')}"
+        meaning = f"{'error of ' * error}{CRITERIA[self.criterion].values}{words.removesuffix(' error')}"
         own: dict[str, Any] = {"of": f"s{end}", "scale": self.scale, "criterion": self.criterion}
         yield Variable(f"{self.name}{end}", f"{sign}{self.symbol}{below}", meaning, self.unit, **own)
         if self.criterion == FINDLEY and grid.findley_limits and not error:
