@@ -114,9 +114,11 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     slip = slip_map(slip_radius, time=time, **parameters)
     course, marked = _load_and_springs(cycle, instant, states, of_plane, np.abs(slip_radius))
 
+    some: States = states[marked]
+
     def tractions(at: FloatArray) -> list[FloatArray]:
         """Pressure and traction on the half-space, (instant, x)."""
-        stress = [cycle.stress(float(each), states[marked]) for each in at]
+        stress = [cycle.stress(float(each), some) for each in at]
         return [-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz")]
 
     pressure, traction = tractions(radius)
