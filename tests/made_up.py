@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from swtstudy.paper.audit.point import AuditedPoint
-from swtstudy.paper.audit.report import audit_dataset
+from swtstudy.paper.audit.dataset import AUDITED, audit_dataset
 from swtstudy.points.canonical import ROW
+from swtstudy.vocabulary.choices import REGIMES
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
@@ -46,33 +46,35 @@ def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset
     )
 
 
-def made_up_point(**changes: object) -> AuditedPoint:
+def made_up_point(regime: str = "partial_slip", **changes: float) -> np.void:
     """An audited point with its maximum on the surface line, but for the changes."""
-    line = {
-        "s": 1.0,
-        "s_error": 1e-5,
-        "s_surface": 1.0,
-        "critical_x": 1.0,
-        "regime": "partial_slip",
-        "s_dense": np.nan,
-        "s_all_planes": 1.0,
-        "s_body": 1.0,
-        "position": np.array([1.0, 0.0, 0.0]),
-        "normal": np.array([1.0, 0.0, 0.0]),
-    }
-    return AuditedPoint(**(line | changes))
+    found = {name: 0.0 for name in AUDITED.names}
+    found |= dict.fromkeys(
+        ("s", "s_surface", "critical_x", "s_all_planes", "s_body", "body_x", "normal_x"), 1.0
+    )
+    found |= {"s_error": 1e-5, "s_dense": np.nan, "regime": REGIMES.index(regime)}
+    return np.array([tuple((found | changes).values())], AUDITED)[0]
 
 
-def made_up_audit_point(row: tuple[float, ...], **_: object) -> AuditedPoint:
+def made_up_audit_point(row: tuple[float, ...], **_: object) -> np.void:
     """In the place of `audit_point`, at no cost."""
     return made_up_point()
 
 
+def audit_of(points: list[np.void], **columns: object) -> xr.Dataset:
+    """An audit of points that differ in their phases, and in these columns of their rows."""
+    rows = np.zeros(len(points), ROW)
+    for name, values in {"phase": np.arange(len(points)), **columns}.items():
+        rows[name] = values
+    return audit_dataset(rows, np.array(points, AUDITED), {}).assign_attrs(title="made up")
+
+
+#: Where the maximum of the body is off the line.
+OFF_LINE = {"body_x": 0.8, "body_y": 0.6}
+
+
 def made_up_audit(on_line: int = 3, off_line: int = 0) -> xr.Dataset:
     """An audit with so many points whose maximum is on the line, at ν = 0.3, and off it, at ν = 0.45."""
-    off = {"s_body": 1.04, "s_surface": 1.04, "position": np.array([0.8, 0.6, 0.0])}
-    points = [made_up_point()] * on_line + [made_up_point(**off)] * off_line
-    rows = np.zeros(len(points), ROW)
-    rows["phase"] = np.arange(len(points))
-    rows["poisson_ratio"] = [0.3] * on_line + [0.45] * off_line
-    return audit_dataset(rows, points, {}).assign_attrs(title="made up")
+    off = made_up_point(s_body=1.04, s_surface=1.04, **OFF_LINE)
+    points = [made_up_point()] * on_line + [off] * off_line
+    return audit_of(points, poisson_ratio=[0.3] * on_line + [0.45] * off_line)

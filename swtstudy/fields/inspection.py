@@ -1,35 +1,36 @@
 """One parameter point explained: everything that makes its s, as numbers.
 
-Its load and its memory diagram are known without s, in milliseconds.
+Its load and its memory diagram are known without s, in milliseconds; forces whichever of them are prescribed.
 """
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
-from swtstudy.fields.cycle_curves import (
-    States,
-    Variables,
-    course_of_load,
-    edge_states,
-    instants_of,
-    marked_instants,
-    named,
-    of_states,
-    springs_of,
-)
-from swtstudy.fields.one_point import labelled_time, read_cycle, turns_of
+from swtstudy.fields.one_point import labelled_time, named, read_cycle, turns_of
 from swtstudy.fields.stress import slip_map
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solving import solve
-from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.criteria import CRITERIA
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.choices import CRITERIA, NORMAL_STRAIN, SHEAR_STRESS
 
+#: States of the contact at its instants, `swtstudy.kernel.course.STATE`.
+States = Any
+#: Dimensions, values and attributes of variables, by their names.
+Variables = dict[str, tuple[Any, Any, dict[str, Any]]]
+
+#: Uniform instants for smooth curves: 360 for each oscillation of a cycle of up to 4, no fewer than 90 for
+#: each of longer cycles; and steps between two events.
+_SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
+#: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
+_MARKED, _APART = 4, 0.08
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
-#: The same for stick and slip, whose map has a cell for each.
-_SLIP_RADII, _SLIP_REACH = 601, 1.15
+#: The same for stick and slip, whose map has a cell for each, and for the springs alone.
+_SLIP_RADII, _SLIP_REACH, _SPRING_RADII = 601, 1.15, 301
 
 
 def inspect_point(**parameters: object) -> xr.Dataset:
@@ -81,117 +82,74 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     """
     cycle = read_cycle(parameters)
     solved = solve(quantities=["dissipation"], **parameters)  # type: ignore[arg-type]
-    extent = _extent(cycle)
-    radius = _radii(cycle, [*(abs(float(v[1])) for v in extent.values()), abs(float(solved.critical_x))])
+    (permanent, least, largest), (left, right) = cycle.radii, cycle.stick_zone
+    b = float(cycle.profile.flat_radius)
+    special = np.abs([left, right, permanent, least, largest, float(solved.critical_x), 1.001 * b, 0.999 * b])
+    radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), special[np.isfinite(special)])
+    # None where the pressure is infinite.
+    radius = radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
     values, double_angles = cycle.along(radius)
     if float(solved.s) == 0.0:  # what is there is rounding
         values = np.zeros_like(values)
-    x, double_angle = _shown(solved, values, double_angles, radius)
-    instant = instants_of(cycle, x)
-    states = cycle.states(instant)
-    time = turns_of(cycle.points) * instant
-    course = course_of_load(cycle, states) | _stress_cycle(cycle, states, x, double_angle)
-    marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in course.items()})
-    some = states[marked]
-    criterion = CRITERIA[cycle.points.criterion]
-    shown: Variables = {
-        "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
-        "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
-        "s_local": ("x", _both_sides(values[:, 0], values[:, 1]), named(criterion.words, criterion.symbol)),
-    }
-    largest = float(extent["largest_radius"][1])
-    first = -largest if cycle.moved else 0.0
-    slip = slip_map(_SLIP_REACH * np.linspace(first, largest, _SLIP_RADII), time=time, **parameters)
-    coordinates = {
-        "x": ("x", _both_sides(radius, -radius), named("position in the direction of sliding", "x/a_H")),
-        "instant": np.arange(1, len(marked) + 1),
-        "instant_time": ("instant", time[marked]),
-        "reason": ("instant", reasons),
-    }
-    variables = (
-        course
-        | extent
-        | shown
-        | _tractions(cycle, some, radius)
-        | springs_of(cycle, some, abs(slip.r.values))
-    )
-    variables["edge_state"] = "time", edge_states(cycle, instant), of_states(slip.state.attrs)
-    return slip.assign(variables).assign_coords(coordinates).merge(solved)
-
-
-def _shown(
-    solved: xr.Dataset, values: FloatArray, double_angles: FloatArray, radius: FloatArray
-) -> tuple[float, float]:
-    """Position and 2θ of the stress cycle shown: the critical ones, or those of the largest sample."""
     x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
-    if np.isfinite(x):
-        return x, double_angle
-    column, side = np.unravel_index(values.argmax(), values.shape)
-    double_angle = float(double_angles[column, side])
-    return float((radius, -radius)[side][column]), (double_angle + np.pi) % (2.0 * np.pi) - np.pi
+    if not np.isfinite(x):
+        column, side = np.unravel_index(values.argmax(), values.shape)
+        x = float((radius, -radius)[side][column])
+        double_angle = (float(double_angles[column, side]) + np.pi) % (2.0 * np.pi) - np.pi
+    instant = _instants(cycle, x)
+    states = cycle.states(instant)
+    criterion = CRITERIA[cycle.points.criterion]
+    normal, moved = cycle.on_plane(x, double_angle, states)
+    stress = cycle.stress(x, states)
+    of_plane: Variables = {
+        "normal_stress": ("time", normal, named("stress normal to the plane", r"\sigma_n")),
+        criterion.swing.name: ("time", moved, named(criterion.swing.words, criterion.swing.symbol)),
+        "sigma_xx": ("time", stress["xx"], named("stress xx", r"\sigma_{xx}")),
+        "sigma_xz": ("time", stress["xz"], named("stress xz", r"\sigma_{xz}")),
+    }
+    if cycle.load.bulk_range.any():
+        of_plane["bulk_stress"] = "time", stress["bulk"], named("bulk stress", r"\sigma_B")
+    slip_radius = _SLIP_REACH * np.linspace(-largest if cycle.moved else 0.0, largest, _SLIP_RADII)
+    time = turns_of(cycle.points) * instant
+    slip = slip_map(slip_radius, time=time, **parameters)
+    course, marked = _load_and_springs(cycle, instant, states, of_plane, np.abs(slip_radius))
 
+    some: States = states[marked]
 
-def _both_sides(right: FloatArray, left: FloatArray) -> FloatArray:
-    """Values at −r and at +r, from left to right along the last axis."""
-    return np.concatenate([left[..., ::-1], right], axis=-1)
+    def tractions(at: FloatArray) -> list[FloatArray]:
+        """Pressure and traction on the half-space, (instant, x)."""
+        stress = [cycle.stress(float(each), some) for each in at]
+        return [-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz")]
 
-
-def _extent(cycle: LoadCycle) -> Variables:
-    """Ends and radius of permanent stick, least and largest contact radius."""
-    permanent, least, largest = cycle.radii
-    left, right = cycle.stick_zone
-    return {
+    pressure, traction = tractions(radius)
+    # Both are even in x if nothing moves the stick zone.
+    left_traction = tractions(-radius)[1] if cycle.moved else traction
+    position = named("position in the direction of sliding", "x/a_H")
+    variables: Variables = {
         "stick_left": ((), left, named("left end of what always sticks", "x/a_H")),
         "stick_right": ((), right, named("right end of what always sticks", "x/a_H")),
         "permanent_stick_radius": ((), permanent, named("radius that always sticks", "c/a_H")),
         "least_radius": ((), least, named("least contact radius", "a/a_H")),
         "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
+        "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
+        "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
+        "s_local": ("x", _both_sides(values[:, 1], values[:, 0]), named(criterion.words, criterion.symbol)),
+        "pressure": (("instant", "x"), _both_sides(pressure, pressure), named("pressure", "p")),
+        "traction": (
+            ("instant", "x"),
+            _both_sides(left_traction, traction),
+            named("tangential traction in +x", "q"),
+        ),
     }
+    states_of_edge = "state of the contact next to its edge, until the next instant"
+    course.edge_state.attrs.update(slip.state.attrs, long_name=states_of_edge)
+    found = slip.assign(variables).assign_coords(x=("x", _both_sides(-radius, radius), position))
+    return found.assign(course.drop_vars(("time", "r"))).merge(solved)
 
 
-def _radii(cycle: LoadCycle, special: list[float]) -> FloatArray:
-    """Distances from the axis: evenly spaced, at special places, and none where the pressure is infinite."""
-    b = float(cycle.profile.flat_radius)
-    places = [value for value in [*special, 1.001 * b, 0.999 * b] if np.isfinite(value)]
-    radius = np.union1d(np.linspace(0.0, _REACH * cycle.radii[2], _RADII + 1), places)
-    return radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
-
-
-def _stress_cycle(cycle: LoadCycle, states: States, x: float, double_angle: float) -> Variables:
-    """Stress and strain over the cycle at one point, on one plane."""
-    normal, moved = cycle.on_plane(x, double_angle, states)
-    stress = cycle.stress(x, states)
-    bulk: Variables = {}
-    if cycle.load.bulk_range.any():
-        bulk["bulk_stress"] = "time", stress["bulk"], named("bulk stress", r"\sigma_B")
-    swing = CRITERIA[cycle.points.criterion].swing
-    return {
-        "normal_stress": ("time", normal, named("stress normal to the plane", r"\sigma_n")),
-        swing.name: ("time", moved, named(swing.words, swing.symbol)),
-        "sigma_xx": ("time", stress["xx"], named("stress xx", r"\sigma_{xx}")),
-        "sigma_xz": ("time", stress["xz"], named("stress xz", r"\sigma_{xz}")),
-        **bulk,
-    }
-
-
-def _tractions(cycle: LoadCycle, some: States, radius: FloatArray) -> Variables:
-    """Pressure and traction on the half-space; both are even in x if nothing moves the stick zone."""
-
-    def at(x: FloatArray) -> list[FloatArray]:
-        stress = [cycle.stress(float(each), some) for each in x]
-        return [-np.stack([each[name] for each in stress], axis=-1) for name in ("zz", "xz")]
-
-    p, q = at(radius)
-    left = at(-radius)[1] if cycle.moved else q
-    dims = ("instant", "x")
-    return {
-        "pressure": (dims, _both_sides(p, p), named("pressure", "p")),
-        "traction": (dims, _both_sides(q, left), named("tangential traction in +x", "q")),
-    }
-
-
-#: Distances from the axis, for smooth curves.
-_RADII_OF_SPRINGS = 301
+def _both_sides(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Values at −r and at +r, from left to right along the last axis."""
+    return np.concatenate([left[..., ::-1], right], axis=-1)
 
 
 def load_and_springs(**parameters: object) -> xr.Dataset:
@@ -215,27 +173,118 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
         As `swtstudy.inspect_point`.
     """
     cycle = read_cycle(parameters)
-    instant = instants_of(cycle)
-    states = cycle.states(instant)
-    time = labelled_time(cycle.points.path is None, turns_of(cycle.points) * instant, ("time",))
-    course = course_of_load(cycle, states)
-    curves = {name: part[1] for name, part in course.items()}
-    marked, reasons = marked_instants(time.values / time.values[-1], curves)
-    largest = cycle.radii[2]
-    radius = np.linspace(0.0, largest, _RADII_OF_SPRINGS)
-    return xr.Dataset(
-        {
-            **course,
-            **springs_of(cycle, states[marked], radius),
-            "edge_state": ("time", edge_states(cycle, instant)),
-            "largest_radius": ((), largest, named("largest contact radius", "a/a_H")),
-        },
-        {
-            "time": time,
-            "r": ("r", radius, named("distance from the axis", "r/a_H")),
-            "instant": np.arange(1, len(marked) + 1),
-            "instant_time": ("instant", time.values[marked]),
-            "reason": ("instant", reasons),
-            "control": cycle.points.control.name,
-        },
-    )
+    instant = _instants(cycle)
+    radius = np.linspace(0.0, cycle.radii[2], _SPRING_RADII)
+    found, _ = _load_and_springs(cycle, instant, cycle.states(instant), {}, radius)
+    found["largest_radius"] = (), cycle.radii[2], named("largest contact radius", "a/a_H")
+    return found.assign_coords(control=cycle.points.control.name)
+
+
+def _instants(cycle: LoadCycle, x: float | None = None) -> FloatArray:
+    """Instants of the cycle for smooth curves, as angles of its period: with events, also those at x/a_H."""
+    count = max(_UNIFORM * min(cycle.oscillations, _FEW), _SPARSE * cycle.oscillations)
+    return np.union1d(cycle.instants(_STEPS, x), 2.0 * np.pi * np.arange(count + 1) / count)
+
+
+def _load_and_springs(
+    cycle: LoadCycle, instant: FloatArray, states: States, of_plane: Variables, radius: FloatArray
+) -> tuple[xr.Dataset, IndexArray]:
+    """The course of the load over the cycle, and the springs at marked instants.
+
+    Parameters
+    ----------
+    cycle
+        Of one point.
+    instant, states
+        T instants, as angles of the period, and the states of the contact there.
+    of_plane
+        Further curves over time: stress and strain on the critical plane.
+    radius
+        Distances of springs from the axis.
+
+    Returns
+    -------
+    found, marked
+        Loads, responses and the edge's state over time; compression and force over the marked instants and r,
+        which show the memory diagram. And the indices of the marked instants.
+    """
+    plane = cycle.profile.plane
+    given = states["normal"].copy(), states["tangential"].copy()
+    answers = states["other_normal"].copy(), states["answer"].copy()
+    forces, motion = (given, answers) if plane or cycle.profile.in_force else (answers, given)
+    curves: Variables = {}
+    if not plane:  # there only changes of displacements at constant load are known
+        curves["depth"] = "time", motion[0], named("indentation depth", r"\delta/\delta_0")
+        words = named("tangential displacement", r"G^* u/(\mu E^* \delta_0)")
+        curves["displacement"] = "time", motion[1], words
+    curves["normal_force"] = "time", forces[0], named("normal force", "F_N/F_0")
+    curves["tangential_force"] = "time", forces[1], named("tangential force", r"F_x/(\mu F_0)")
+    curves |= of_plane
+    time = turns_of(cycle.points) * instant
+    marked, reasons = marked_instants(time / time[-1], {name: part[1] for name, part in curves.items()})
+    # The state of the outermost springs between each instant and the next, numbered as in `slip_map`.
+    middle = cycle.states(0.5 * (instant + np.append(instant[1:], instant[-1])))
+    sticks = middle.front >= (1.0 - 1e-12) * middle.normal
+    edge = np.where(middle.normal > 0.0, np.where(sticks, 1, np.where(middle.push > 0, 2, 3)), 0)
+    compression, force = cycle.springs(radius, states[marked])
+    of_compression = named("compression of the springs", r"w/\delta_0")
+    of_force = named("tangential force of the springs", r"G^* u_{MDR}/(\mu E^* \delta_0)")
+    if plane:
+        of_compression = named("normal force beyond that of the strip", "w/F_0")
+        of_force = named("tangential force in the diagram", r"\tau/(\mu F_0)")
+    curves["compression"] = ("instant", "r"), compression, of_compression
+    curves["force"] = ("instant", "r"), force, of_force
+    curves["edge_state"] = "time", edge.astype(np.int8), {}
+    coordinates = {
+        "time": labelled_time(cycle.points.path is None, time, ("time",)),
+        "r": ("r", radius, named("distance from the axis", "r/a_H")),
+        "instant": np.arange(1, len(marked) + 1),
+        "instant_time": ("instant", time[marked]),
+        "reason": ("instant", reasons),
+    }
+    return xr.Dataset(curves, coordinates), marked
+
+
+def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[IndexArray, list[str]]:
+    """Instants at which curves over the cycle are extreme, in the order of time, and the reason for each.
+
+    Parameters
+    ----------
+    share
+        Shape (T,): time in cycles.
+    curves
+        Depth and displacement over it, or without them the forces; if stress and strain, or shear stress, on
+        the critical plane are there, they come first.
+    """
+    pairs = {"δ": "depth", "u": "displacement"}
+    if "depth" not in curves:
+        pairs = {"F_N": "normal_force", "F_x": "tangential_force"}
+    normal, tangential = pairs.values()
+    swings = [name for name in (NORMAL_STRAIN.name, SHEAR_STRESS.name) if name in curves]
+    extremes: dict[str, np.intp] = {}
+    if "normal_stress" in curves:
+        extremes["σ_n largest"] = curves["normal_stress"].argmax()
+    if NORMAL_STRAIN.name in swings:
+        extremes["ε_n smallest"] = curves[NORMAL_STRAIN.name].argmin()
+    both = {"τ": SHEAR_STRESS.name} if SHEAR_STRESS.name in swings else {}
+    of_plane = {*extremes, "τ largest", "τ smallest"}
+    for letter, name in (both | pairs).items():
+        extremes[f"{letter} largest"] = curves[name].argmax()
+        extremes[f"{letter} smallest"] = curves[name].argmin()
+    touching = curves[normal] > 0.0
+    distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
+    marked: dict[int, str] = {}
+
+    def mark(index: int, reason: str) -> None:
+        nonlocal distance
+        marked[index] = reason
+        distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
+
+    for reason, index in extremes.items():
+        if len(marked) < _MARKED and distance[index] >= _APART and (reason in of_plane or touching[index]):
+            mark(int(index), reason)
+    moving = curves[swings[0] if swings else tangential]
+    while len(marked) < _MARKED and np.ptp(moving) > 0.0:
+        mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
+    order = sorted(marked)
+    return np.array(order), [marked[index] for index in order]

@@ -195,6 +195,11 @@ def _coordinate(name: str, values: object, allowed: str = POSITIONS) -> xr.DataA
     return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
+def named(meaning: str, symbol: str) -> dict[str, str]:
+    """Attributes of a non-dimensional variable."""
+    return {"long_name": meaning, "units": "1", "symbol": symbol}
+
+
 def read_instants(time: object) -> FloatArray:
     """ω1 t in rad, a number or a one-dimensional sequence."""
     return read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")

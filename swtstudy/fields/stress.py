@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.fields.cycle_curves import named
 from swtstudy.fields.one_point import (
     as_given,
     labelled_time,
+    named,
     open_point,
     read_cycle,
     read_finite,
@@ -25,7 +25,7 @@ from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_
 from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.criteria import CRITERIA
+from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.

@@ -28,8 +28,7 @@ from swtstudy.figures.maps import draw_slip_map, draw_time_axis
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.style import DASHES, stroke
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.choices import SWT, SYMBOLS
-from swtstudy.vocabulary.criteria import NORMAL_STRAIN, SHEAR_STRESS
+from swtstudy.vocabulary.choices import CRITERIA, NORMAL_STRAIN, SHEAR_STRESS, SWT
 
 #: Heights of the labels of radii, over the largest swt.
 _LOWEST, _LOWER, _UPPER = 1.02, 1.24, 1.39
@@ -203,7 +202,9 @@ def draw_swt(axes: Axes, dataset: xr.Dataset) -> None:
     axes.set_ylim(0.0, 1.45 * top)
     axes.set_xlabel("$x/a_H$")
     criterion = str(dataset.s.attrs.get("criterion", SWT))
-    axes.set_ylabel(r"$\mathrm{swt}/\mathrm{SWT}_0$" if criterion == SWT else f"${SYMBOLS[criterion]}$")
+    axes.set_ylabel(
+        r"$\mathrm{swt}/\mathrm{SWT}_0$" if criterion == SWT else f"${CRITERIA[criterion].over_unit}$"
+    )
     words = "" if _is_finite(dataset) else "; dot: largest sampled"
     what = "swt" if criterion == SWT else dataset.s_local.attrs["long_name"].replace("-", "–")
     axes.set_title(f"{what} along the surface{words}", loc="left")

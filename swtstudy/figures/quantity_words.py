@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
-from swtstudy.vocabulary.choices import SWT, SYMBOLS, family_of
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import as_text, place_words
@@ -41,7 +41,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     if values.name == "s":
         criterion = values.attrs.get("criterion", SWT)
         # Of several s is not one thing.
-        return f"$s = {SYMBOLS[criterion]}$" if criterion in SYMBOLS else "$s$"
+        return f"$s = {CRITERIA[criterion].over_unit}$" if criterion in CRITERIA else "$s$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
     known = {**ATTRIBUTES, **{name: attributes_of(name) for name in EVERY_VARIABLE}}

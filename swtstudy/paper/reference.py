@@ -6,8 +6,8 @@ However fine, fixed grids see the stress's cusps only to √(step), unless `alig
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import NamedTuple, Protocol
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,35 +18,9 @@ BoolArray = NDArray[np.bool_]
 IndexArray = NDArray[np.intp]
 
 
-class Points(Protocol):
-    """A point: each number is an array of shape (1,) under its public name; ω2/ω1 = p/q."""
-
-    @property
-    def profile(self) -> object: ...
-    @property
-    def shape(self) -> Mapping[str, FloatArray]: ...
-    @property
-    def poisson_ratio(self) -> FloatArray: ...
-    @property
-    def friction(self) -> FloatArray: ...
-    @property
-    def normal_amplitude(self) -> FloatArray: ...
-    @property
-    def tangential_amplitude(self) -> FloatArray: ...
-    @property
-    def phase(self) -> FloatArray: ...
-    @property
-    def p(self) -> NDArray[np.int64]: ...
-    @property
-    def q(self) -> NDArray[np.int64]: ...
-    @property
-    def walker_exponent(self) -> FloatArray: ...
-    @property
-    def bulk_stress_mean(self) -> FloatArray: ...
-    @property
-    def bulk_stress_amplitude(self) -> FloatArray: ...
-    @property
-    def bulk_stress_phase(self) -> FloatArray: ...
+#: A point: each number is an array of shape (1,) under its public name, the ``shape`` a table of them; its
+#: ``profile`` is a name, and ω2/ω1 = ``p``/``q``.
+Points = Any
 
 
 def spring_depth(point: Points, radius: FloatArray) -> FloatArray:

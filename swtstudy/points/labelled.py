@@ -17,7 +17,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
-from swtstudy.vocabulary.choices import BENEATH, MEANING, SWT, WORDS, is_plane, with_values_of
+from swtstudy.vocabulary.choices import BENEATH, CRITERIA, SWT, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
@@ -159,13 +159,13 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
     if criteria == [SWT]:
         return
     single = len(criteria) == 1
-    words = MEANING[criteria[0]] if single else "; ".join(f"{name}: {MEANING[name]}" for name in criteria)
+    words = "; ".join(f"{name}: " * (not single) + CRITERIA[name].meaning for name in criteria)
     dataset.s.attrs |= {
         "long_name": f"{criteria[0].replace('_', ' ')} parameter s" if single else "s by its criterion",
         "comment": f"{words}; on the surface line y = 0: {BENEATH}",
         "criterion": " ".join(criteria),
     }
-    value = WORDS[criteria[0]] if single else "criterion"
+    value = CRITERIA[criteria[0]].values if single else "criterion"
     for name in asked.variables:
         own = dataset[name].attrs
         own |= {key: with_values_of(own[key], value) for key in ("long_name", "comment")}

@@ -48,7 +48,7 @@ class Points(Columns):
     path
         The loop that the load runs through; None for the two harmonic oscillations.
     criterion
-        Of which s is the largest value, a key of `swtstudy.vocabulary.criteria.CRITERIA`.
+        Of which s is the largest value, a key of `swtstudy.vocabulary.choices.CRITERIA`.
     walker_exponent
         Shape (n,), of SWT; 1/2 unless given.
     normal_sensitivity

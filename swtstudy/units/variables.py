@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT, WORDS
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _of_criterion(kind: Kind, name: str, grid: PhysicalGrid) -> Iterator[Variabl
     """The value of s or of a mean, its error, and its life or its usage of a limit, if these are known."""
     end = name.removeprefix("s")
     place = end.removeprefix("_")
-    meaning, below = WORDS[kind.criterion] + end.replace("_", " "), rf"_\mathrm{{{place}}}" * bool(place)
+    meaning, below = CRITERIA[kind.criterion].values + end.replace("_", " "), rf"_\mathrm{{{place}}}" * bool(place)
     own: dict[str, Any] = {"of": name, "scale": kind.scale, "criterion": kind.criterion}
     yield Variable(f"{kind.name}{end}", f"{kind.symbol}{below}", meaning, kind.unit, **own)
     if kind.criterion == FINDLEY and grid.findley_limits:

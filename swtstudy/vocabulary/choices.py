@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import TypeGuard
+from typing import NamedTuple, TypeGuard
 
 #: What a contact is: a disc, or a strip in plane strain.
 AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
@@ -84,25 +84,76 @@ REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_
 #: Those in which s is no finite number.
 WITHOUT_S = ("not_finite", "no_equilibrium")
 
-#: Their names: the Smith–Watson–Topper parameter, and the criteria of shear.
-SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
-CRITERIA = (SWT, FATEMI_SOCIE, FINDLEY)
-
 #: Whether a bulk stress moves the stick zone, where that is known, or leaves it in its place.
 MOVED, NONE = SHIFTS = ("moved", "none")
 
-#: What s is, in words for attributes, and its symbol with its unit.
-MEANING = {
-    SWT: "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
-    FATEMI_SOCIE: "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
-    FINDLEY: "maximum Findley stress over E* delta0 / a_H",
-}
-#: What a reader calls its values.
-WORDS = {SWT: "SWT", FATEMI_SOCIE: "Fatemi-Socie parameter", FINDLEY: "Findley stress"}
-SYMBOLS = {
-    SWT: r"\mathrm{SWT}/\mathrm{SWT}_0",
-    FATEMI_SOCIE: r"G \mathrm{FS}/(E^*\delta_0/a_H)",
-    FINDLEY: r"f/(E^*\delta_0/a_H)",
+
+class Swing(NamedTuple):
+    """The swing of a plane: its name as a variable, a reader's words for it, and its symbol in LaTeX."""
+
+    name: str
+    words: str
+    symbol: str
+
+
+class Criterion(NamedTuple):
+    """A criterion; its formula is in `swtstudy.kernel.criterion`.
+
+    Attributes
+    ----------
+    words, symbol
+        A reader's words for it, and its symbol in LaTeX.
+    degree
+        With which power of the stress it goes: with 2 its unit is stress times strain, with 1 stress.
+    swing
+        What swings on a plane.
+    values
+        A reader's words for its values.
+    meaning, over_unit
+        What s is, in words for attributes, and its symbol over its unit.
+    """
+
+    words: str
+    symbol: str
+    degree: int
+    swing: Swing
+    values: str
+    meaning: str
+    over_unit: str
+
+
+NORMAL_STRAIN = Swing("normal_strain", "strain normal to the plane", r"\varepsilon_n")
+SHEAR_STRESS = Swing("shear_stress", "shear stress on the plane", r"\tau")
+#: Names of the Smith–Watson–Topper parameter and of the criteria of shear.
+SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
+CRITERIA = {
+    SWT: Criterion(
+        "Smith-Watson-Topper parameter",
+        "swt",
+        2,
+        NORMAL_STRAIN,
+        "SWT",
+        "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
+        r"\mathrm{SWT}/\mathrm{SWT}_0",
+    ),
+    FATEMI_SOCIE: Criterion(
+        "Fatemi-Socie parameter",
+        r"\mathrm{FS}",
+        1,
+        SHEAR_STRESS,
+        "Fatemi-Socie parameter",
+        "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
+        r"G \mathrm{FS}/(E^*\delta_0/a_H)",
+    ),
+    FINDLEY: Criterion(
+        "Findley stress",
+        "f",
+        1,
+        SHEAR_STRESS,
+        "Findley stress",
+        "maximum Findley stress over E* delta0 / a_H",
+        r"f/(E^*\delta_0/a_H)",
+    ),
 }
 #: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).
 BENEATH = (

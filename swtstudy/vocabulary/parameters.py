@@ -193,7 +193,7 @@ PARAMETERS: dict[str, Parameter] = {
             "criterion",
             "criterion of which s is the largest value",
             SWT,
-            names=CRITERIA,
+            names=tuple(CRITERIA),
             part="criterion",
             optional=True,
         ),

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy.fields.cycle_curves import marked_instants
+from swtstudy.fields.inspection import marked_instants
 
 SCENES = {
     "Table 1": {},

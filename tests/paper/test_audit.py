@@ -4,13 +4,20 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from folders import STUDIES
-from made_up import made_up_audit, made_up_audit_point, made_up_point
+from made_up import OFF_LINE, audit_of, made_up_audit, made_up_audit_point, made_up_point
 
 from swtstudy.archive.netcdf import save
 from swtstudy.cli import main
 from swtstudy.paper.audit.audit import audit_study
-from swtstudy.paper.audit.point import VERDICTS
-from swtstudy.paper.audit.report import audit_dataset, audited_points, canonical_rows, open_audit, report
+from swtstudy.paper.audit.dataset import (
+    AUDITED,
+    VERDICTS,
+    audit_dataset,
+    audited_points,
+    canonical_rows,
+    open_audit,
+)
+from swtstudy.paper.audit.report import report
 from swtstudy.points.canonical import ROW
 from swtstudy.study.definition import Study
 from swtstudy.study.sample import drawn_rows
@@ -25,6 +32,10 @@ normal_amplitude = 0.5
 poisson_ratio = [0.3, 0.5]
 phase = [0.6, "0.6 + 2*pi"]
 """
+
+
+def verdict_of(point):
+    return VERDICTS[int(audit_of([point]).verdict[0])]
 
 
 def test_points_are_distinct():
@@ -44,14 +55,14 @@ def test_a_larger_sample_extends_a_smaller_one():
     [
         ({}, "none"),
         ({"s_body": 1.1}, "line_search"),
-        ({"s_body": 1.1, "normal": np.array([0.8, 0.6, 0.0])}, "plane_through_y"),
-        ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.0])}, "symmetry_line"),
-        ({"s_body": 1.1, "position": np.array([0.5, 0.5, 0.1])}, "surface"),
+        ({"s_body": 1.1, "normal_x": 0.8, "normal_y": 0.6}, "plane_through_y"),
+        ({"s_body": 1.1, "body_y": 0.5}, "symmetry_line"),
+        ({"s_body": 1.1, "body_y": 0.5, "body_z": 0.1}, "surface"),
         ({"s_surface": np.nan}, "not_finite"),
     ],
 )
 def test_verdicts(changes, verdict):
-    assert made_up_point(**changes).verdict == verdict
+    assert verdict_of(made_up_point(**changes)) == verdict
 
 
 def test_audited_points_are_read_as_they_were_written(tmp_path):
@@ -59,7 +70,7 @@ def test_audited_points_are_read_as_they_were_written(tmp_path):
     assert written.verdict.dtype == written.regime.dtype == np.int8
     save(written, tmp_path / "audit.nc")
     read = audited_points(open_audit(tmp_path / "audit.nc"))
-    again = audit_dataset(np.array(list(read), ROW), list(read.values()), {})
+    again = audit_dataset(np.array(list(read), ROW), np.array(list(read.values()), AUDITED), {})
     for name in written.variables:
         np.testing.assert_array_equal(again[name], written[name])
     assert list(read) == canonical_rows(written).tolist()
@@ -86,20 +97,11 @@ def test_a_dense_look_says_whether_a_maximum_was_overlooked(tmp_path):
 
 def test_what_is_overlooked_is_said():
     points = [made_up_point(s_dense=1.5), made_up_point(s_dense=1.000009), made_up_point()]
-    assert [each.shortfall for each in points[:2]] == [pytest.approx((0.5 - 1e-5) / 1.5, rel=1e-12), 0.0]
-    assert np.isnan(points[2].shortfall)
-    rows = drawn_rows(Study.from_toml(PARAMETER_BOX).grid, points=3, seed=1)
-    words = report(audit_dataset(rows, points, {}).assign_attrs(title="three points"))
+    audit = audit_of(points)
+    np.testing.assert_allclose(audit.shortfall, [(0.5 - 1e-5) / 1.5, 0.0, np.nan], rtol=1e-12)
+    words = report(audit)
     assert "at 2 points: at 1 of them it is higher than s by more than s_error, by up to 3.3e-01." in words
-    assert "dense look" not in report(
-        audit_dataset(rows, [made_up_point()] * 3, {}).assign_attrs(title="three")
-    )
-
-
-def test_an_audit_of_before_dense_looks_opens(tmp_path):
-    save(made_up_audit().drop_vars(["s_error", "s_dense", "shortfall"]), tmp_path / "old.nc")
-    points = audited_points(open_audit(tmp_path / "old.nc")).values()
-    assert all(np.isnan(each.s_dense) and np.isfinite(each.s) for each in points)
+    assert "dense look" not in report(made_up_audit())
 
 
 def test_a_damaged_audit_is_named(tmp_path):
@@ -179,29 +181,36 @@ def test_command_on_plane_contacts(tmp_path):
 @pytest.mark.parametrize(("excess", "verdict"), [(0.999e-3, "none"), (1.001e-3, "line_search")])
 def test_an_excess_counts_from_a_thousandth(excess, verdict):
     point = made_up_point(s=2.0, s_surface=2.0, s_body=2.0 * (1.0 + excess))
-    assert point.verdict == verdict
-    assert point.excess == pytest.approx(excess)
-    assert point.remainder == pytest.approx(excess)
+    assert verdict_of(point) == verdict
+    for name in ("excess", "remainder"):
+        assert float(audit_of([point])[name][0]) == pytest.approx(excess)
 
 
 @pytest.mark.parametrize(("size", "zero"), [(0.99e-6, True), (1.01e-6, False)])
 def test_what_counts_as_on_the_line(size, zero):
-    for sign in (1.0, -1.0):
-        for where, verdict in (
-            ({"position": np.array([0.5, sign * size, 0.0])}, "symmetry_line"),
-            ({"normal": np.array([1.0, sign * size, 0.0])}, "plane_through_y"),
-        ):
-            assert made_up_point(s_body=1.1, **where).verdict == ("line_search" if zero else verdict)
-    beneath = made_up_point(s_body=1.1, position=np.array([0.5, 0.0, size]))
-    assert beneath.verdict == ("line_search" if zero else "surface")
+    for name, at, verdict in (
+        ("body_y", size, "symmetry_line"),
+        ("body_y", -size, "symmetry_line"),
+        ("normal_y", size, "plane_through_y"),
+        ("normal_y", -size, "plane_through_y"),
+        ("body_z", size, "surface"),
+    ):
+        point = made_up_point(s_body=1.1, **{name: at})
+        assert verdict_of(point) == ("line_search" if zero else verdict)
 
 
 def test_excess_over_nothing_is_all_or_nothing():
-    assert made_up_point(s=0.0, s_surface=0.0, s_body=0.0).excess == 0.0
-    point = made_up_point(s=0.0, s_surface=0.0, s_body=1e-9)
-    assert (point.excess, point.remainder, point.verdict) == (1.0, 1.0, "line_search")
-    point = made_up_point(s=2.0, s_surface=2.5, s_body=3.0)
-    assert (point.excess, point.remainder) == (0.5, pytest.approx(0.2))
+    nothing = {"s": 0.0, "s_surface": 0.0}
+    audit = audit_of(
+        [
+            made_up_point(s_body=0.0, **nothing),
+            made_up_point(s_body=1e-9, **nothing),
+            made_up_point(s=2.0, s_surface=2.5, s_body=3.0),
+        ]
+    )
+    np.testing.assert_allclose(audit.excess, [0.0, 1.0, 0.5])
+    np.testing.assert_allclose(audit.remainder, [0.0, 1.0, 0.2])
+    assert VERDICTS[int(audit.verdict[1])] == "line_search"
 
 
 def test_the_report_counts_every_point():
@@ -209,14 +218,11 @@ def test_the_report_counts_every_point():
     audited = [
         *[made_up_point(s_all_planes=1.0 + 2e-5)] * 2,
         *[made_up_point(s_body=1.0005, s_all_planes=1.0 - 4e-5)] * 2,
-        made_up_point(s_body=1.08, s_surface=1.05, position=np.array([0.8, 0.6, 0.0]), regime="gross_slip"),
+        made_up_point(s_body=1.08, s_surface=1.05, regime="gross_slip", **OFF_LINE),
         made_up_point(s_surface=np.nan, s_body=np.nan, s_all_planes=np.nan, regime="not_finite"),
     ]
-    rows = np.zeros(6, ROW)
-    rows["phase"] = np.arange(6)
-    rows["poisson_ratio"] = 0.0, 0.1, 0.35, 0.36, 0.5, 0.2
-    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
-    assert lines[0] == "# six"
+    lines = report(audit_of(audited, poisson_ratio=[0.0, 0.1, 0.35, 0.36, 0.5, 0.2])).splitlines()
+    assert lines[0] == "# made up"
     assert lines[2].startswith("6 points, each solved")
     assert "counts from 0.1%" in lines[2]
     assert lines[6:12] == [
@@ -248,17 +254,13 @@ def test_the_report_counts_every_point():
 
 def test_two_routes_to_nothing_do_not_differ():
     nothing = made_up_point(s=0.0, s_surface=0.0, s_body=0.0, s_all_planes=0.0)
-    rows = np.zeros(2, ROW)
-    rows["phase"] = 0.0, 1.0
-    both = audit_dataset(rows, [nothing, made_up_point(s_all_planes=1.0 + 2e-5)], {}).assign_attrs(
-        title="two"
-    )
+    both = audit_of([nothing, made_up_point(s_all_planes=1.0 + 2e-5)])
     assert "differ by 2e-05 (median), 2e-05 (99 %), 2e-05 (largest)." in report(both)
     assert "two routes" not in report(both.isel(sample=[0]))
 
 
 def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
-    off = {"s_body": 1.08, "s_surface": 1.05, "position": np.array([0.8, 0.6, 0.0])}
+    off = {"s_body": 1.08, "s_surface": 1.05, **OFF_LINE}
     audited = [made_up_point(), made_up_point(regime="gross_slip"), *[made_up_point(**off)] * 3]
     audited.append(made_up_point(regime="gross_slip", **off))
     columns = {
@@ -267,10 +269,7 @@ def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
         "bulk_stress_amplitude": [0.2, 0.0, 0.0, 0.1, 0.0, 0.2],
         "profile": [0, 0, 0, 0, 0, 2],
     }
-    rows = np.zeros(6, ROW)
-    for name, values in columns.items():
-        rows[name] = values
-    lines = report(audit_dataset(rows, audited, {}).assign_attrs(title="six")).splitlines()
+    lines = report(audit_of(audited, **columns)).splitlines()
     at = lines.index("| bulk stress | points | above s | by up to | above s_surface by up to |")
     enough, off_line = "0 | 0.00% | 0.00% |", "1 | 8.00% | 2.86% |"
     assert lines[at + 2 : at + 7] == [
@@ -301,7 +300,7 @@ def test_a_sample_has_every_point_at_most_once():
 
 
 def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_path, monkeypatch):
-    monkeypatch.setattr("swtstudy.paper.audit.point.audit_point", made_up_audit_point)
+    monkeypatch.setattr("swtstudy.paper.audit.audit.audit_point", made_up_audit_point)
     study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
     first = audit_study(study, path, points=5, seed=1, workers=1)
     second = audit_study(study, path, points=3, seed=2, workers=1)
@@ -310,13 +309,3 @@ def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_p
     save(open_audit(path).assign_attrs(solver_version="1"), path)
     audit_study(study, path, points=1, seed=2, workers=1)
     assert open_audit(path).sizes["sample"] == 1
-
-
-def test_an_audit_of_before_stick_zones_moved_is_not_computed_again(tmp_path, monkeypatch):
-    monkeypatch.setattr("swtstudy.paper.audit.point.audit_point", made_up_audit_point)
-    study, path, counted = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc", []
-    first = audit_study(study, path, points=5, workers=1)
-    save(open_audit(path).drop_vars("bulk_strain_share"), path)
-    again = audit_study(study, path, points=5, workers=1, progress=counted.append)
-    assert counted == [5]
-    assert audited_points(again).keys() == audited_points(first).keys()

@@ -301,5 +301,5 @@ def test_how_waviness_is_described():
     results = ratio_over("waviness_amplitude", {0.25: 1.5, 0.75: 3.0}, wavelength=[5.0, math.sqrt(20)])
     finding = waviness.waviness_matters(results)
     assert finding.measured == (
-        "max/min over h/δ0: λ/√(hR) = 5: 1.50/3.00, √20: 1.50/3.00 (δA/δ0 = 0.25/0.75)"
+        "max/min over h/δ0: λ/√(hR) = √20: 1.50/3.00, 5: 1.50/3.00 (δA/δ0 = 0.25/0.75)"
     )

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 from scipy.integrate import trapezoid
 
-from swtstudy.paper.formalisms.jaeger import JaegerContact
-from swtstudy.paper.formalisms.memory_diagram import MemoryDiagram
+from swtstudy.paper.statements.formalisms import JaegerContact, MemoryDiagram
 
 Array = NDArray[np.float64]
 

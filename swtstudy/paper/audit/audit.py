@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from swtstudy.archive.attributes import defined_in
-from swtstudy.paper.audit.report import audit_dataset, audited_points, open_audit
-from swtstudy.points.canonical import ROW, Definitions
+from swtstudy.paper.audit.dataset import AUDITED, FOUND, TOLERANCE, audit_dataset, audited_points, open_audit
+from swtstudy.points.canonical import ROW, Definitions, points_from
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
-
-if TYPE_CHECKING:
-    from swtstudy.paper.audit.point import AuditedPoint
 
 #: Seconds between two saves of what is audited so far: short enough to lose, long against a save.
 _SAVE_EVERY = 20.0
@@ -69,32 +65,40 @@ def audit_study(
     """
     require_study(study)
     from swtstudy.archive.netcdf import save
-    from swtstudy.paper.audit.point import audit_point
     from swtstudy.runner.workers import start_workers
 
     keys = drawn_rows(study.grid, points, seed).tolist()
-    known, definitions = _known(path, study.grid.definitions)
-    audit = partial(audit_point, definitions=definitions, dense=dense)
+    known: dict[tuple[float, ...], np.void] = {}
+    definitions = study.grid.definitions
+    if Path(path).exists():
+        audit = open_audit(path)
+        there = defined_in(audit.attrs).values()
+        both = {each.code: each for named in there for each in named.values()} | {**definitions}
+        # Nothing of another version of the solver, nor if one name stands for two things.
+        names = {(each.parameter, each.name) for each in both.values()}
+        if audit.attrs.get("solver_version") == SOLVER_VERSION and len(names) == len(both):
+            known, definitions = audited_points(audit), both
 
     def lacks(key: tuple[float, ...]) -> bool:
         point = known.get(key)
-        return point is None or (dense and bool(np.isnan(point.s_dense) and np.isfinite(point.s)))
-
-    missing = [key for key in keys if lacks(key)]
+        return point is None or (dense and bool(np.isnan(point["s_dense"]) and np.isfinite(point["s"])))
 
     def dataset(some: Iterable[tuple[float, ...]]) -> xr.Dataset:
         done = [key for key in some if key in known]
-        found = audit_dataset(np.array(done, ROW), [known[key] for key in done], definitions)
+        audited = np.array([known[key] for key in done], AUDITED)
+        found = audit_dataset(np.array(done, ROW), audited, definitions)
         own = {"title": study.title, "study": study.text, "seed": seed, "solver_version": SOLVER_VERSION}
         return found.assign_attrs(own)
 
+    missing = [key for key in keys if lacks(key)]
     saved = time.monotonic()
     try:
         with start_workers(workers) as pool, Progress(len(keys), Path(path).stem) as shown:
             told = (shown.add, *((progress,) if progress else ()))
             for count in told:
                 count(len(keys) - len(missing))
-            for key, point in zip(missing, pool.map(audit, missing), strict=True):
+            one = partial(audit_point, definitions=definitions, dense=dense)
+            for key, point in zip(missing, pool.map(one, missing), strict=True):
                 known[key] = point
                 for count in told:
                     count(1)
@@ -106,21 +110,41 @@ def audit_study(
     return dataset(keys)
 
 
-def _known(
-    path: str | PathLike[str], own: Definitions
-) -> tuple[dict[tuple[float, ...], AuditedPoint], Definitions]:
-    """The points of an audit that is there, and what is defined in it and by the study.
+def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = False) -> np.void:
+    """Audit one canonical row (`swtstudy.points.canonical`).
 
-    None of another version of the solver, nor if one name stands for two things.
+    Parameters
+    ----------
+    row
+        The row.
+    definitions
+        What the user has defined, by its code.
+    dense
+        Whether its surface line gets a dense grid, too (`swtstudy.paper.audit.dense`).
+
+    Returns
+    -------
+    record
+        Of `AUDITED`.
     """
-    if not Path(path).exists():
-        return {}, own
-    audit = open_audit(path)
-    # An audit of the time before versions were written down is taken as it is.
-    current = audit.attrs.get("solver_version", SOLVER_VERSION) == SOLVER_VERSION
-    both = {each.code: each for named in defined_in(audit.attrs).values() for each in named.values()}
-    both |= own
-    names = {(each.parameter, each.name) for each in both.values()}
-    if not current or len(names) < len(both):
-        return {}, own
-    return audited_points(audit), both
+    from swtstudy.paper.audit.body_maximum import body_maximum
+    from swtstudy.paper.audit.dense import dense_maximum
+    from swtstudy.solver.solve import solve_points
+
+    points = points_from(np.array([tuple(row)], ROW), definitions)
+    line = solve_points(points, TOLERANCE / 10.0)
+    found = np.zeros(1, AUDITED)[0]
+    for name in FOUND:
+        found[name] = np.nan
+    for name in ("s", "s_error", "s_surface", "critical_x", "regime"):
+        found[name] = getattr(line, name)[0]
+    if dense and np.isfinite(found["s"]):
+        found["s_dense"] = dense_maximum(points)[0]
+    if np.isfinite(found["s_surface"]):
+        # The field handles gross slip and the 0/0 of a vanishing contact: NumPy's warnings would only alarm.
+        with np.errstate(all="ignore"):
+            body, at_line = body_maximum(points, float(found["critical_x"]))
+        found["s_all_planes"], found["s_body"] = at_line.swt, body.swt
+        for axis, position, normal in zip("xyz", body.position, body.normal, strict=True):
+            found[f"body_{axis}"], found[f"normal_{axis}"] = position, normal
+    return found

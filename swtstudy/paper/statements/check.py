@@ -6,8 +6,10 @@ There is one for the terminal, and one as a Markdown file.
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from os import PathLike
 from pathlib import Path
 
@@ -18,16 +20,12 @@ from swtstudy.paper.statements import critical_point, face, formalisms, paramete
 from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Statement
 
 #: All statements, in the order of the paper.
-STATEMENTS: tuple[Statement, ...] = (
-    *formalisms.STATEMENTS,
-    *critical_point.STATEMENTS,
-    *parameters.STATEMENTS,
-    *phase.STATEMENTS,
-    *face.STATEMENTS,
-    *waviness.STATEMENTS,
+STATEMENTS = tuple(
+    each
+    for file in (formalisms, critical_point, parameters, phase, face, waviness)
+    for each in vars(file).values()
+    if isinstance(each, Statement)
 )
-
-
 #: Names of the archives and audits that the statements are about.
 STUDIES = tuple(dict.fromkeys(name for statement in STATEMENTS for name in statement.studies))
 
@@ -39,6 +37,18 @@ class Outcome:
     statement: Statement
     finding: Finding | None
     problem: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """Holds, does not hold, or not checked."""
+        if self.finding is None:
+            return "not checked"
+        return "holds" if self.finding.holds else "does not hold"
+
+    @property
+    def measured(self) -> str:
+        """The numbers, or the reason why there are none, in one line."""
+        return self.finding.measured if self.finding else self.problem.replace("\n", "; ")
 
 
 def check(results: str | PathLike[str] = "results") -> list[Outcome]:
@@ -60,13 +70,22 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     ArchiveError
         A ValueError, if one of the files is not an archive.
     """
+    from swtstudy.archive.archive import open_results
+    from swtstudy.paper.audit.dataset import open_audit
+
     archives: dict[str, xr.Dataset] = {}
     problems: dict[str, str] = {}
     for name in STUDIES:
-        path = Path(results) / f"{name}.nc"
-        problem = _problem(name, path, archives)
-        if problem:
-            problems[name] = problem
+        path, audited = Path(results) / f"{name}.nc", name.startswith(AUDIT_PREFIX)
+        command = f"swtstudy {'audit' if audited else 'run'} {name.removeprefix(AUDIT_PREFIX)}"
+        if not path.is_file():
+            problems[name] = f"{path} is missing; made by: {command}"
+            continue
+        archives[name] = open_audit(path) if audited else open_results(path)
+        gaps = 0 if audited else int(archives[name].s.isnull().sum())
+        if gaps:
+            lost = f"{gaps} of {archives[name].s.size} points"
+            problems[name] = f"{path} has no value at {lost}; made by: {command} --retry-failed"
     return [_outcome(statement, archives, problems) for statement in STATEMENTS]
 
 
@@ -83,34 +102,43 @@ def about_archive(name: str, dataset: xr.Dataset) -> list[Outcome]:
     return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS if each.studies == (name,)]
 
 
-def _problem(name: str, path: Path, archives: dict[str, xr.Dataset]) -> str:
-    """Add an archive to the others; return the reason if it cannot be used."""
-    from swtstudy.archive.archive import open_results
-    from swtstudy.paper.audit.report import open_audit
-
-    audited = name.startswith(AUDIT_PREFIX)
-    command = f"swtstudy {'audit' if audited else 'run'} {name.removeprefix(AUDIT_PREFIX)}"
-    if not path.is_file():
-        return f"{path} is missing; made by: {command}"
-    if audited:
-        archives[name] = open_audit(path)
-        return ""
-    dataset = open_results(path)
-    gaps = int(dataset.s.isnull().sum())
-    if gaps:
-        return f"{path} has no value at {gaps} of {dataset.s.size} points; made by: {command} --retry-failed"
-    archives[name] = dataset
-    return ""
-
-
-def _outcome(statement: Statement, archives: dict[str, xr.Dataset], problems: dict[str, str]) -> Outcome:
-    found = [problems[name] for name in statement.studies if name in problems]
-    if found:
+def _outcome(
+    statement: Statement, archives: Mapping[str, xr.Dataset], problems: Mapping[str, str]
+) -> Outcome:
+    if found := [problems[name] for name in statement.studies if name in problems]:
         return Outcome(statement, None, "\n".join(found))
     try:
-        return Outcome(statement, statement.test(*(archives[name] for name in statement.studies)))
+        return Outcome(statement, statement(*(archives[name] for name in statement.studies)))
     except NotInArchiveError as error:
         return Outcome(statement, None, f"{', '.join(statement.studies)}: {error} in the archive")
+
+
+def summary(outcomes: Sequence[Outcome]) -> str:
+    """Number of statements that hold, do not hold, or were not checked, in words."""
+    count = Counter(each.verdict for each in outcomes)
+    words = f"{len(outcomes)} statements: {count['holds']} hold, {count['does not hold']} do not"
+    return words + (f", {count['not checked']} not checked" if count["not checked"] else "")
+
+
+#: Widths of the terminal's table and of its first and last column: the place and the verdict.
+_NARROWEST, _PLACE, _VERDICT = 80, 11, 13
+
+
+def terminal_table(outcomes: Iterable[Outcome], width: int) -> str:
+    """The table as plain text of a given width in characters, without the criteria."""
+    rest = max(width, _NARROWEST) - _PLACE - _VERDICT - 6
+    widths = (_PLACE, rest * 2 // 5, rest - rest * 2 // 5, _VERDICT)
+    rows = [("where", "the paper says", "measured", "")]
+    for each in outcomes:
+        rows.append((each.statement.place, each.statement.sentence, each.measured, each.verdict))
+    lines: list[str] = []
+    for row in rows:
+        cells = [textwrap.wrap(cell, column) for cell, column in zip(row, widths, strict=True)]
+        for parts in zip_longest(*cells, fillvalue=""):
+            line = (f"{part:<{column}}" for part, column in zip(parts, widths, strict=True))
+            lines.append("  ".join(line).rstrip())
+        lines.append("" if len(lines) > 1 else "  ".join("-" * column for column in widths))
+    return "\n".join(lines)
 
 
 _INTRODUCTION = """\
@@ -123,68 +151,14 @@ bounds are ours, given in the third column. A statement that does not hold is re
 Made by `swtstudy check`.
 """
 
-#: Widths of the columns on the terminal: place, statement, measured, verdict.
-_NARROWEST, _PLACE, _VERDICT = 80, 11, 13
-
-
-def verdict(outcome: Outcome) -> str:
-    """Holds, does not hold, or not checked."""
-    if outcome.finding is None:
-        return "not checked"
-    return "holds" if outcome.finding.holds else "does not hold"
-
-
-def summary(outcomes: Sequence[Outcome]) -> str:
-    """Number of statements that hold, do not hold, or were not checked, in words."""
-    verdicts = [verdict(outcome) for outcome in outcomes]
-    counts = {kind: verdicts.count(kind) for kind in ("holds", "does not hold", "not checked")}
-    words = f"{len(outcomes)} statements: {counts['holds']} hold, {counts['does not hold']} do not"
-    return words + (f", {counts['not checked']} not checked" if counts["not checked"] else "")
-
-
-def terminal_table(outcomes: Iterable[Outcome], width: int) -> str:
-    """The table as plain text of a given width in characters, without the criteria."""
-    rest = max(width, _NARROWEST) - _PLACE - _VERDICT - 6
-    widths = (_PLACE, rest * 2 // 5, rest - rest * 2 // 5, _VERDICT)
-    rule = "  ".join("-" * column for column in widths)
-    rows = [_row(("where", "the paper says", "measured", ""), widths), rule]
-    for outcome in outcomes:
-        statement = outcome.statement
-        cells = (statement.place, statement.sentence, _measured(outcome), verdict(outcome))
-        rows += [_row(cells, widths), ""]
-    return "\n".join(rows)
-
 
 def markdown(outcomes: Sequence[Outcome]) -> str:
     """The table as a Markdown file."""
     lines = [_INTRODUCTION, f"**{summary(outcomes)}.**", ""]
     lines += ["| Where | The paper says | Counts as holding if | Measured | |", "|---|---|---|---|---|"]
-    for outcome in outcomes:
-        statement = outcome.statement
-        word = verdict(outcome)
-        cells = (
-            *map(_escaped, (statement.place, statement.sentence, statement.criterion, _measured(outcome))),
-            word if word == "holds" else f"**{word}**",
-        )
-        lines.append("| " + " | ".join(cells) + " |")
+    for each in outcomes:
+        texts = (each.statement.place, each.statement.sentence, each.statement.criterion, each.measured)
+        cells = [text.replace("|", "\\|").replace("*", "\\*") for text in texts]
+        verdict = each.verdict if each.verdict == "holds" else f"**{each.verdict}**"
+        lines.append(f"| {' | '.join(cells)} | {verdict} |")
     return "\n".join(lines) + "\n"
-
-
-def _escaped(cell: str) -> str:
-    """A cell with Markdown's special characters escaped."""
-    return cell.replace("|", "\\|").replace("*", "\\*")
-
-
-def _measured(outcome: Outcome) -> str:
-    return outcome.finding.measured if outcome.finding else outcome.problem.replace("\n", "; ")
-
-
-def _row(cells: Sequence[str], widths: Sequence[int]) -> str:
-    columns = [textwrap.wrap(cell, width) or [""] for cell, width in zip(cells, widths, strict=True)]
-    height = max(map(len, columns))
-    padded = [column + [""] * (height - len(column)) for column in columns]
-    lines = zip(*padded, strict=True)
-    return "\n".join(
-        "  ".join(f"{part:<{width}}" for part, width in zip(line, widths, strict=True)).rstrip()
-        for line in lines
-    )

@@ -10,12 +10,10 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.paper.audit import AUDIT_PREFIX
-from swtstudy.paper.audit.point import VERDICTS
-from swtstudy.paper.statements.statement import Finding, Statement
+from swtstudy.paper.audit.dataset import VERDICTS
+from swtstudy.paper.statements.statement import Finding, statement
 from swtstudy.points.canonical import alike, points_from
 from swtstudy.solver.margins import Margins
-from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 
 
@@ -45,7 +43,7 @@ _ROUNDING = 1e-9
 _ABOUT_TEN_DEGREES = 10.0
 
 #: Every archive of the suite, in its order.
-_ALL = (
+EVERY_ARCHIVE = (
     *(f"figure{number}" for number in range(3, 9)),
     "other_frequencies",
     "friction",
@@ -54,9 +52,27 @@ _ALL = (
 )
 
 
-def on_the_line(audit: xr.Dataset) -> Finding:
-    """Where the maximum over the whole body and all planes lies, at random points of all parameters."""
-    verdict = audit.verdict.values[np.isfinite(audit.excess.values)]
+@statement("Title", EVERY_ARCHIVE)
+def slips_partially(*archives: xr.Dataset) -> Finding:
+    """The contacts oscillate in partial slip.
+
+    Holds if: at 95% of all points the regime is partial slip: part of the contact slips, no gross slip (max(u
+    − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off
+    """
+    regime = np.concatenate([archive.regime.values.ravel() for archive in archives])
+    shares = {name: float((regime == REGIMES.index(name)).mean()) for name in REGIMES}
+    words = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items() if share)
+    return Finding(f"of {len(regime)} points: {words}", shares["partial_slip"] >= _BASICALLY_ALL)
+
+
+@statement("Section 4.1")
+def on_the_line(audit_parameter_box: xr.Dataset) -> Finding:
+    """The critical point lies on the surface, on the line y = 0.
+
+    Holds if: at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%
+    """
+    audit = audit_parameter_box.isel(sample=np.isfinite(audit_parameter_box.excess.values))
+    verdict = audit.verdict.values
     codes = {name: verdict == code for code, name in enumerate(audit.verdict.attrs["flag_meanings"].split())}
     off, beneath, oblique = codes["symmetry_line"], codes["surface"], codes["plane_through_y"]
     left = off | beneath | oblique
@@ -67,19 +83,32 @@ def on_the_line(audit: xr.Dataset) -> Finding:
         f"on the surface off the line {off.sum()}"
     )
     if left.any():
-        finite = audit.isel(sample=np.isfinite(audit.excess.values))
         measured += (
-            f", with swt up to {float(finite.excess.values[left].max()):.1%} higher, for "
-            f"ν ≥ {float(finite.poisson_ratio.values[left].min()):.2f}"
+            f", with swt up to {float(audit.excess.values[left].max()):.1%} higher, for "
+            f"ν ≥ {float(audit.poisson_ratio.values[left].min()):.2f}"
         )
     return Finding(measured, share >= _BASICALLY_ALL)
 
 
-def inside_contact(figure3: xr.Dataset, figure4: xr.Dataset, *audits: xr.Dataset) -> Finding:
-    """Position of the critical point over the largest contact radius, and depth of the body's maximum."""
-    share = np.concatenate([_share_of_contact(archive).ravel() for archive in (figure3, figure4)])
-    audited = [audit.isel(sample=np.isfinite(audit.excess.values)) for audit in audits]
-    verdicts = np.concatenate([audit.verdict.values for audit in audited])
+@statement("Figures 3 and 4")
+def inside_contact(
+    figure3: xr.Dataset, figure4: xr.Dataset, audit_figure3: xr.Dataset, audit_figure4: xr.Dataset
+) -> Finding:
+    """The critical point lies on the surface, within the largest contact.
+
+    Holds if: |x| ≤ a_max at all points, and the maximum of the body beneath the surface at none of those
+    audited
+    """
+    # The largest contact radius of a paraboloid: g(a) = a².
+    share = np.concatenate(
+        [
+            (abs(archive.critical_x) / np.sqrt(1.0 + archive.normal_amplitude)).values.ravel()
+            for archive in (figure3, figure4)
+        ]
+    )
+    verdicts = np.concatenate(
+        [audit.verdict.values[np.isfinite(audit.excess.values)] for audit in (audit_figure3, audit_figure4)]
+    )
     beneath = int((verdicts == VERDICTS.index("surface")).sum())
     inside = share <= 1.0 + _ROUNDING
     measured = (
@@ -89,14 +118,12 @@ def inside_contact(figure3: xr.Dataset, figure4: xr.Dataset, *audits: xr.Dataset
     return Finding(measured, bool(inside.all()) and beneath == 0)
 
 
-def _share_of_contact(archive: xr.Dataset) -> FloatArray:
-    """|x| over the largest radius of the contact in the cycle; g(a) = a² for the paraboloid."""
-    largest = np.sqrt(1.0 + archive.normal_amplitude)
-    return np.asarray((abs(archive.critical_x) / largest).values)
-
-
+@statement("Section 4.1", EVERY_ARCHIVE)
 def outside_of_stick(*archives: xr.Dataset) -> Finding:
-    """Position of the critical point over the radius of permanent stick."""
+    """For basically all simulations the critical point lies well outside the zone of permanent stick.
+
+    Holds if: |x| at least 1.1 times the radius of permanent stick at 95% of the points that have such a zone
+    """
     stick = np.concatenate([stick_radius(archive).values.ravel() for archive in archives])
     position = np.concatenate([abs(archive.critical_x.values).ravel() for archive in archives])
     sticking = (stick > 0) & np.isfinite(position)
@@ -112,8 +139,12 @@ def outside_of_stick(*archives: xr.Dataset) -> Finding:
     return Finding(measured, share >= _BASICALLY_ALL)
 
 
+@statement("Section 4.1", EVERY_ARCHIVE)
 def normal_along_x(*archives: xr.Dataset) -> Finding:
-    """Angle of the critical plane's normal against x."""
+    """For basically all simulations the critical plane's normal lies close to the x axis.
+
+    Holds if: within 10° at 95% of all points
+    """
     angle = np.concatenate([abs(archive.critical_angle.values).ravel() for archive in archives])
     # Where s is 0 there is no critical plane.
     angle = angle[np.isfinite(angle)]
@@ -124,51 +155,3 @@ def normal_along_x(*archives: xr.Dataset) -> Finding:
         f"largest {angle.max():.1f}° ({worst.attrs.get('title', 'untitled')})"
     )
     return Finding(measured, share >= _BASICALLY_ALL)
-
-
-def slips_partially(*archives: xr.Dataset) -> Finding:
-    """Share of the points in each regime."""
-    regime = np.concatenate([archive.regime.values.ravel() for archive in archives])
-    shares = {name: float((regime == REGIMES.index(name)).mean()) for name in REGIMES}
-    words = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items() if share)
-    return Finding(f"of {len(regime)} points: {words}", shares["partial_slip"] >= _BASICALLY_ALL)
-
-
-STATEMENTS = (
-    Statement(
-        "Title",
-        "The contacts oscillate in partial slip.",
-        "at 95% of all points the regime is partial slip: part of the contact slips, no gross slip "
-        "(max(u − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off",
-        slips_partially,
-        _ALL,
-    ),
-    Statement(
-        "Section 4.1",
-        "The critical point lies on the surface, on the line y = 0.",
-        "at 95% of the audited points no point of the body and no plane exceeds s by more than 0.1%",
-        on_the_line,
-        (f"{AUDIT_PREFIX}parameter_box",),
-    ),
-    Statement(
-        "Figures 3 and 4",
-        "The critical point lies on the surface, within the largest contact.",
-        "|x| ≤ a_max at all points, and the maximum of the body beneath the surface at none of those audited",
-        inside_contact,
-        ("figure3", "figure4", f"{AUDIT_PREFIX}figure3", f"{AUDIT_PREFIX}figure4"),
-    ),
-    Statement(
-        "Section 4.1",
-        "For basically all simulations the critical point lies well outside the zone of permanent stick.",
-        "|x| at least 1.1 times the radius of permanent stick at 95% of the points that have such a zone",
-        outside_of_stick,
-        _ALL,
-    ),
-    Statement(
-        "Section 4.1",
-        "For basically all simulations the critical plane's normal lies close to the x axis.",
-        "within 10° at 95% of all points",
-        normal_along_x,
-        _ALL,
-    ),
-)

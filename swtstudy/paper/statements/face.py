@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import xarray as xr
 
 from swtstudy.paper.statements.statement import (
     Finding,
-    Statement,
     at,
     coupling,
     even,
     largest_change,
     listed,
+    statement,
     with_dims,
 )
 from swtstudy.vocabulary.wording import value_words
@@ -45,8 +43,22 @@ def _monotone(figure5: xr.Dataset, profile: str, sense: int) -> Finding:
     return Finding(measured, not wrong.any())
 
 
-rounded_punch_falls = partial(_monotone, profile="rounded_punch", sense=-1)
-truncated_paraboloid_rises = partial(_monotone, profile="truncated_paraboloid", sense=1)
+@statement("Figure 5")
+def rounded_punch_falls(figure5: xr.Dataset) -> Finding:
+    """Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.
+
+    Holds if: no step of b/a_H raises s beyond its error at any phase
+    """
+    return _monotone(figure5, "rounded_punch", -1)
+
+
+@statement("Figure 5")
+def truncated_paraboloid_rises(figure5: xr.Dataset) -> Finding:
+    """Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.
+
+    Holds if: no step of b/a_H lowers s beyond its error at any phase
+    """
+    return _monotone(figure5, "truncated_paraboloid", 1)
 
 
 def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:
@@ -55,21 +67,34 @@ def coupling_with(dataset: xr.Dataset, dim: str, largest: float) -> Finding:
     return Finding(f"{share:.1%} of the variance of ln s is coupling", share <= largest)
 
 
-def _coupling(figure5: xr.Dataset, profile: str, largest: float) -> Finding:
-    """Coupling of b and ψ for one of the profiles."""
-    return coupling_with(even(at(figure5, profile=profile), "phase"), "flat_radius", largest)
+@statement("Figure 5")
+def rounded_punch_uncoupled(figure5: xr.Dataset) -> Finding:
+    """Rounded punch: b/a_H and phase are practically not coupled.
+
+    Holds if: at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)
+    """
+    return coupling_with(even(at(figure5, profile="rounded_punch"), "phase"), "flat_radius", NEGLIGIBLE)
 
 
-rounded_punch_uncoupled = partial(_coupling, profile="rounded_punch", largest=NEGLIGIBLE)
-truncated_paraboloid_weakly_coupled = partial(_coupling, profile="truncated_paraboloid", largest=WEAK)
+@statement("Figure 5")
+def truncated_paraboloid_weakly_coupled(figure5: xr.Dataset) -> Finding:
+    """Truncated paraboloid: b/a_H and phase are weakly coupled.
+
+    Holds if: at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)
+    """
+    return coupling_with(even(at(figure5, profile="truncated_paraboloid"), "phase"), "flat_radius", WEAK)
 
 
 #: Largest distance of two curves that look like one in a figure, as a fraction of its height.
 _LINE = 0.02
 
 
+@statement("Figure 6")
 def all_curves_fall(figure6: xr.Dataset) -> Finding:
-    """Check whether s falls with b for every load."""
+    """Rounded punch: s falls with b/a_H for every frequency ratio and phase.
+
+    Holds if: no step of b/a_H raises s beyond its error
+    """
     rise = largest_change(with_dims(figure6, "flat_radius"), "flat_radius", 1)
     ordered = figure6.s.sortby("flat_radius")
     end = ordered.isel(flat_radius=-1) / ordered.isel(flat_radius=0)
@@ -81,8 +106,12 @@ def all_curves_fall(figure6: xr.Dataset) -> Finding:
     return Finding(measured, rise == 0)
 
 
+@statement("Figure 6")
 def curves_are_alike(figure6: xr.Dataset) -> Finding:
-    """Largest distance of the curves once each is divided by its value at b = 0."""
+    """All curves fall in exactly the same way: no coupling of load and profile can be seen.
+
+    Holds if: the curves s/s(b = 0) are nowhere further apart than 2% of the figure's height
+    """
     normalised = with_dims(figure6, "phase", "frequency_ratio").s / at(figure6, flat_radius=0).s
     by_phase = _distance(normalised, ["frequency_ratio"])
     height = float(normalised.max() - normalised.min())
@@ -100,12 +129,23 @@ def _distance(normalised: xr.DataArray, over: list[str]) -> xr.DataArray:
     return (normalised.max(over) - normalised.min(over)).max("flat_radius")
 
 
-loads_do_not_couple = partial(coupling_with, dim="flat_radius", largest=NEGLIGIBLE)
+@statement("Figure 6")
+def loads_do_not_couple(figure6: xr.Dataset) -> Finding:
+    """Rounded punch: the coupling of b/a_H with the load is negligible.
+
+    Holds if: at most 1% of the variance of ln s is left over by a product f(b)·g(ψ, ω2/ω1)
+    """
+    return coupling_with(figure6, "flat_radius", NEGLIGIBLE)
 
 
-def sharp_edges_are_worst(annulus: xr.Dataset) -> Finding:
-    """SWT of the rounded punch at fixed b and δ0: SWT b²/(E* δ0²) = s (b/a_H)², while R ~ 1/(b/a_H)²."""
-    curves = with_dims(at(annulus, profile="rounded_punch"), "flat_radius").sortby("flat_radius")
+@statement("Section 4.3")
+def sharp_edges_are_worst(stability_thin_annulus: xr.Dataset) -> Finding:
+    """Rounded punch: as R → 0 at fixed b and δ0, the sharp punch, SWT grows without bound.
+
+    Holds if: SWT/E* = s δ0/R grows beyond its error with every step of R towards 0
+    """
+    curves = at(stability_thin_annulus, profile="rounded_punch")
+    curves = with_dims(curves, "flat_radius").sortby("flat_radius")
     b = curves.flat_radius
     swt, error = curves.s * b**2, curves.s_error * b**2
     steps = swt.diff("flat_radius") - error.rolling(flat_radius=2).sum().isel(flat_radius=slice(1, None))
@@ -120,56 +160,3 @@ def sharp_edges_are_worst(annulus: xr.Dataset) -> Finding:
         f"{curves.s.size // b.size} curves; at the end like R^-{low:.2f} to R^-{high:.2f}"
     )
     return Finding(measured, grows)
-
-
-STATEMENTS = (
-    Statement(
-        "Figure 5",
-        "Rounded punch: s falls with b/a_H at every phase, and so lies below the full paraboloid.",
-        "no step of b/a_H raises s beyond its error at any phase",
-        rounded_punch_falls,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: s rises with b/a_H at every phase, and so lies above the full paraboloid.",
-        "no step of b/a_H lowers s beyond its error at any phase",
-        truncated_paraboloid_rises,
-    ),
-    Statement(
-        "Figure 5",
-        "Rounded punch: b/a_H and phase are practically not coupled.",
-        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        rounded_punch_uncoupled,
-    ),
-    Statement(
-        "Figure 5",
-        "Truncated paraboloid: b/a_H and phase are weakly coupled.",
-        "at most 10% of the variance of ln s is left over by a product f(b)·g(ψ)",
-        truncated_paraboloid_weakly_coupled,
-    ),
-    Statement(
-        "Figure 6",
-        "Rounded punch: s falls with b/a_H for every frequency ratio and phase.",
-        "no step of b/a_H raises s beyond its error",
-        all_curves_fall,
-    ),
-    Statement(
-        "Figure 6",
-        "All curves fall in exactly the same way: no coupling of load and profile can be seen.",
-        "the curves s/s(b = 0) are nowhere further apart than 2% of the figure's height",
-        curves_are_alike,
-    ),
-    Statement(
-        "Figure 6",
-        "Rounded punch: the coupling of b/a_H with the load is negligible.",
-        "at most 1% of the variance of ln s is left over by a product f(b)·g(ψ, ω2/ω1)",
-        loads_do_not_couple,
-    ),
-    Statement(
-        "Section 4.3",
-        "Rounded punch: as R → 0 at fixed b and δ0, the sharp punch, SWT grows without bound.",
-        "SWT/E* = s δ0/R grows beyond its error with every step of R towards 0",
-        sharp_edges_are_worst,
-        ("stability_thin_annulus",),
-    ),
-)

@@ -5,16 +5,15 @@ The paper's words on the latter stand beside the measured share of the variance.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import partial
+import itertools
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.paper.statements.statement import Finding, Statement, largest_change, listed, with_dims
+from swtstudy.paper.statements.statement import Finding, largest_change, listed, statement, with_dims
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import value_words
+from swtstudy.vocabulary.wording import unit_words, value_words
 
 #: Poisson ratios of most metals.
 _METALS = slice(0.25, 0.35)
@@ -32,25 +31,40 @@ def _rises(archive: xr.Dataset, dim: str, symbol: str) -> Finding:
     return Finding(f"s {words}, {symbol} from {low:g} to {high:g} on {curves} curves", fall == 0)
 
 
-rises_with_friction = partial(_rises, dim="friction", symbol="μ")
+@statement("Section 4.1")
+def rises_with_friction(friction: xr.Dataset) -> Finding:
+    """s rises with the coefficient of friction.
+
+    Holds if: s never falls beyond its error, on any curve
+    """
+    return _rises(friction, "friction", "μ")
 
 
-def rises_with_tangential_amplitude(sample: xr.Dataset) -> Finding:
-    """Falls of s along curves of a random sample, whatever the regime."""
-    falls = _falls(sample)
+@statement("Section 4.1")
+def rises_with_tangential_amplitude(tangential_amplitude_sample: xr.Dataset) -> Finding:
+    """s rises with the amplitude of the tangential oscillation.
+
+    Holds if: s never falls beyond its error, on any curve of a random sample
+    """
+    falls = _falls(tangential_amplitude_sample)
     return Finding(_falls_in_words("s", falls), not (falls > 0.0).any())
 
 
-def rises_in_partial_slip(sample: xr.Dataset) -> Finding:
-    """Falls of s along the same curves, up to gross slip and in gross slip."""
-    falls = _falls(sample)
-    slides = sample.regime == REGIMES.index("gross_slip")
+@statement("Section 4.1")
+def rises_in_partial_slip(tangential_amplitude_sample: xr.Dataset) -> Finding:
+    """The same up to gross slip, for basically all loads; in gross slip s hardly falls.
+
+    Holds if: up to gross slip s falls on at most 5% of the curves; in gross slip nowhere by more than 5% of
+    an earlier value
+    """
+    falls = _falls(tangential_amplitude_sample)
+    slides = tangential_amplitude_sample.regime == REGIMES.index("gross_slip")
     before, within = falls.where(~slides, 0.0), falls.where(slides, 0.0)
     measured = (
         f"{_falls_in_words('up to gross slip s', before)}; {_falls_in_words('in gross slip s', within)}"
     )
-    holds = _share_of_curves(before) <= _FEW and float(within.max()) <= _LITTLE
-    return Finding(measured, holds)
+    few = float((before > 0.0).any(_AMPLITUDE).mean()) <= _FEW
+    return Finding(measured, few and float(within.max()) <= _LITTLE)
 
 
 def _falls(sample: xr.Dataset) -> xr.DataArray:
@@ -58,11 +72,6 @@ def _falls(sample: xr.Dataset) -> xr.DataArray:
     ordered = with_dims(sample, _AMPLITUDE).sortby(_AMPLITUDE)
     largest = (ordered.s - ordered.s_error).cumulative(_AMPLITUDE).max()
     return ((largest - ordered.s - ordered.s_error) / abs(largest)).clip(min=0.0)
-
-
-def _share_of_curves(falls: xr.DataArray) -> float:
-    """Share of the curves on which s falls anywhere."""
-    return float((falls > 0.0).any(_AMPLITUDE).mean())
 
 
 def _falls_in_words(subject: str, falls: xr.DataArray) -> str:
@@ -74,9 +83,13 @@ def _falls_in_words(subject: str, falls: xr.DataArray) -> str:
     return f"{subject} falls on {count} of {curves.size} random curves, by up to {most:.1%}"
 
 
-def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:
-    """Relative change of s over ν, for every friction coefficient."""
-    s = with_dims(poisson, "poisson_ratio", "friction").s.sortby("poisson_ratio")
+@statement("Section 4.1")
+def poisson_ratio_is_weak(poisson_ratio: xr.Dataset) -> Finding:
+    """The dependence on the Poisson ratio is very weak.
+
+    Holds if: s changes by at most 5% over ν = 0.25…0.35, for every μ
+    """
+    s = with_dims(poisson_ratio, "poisson_ratio", "friction").s.sortby("poisson_ratio")
     metals = s.sel(poisson_ratio=_METALS)
     change = (metals.max("poisson_ratio") - metals.min("poisson_ratio")) / metals.mean("poisson_ratio")
     whole = s.isel(poisson_ratio=-1) / s.isel(poisson_ratio=0)
@@ -87,54 +100,18 @@ def poisson_ratio_is_weak(poisson: xr.Dataset) -> Finding:
     return Finding(measured, bool((change <= 0.05).all()))
 
 
-def poisson_ratio_is_intricate(poisson: xr.Dataset) -> Finding:
-    """Measure whether s(ν) is anything but monotone in one sense at every friction coefficient."""
-    s = with_dims(poisson, "poisson_ratio", "friction").s.sortby("poisson_ratio")
+@statement("Section 4.1")
+def poisson_ratio_is_intricate(poisson_ratio: xr.Dataset) -> Finding:
+    """The dependence on the Poisson ratio is intricate.
+
+    Holds if: s(ν) is not simply monotone in the same sense for every μ
+    """
+    s = with_dims(poisson_ratio, "poisson_ratio", "friction").s.sortby("poisson_ratio")
     rising = (s.diff("poisson_ratio") > 0).mean("poisson_ratio")
     return Finding(
         f"share of the steps of ν over which s rises, μ = {listed(rising)}",
         bool(((rising > 0) & (rising < 1)).any() or np.ptp(rising.values) > 0),
     )
-
-
-STATEMENTS = (
-    Statement(
-        "Section 4.1",
-        "s rises with the coefficient of friction.",
-        "s never falls beyond its error, on any curve",
-        rises_with_friction,
-        ("friction",),
-    ),
-    Statement(
-        "Section 4.1",
-        "s rises with the amplitude of the tangential oscillation.",
-        "s never falls beyond its error, on any curve of a random sample",
-        rises_with_tangential_amplitude,
-        ("tangential_amplitude_sample",),
-    ),
-    Statement(
-        "Section 4.1",
-        "The same up to gross slip, for basically all loads; in gross slip s hardly falls.",
-        "up to gross slip s falls on at most 5% of the curves; in gross slip nowhere by more than 5% of an "
-        "earlier value",
-        rises_in_partial_slip,
-        ("tangential_amplitude_sample",),
-    ),
-    Statement(
-        "Section 4.1",
-        "The dependence on the Poisson ratio is very weak.",
-        "s changes by at most 5% over ν = 0.25…0.35, for every μ",
-        poisson_ratio_is_weak,
-        ("poisson_ratio",),
-    ),
-    Statement(
-        "Section 4.1",
-        "The dependence on the Poisson ratio is intricate.",
-        "s(ν) is not simply monotone in the same sense for every μ",
-        poisson_ratio_is_intricate,
-        ("poisson_ratio",),
-    ),
-)
 
 
 #: What the paper says, by parameter; of the others it says nothing.
@@ -161,41 +138,34 @@ def table(indices: xr.Dataset, of_paper: bool = False) -> str:
     of_paper
         Whether they are those of a study of the paper, with what that says.
     """
-    return "\n".join(_lines(indices, of_paper)) + "\n"
-
-
-def _lines(indices: xr.Dataset, of_paper: bool) -> Iterator[str]:
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     places = indices.stack(place=axes) if axes else indices.expand_dims("place")
     level = f"{100 * indices.attrs['confidence']:g} %"
-    yield f"# {indices.attrs['title']}"
-    for quantity in indices["quantity"].values:
-        for number in range(places.sizes["place"]):
-            one = places.sel(quantity=quantity).isel(place=number)
-            where = [_place(name, one[name]) for name in axes]
-            yield ""
-            yield f"## {', '.join([str(quantity), *where])}"
-            yield ""
-            yield f"mean {float(one['mean']):.4g}, standard deviation {float(one['variance']) ** 0.5:.4g}"
-            yield ""
-            yield f"| parameter | alone | {level} | with others | {level} |{' the paper says |' * of_paper}"
-            yield "|---|---|---|---|---|" + "---|" * of_paper
-            for name in indices["parameter"].values:
-                row = one.sel(parameter=name)
-                cells = [_cells(row, key) for key in ("first_order", "total")]
-                # Of other quantities than s the paper says nothing here.
-                says = SAYS.get(name, "") if quantity == "s" else ""
-                line = f"| {AXES[name].letter} {name} | {cells[0]} | {cells[1]} |"
-                yield line + f" {says} |" * of_paper
-
-
-def _place(name: str, at: xr.DataArray) -> str:
-    """A value of an axis, with its unit."""
-    units = at.attrs.get("units", "1")
-    return f"{name} = {value_words(name, at.item())}{'' if units in ('1', 'rad', '') else f' {units}'}"
-
-
-def _cells(row: xr.Dataset, key: str) -> str:
-    """An index, and its confidence interval."""
-    value, low, high = (float(row[f"{key}{end}"]) for end in ("", "_low", "_high"))
-    return f"{value:.3f} | {low:.3f} to {high:.3f}"
+    lines = [f"# {indices.attrs['title']}"]
+    for quantity, number in itertools.product(indices["quantity"].values, range(places.sizes["place"])):
+        one = places.sel(quantity=quantity).isel(place=number)
+        where = [
+            f"{name} = {value_words(name, one[name].item())}{unit_words(one[name].attrs.get('units', '1'))}"
+            for name in axes
+        ]
+        mean, deviation = float(one["mean"]), float(one["variance"]) ** 0.5
+        lines += [
+            "",
+            f"## {', '.join([str(quantity), *where])}",
+            "",
+            f"mean {mean:.4g}, standard deviation {deviation:.4g}",
+            "",
+            f"| parameter | alone | {level} | with others | {level} |{' the paper says |' * of_paper}",
+            "|---|---|---|---|---|" + "---|" * of_paper,
+        ]
+        for name in indices["parameter"].values:
+            cells = [f"{AXES[name].letter} {name}"]
+            for key in ("first_order", "total"):
+                value, low, high = (
+                    float(one[f"{key}{end}"].sel(parameter=name)) for end in ("", "_low", "_high")
+                )
+                cells += [f"{value:.3f}", f"{low:.3f} to {high:.3f}"]
+            # Of other quantities than s the paper says nothing here.
+            cells += [SAYS.get(name, "") if quantity == "s" else ""] * of_paper
+            lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines) + "\n"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from inspect import signature
 
 import numpy as np
 import xarray as xr
@@ -36,32 +37,51 @@ class Finding:
 
 @dataclass(frozen=True)
 class Statement:
-    """A statement that can be tested.
+    """A statement that can be tested, by calling it with the archives of its studies; see `statement`.
 
     Attributes
     ----------
     place
         Where it is in the paper.
     sentence
-        What the paper says, in other words.
+        The paper's statement, in other words.
     criterion
         When it counts as holding. The paper uses words where a test needs a bound, so the bounds are ours.
-    test
-        Called with the archives of the studies, in their order.
     studies
-        Names of the studies whose archives it is tested on. If omitted: the figure's own study, such as
-        figure3, or none outside of the figures.
+        Names of the studies whose archives it is tested on.
+    test
+        The function that tests it.
     """
 
     place: str
     sentence: str
     criterion: str
+    studies: tuple[str, ...]
     test: Callable[..., Finding]
-    studies: tuple[str, ...] = ()
 
-    def __post_init__(self) -> None:
-        if not self.studies and self.place.startswith("Figure"):
-            object.__setattr__(self, "studies", (self.place.replace(" ", "").lower(),))
+    def __call__(self, *archives: xr.Dataset) -> Finding:
+        """Test it on the archives of its studies, in their order."""
+        return self.test(*archives)
+
+
+def statement(place: str, studies: tuple[str, ...] = ()) -> Callable[[Callable[..., Finding]], Statement]:
+    """Make a statement of the function that tests it.
+
+    The docstring of the function is the sentence and, behind "Holds if:", the criterion.
+
+    Parameters
+    ----------
+    place
+        Where it is in the paper.
+    studies
+        Names of the studies whose archives the function takes; those of its arguments unless given.
+    """
+
+    def made(test: Callable[..., Finding]) -> Statement:
+        sentence, _, criterion = " ".join((test.__doc__ or "").split()).partition(" Holds if: ")
+        return Statement(place, sentence, criterion, studies or tuple(signature(test).parameters), test)
+
+    return made
 
 
 class NotInArchiveError(LookupError):
@@ -135,9 +155,10 @@ _SMALLEST_HARMONIC = 0.02
 _ROUNDING = 1e-9
 
 
-def spread(values: xr.DataArray, dim: str) -> xr.DataArray:
-    """Largest over smallest value along a dimension."""
-    return values.max(dim) / values.min(dim)
+def spread(dataset: xr.Dataset, dim: str, *others: str) -> xr.DataArray:
+    """Largest over smallest s along a dimension, over its other dimensions in this order, each ascending."""
+    s = with_dims(dataset, dim, *others).s.sortby([*others])
+    return (s.max(dim) / s.min(dim)).transpose(*others)
 
 
 def largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:

@@ -12,11 +12,11 @@ import xarray as xr
 from swtstudy.paper.statements.face import WEAK, coupling_with
 from swtstudy.paper.statements.statement import (
     Finding,
-    Statement,
     at,
     even,
     listed,
     spread,
+    statement,
     turning_points,
     with_dims,
 )
@@ -71,14 +71,28 @@ def as_a_rule(count: tuple[int, int]) -> bool:
     return count[1] > 0 and count[0] >= AS_A_RULE * count[1]
 
 
+@statement("Figure 7")
 def waviness_matters(figure7: xr.Dataset) -> Finding:
-    """Largest over smallest s over h, for every wavelength and both amplitudes."""
-    ratios = _ratios(figure7)
-    return Finding(f"max/min over h/δ0: {_by_wavelength(ratios)}", bool((ratios >= 1.2).all()))
+    """Even a very small waviness matters, above all by its amplitude.
+
+    Holds if: max/min over h/δ0 at least 1.2 on every curve
+    """
+    ratios = spread(figure7, "waviness_amplitude", "wavelength", "normal_amplitude")
+    rows = []
+    for row in ratios:
+        values = "/".join(f"{value:.2f}" for value in row.values)
+        rows.append(f"{value_words('wavelength', float(row.wavelength))}: {values}")
+    amplitudes = "/".join(f"{value:g}" for value in ratios.normal_amplitude.values)
+    measured = f"max/min over h/δ0: λ/√(hR) = {', '.join(rows)} (δA/δ0 = {amplitudes})"
+    return Finding(measured, bool((ratios >= 1.2).all()))
 
 
+@statement("Abstract")
 def waviness_raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset) -> Finding:
-    """Largest and smallest s over s of the paraboloid."""
+    """A small waviness can raise or lower s markedly.
+
+    Holds if: by 10% or more either way against the paraboloid, for both δA/δ0
+    """
     changes = []
     for amplitude in figure7.normal_amplitude.values.tolist():
         smooth = float(at(figure3, normal_amplitude=amplitude, phase=0).s)
@@ -89,8 +103,13 @@ def waviness_raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset) -> Find
     return Finding(f"against the paraboloid, {words}", holds)
 
 
+@statement("Figure 7")
 def oscillations_shrink(figure7: xr.Dataset) -> Finding:
-    """Periods and swings along every curve."""
+    """s oscillates at small waviness amplitudes, with periods and amplitudes that shrink as h → 0.
+
+    Holds if: from one oscillation to the next, period and rise (or fall) grow with h in 4 of 5 cases; ripples
+    below 10% of a curve's range do not count
+    """
     found = oscillations(with_dims(figure7, "wavelength", "normal_amplitude"))
     periods, swings = longer_periods(found), larger_swings(found)
     longest = max(found, key=lambda oscillation: len(oscillation.swings))
@@ -110,9 +129,13 @@ def oscillations(dataset: xr.Dataset) -> list[Oscillation]:
     return [Oscillation.of(h, curve) for curve in s]
 
 
+@statement("Figure 7")
 def effects_are_alike(figure7: xr.Dataset) -> Finding:
-    """Effect of h at the larger δA over that at the smaller one, mean over the wavelengths."""
-    sizes = np.log(_ratios(figure7).transpose("normal_amplitude", "wavelength").values)
+    """The normal oscillation hardly changes how much the waviness matters.
+
+    Holds if: ln(max/min) over h/δ0, mean over the wavelengths, differs by at most 25% between the two δA/δ0
+    """
+    sizes = np.log(spread(figure7, "waviness_amplitude", "normal_amplitude", "wavelength").values)
     change = float(sizes[-1].mean() / sizes[0].mean()) - 1
     each = sizes[-1] / sizes[0] - 1
     measured = (
@@ -122,8 +145,12 @@ def effects_are_alike(figure7: xr.Dataset) -> Finding:
     return Finding(measured, abs(change) <= 0.25)
 
 
+@statement("Figure 7")
 def curves_are_alike(figure7: xr.Dataset) -> Finding:
-    """Distance of the curves of both amplitudes, each over its mean, compared with the effect of h itself."""
+    """Both amplitudes of the normal oscillation give quantitatively similar curves.
+
+    Holds if: at equal h the curves, each over its mean, differ by at most half of the effect of h (rms)
+    """
     s = even(with_dims(figure7, "normal_amplitude"), "waviness_amplitude").s.sortby("normal_amplitude")
     effect = s / s.mean("waviness_amplitude") - 1
     distance = effect.isel(normal_amplitude=-1) - effect.isel(normal_amplitude=0)
@@ -131,39 +158,28 @@ def curves_are_alike(figure7: xr.Dataset) -> Finding:
     return Finding(f"the distance is {share:.2f} of the effect of h (rms; 1.41: unrelated)", share <= 0.5)
 
 
-def _ratios(figure7: xr.Dataset) -> xr.DataArray:
-    figure7 = with_dims(figure7, "waviness_amplitude", "wavelength", "normal_amplitude")
-    return spread(figure7.s.sortby("normal_amplitude"), "waviness_amplitude")
-
-
-def _by_wavelength(ratios: xr.DataArray) -> str:
-    amplitudes = "/".join(f"{value:g}" for value in ratios.normal_amplitude.values)
-    rows = []
-    for column in ratios.transpose("wavelength", "normal_amplitude"):
-        values = "/".join(f"{value:.2f}" for value in column.values)
-        rows.append(f"{value_words('wavelength', float(column.wavelength))}: {values}")
-    return f"λ/√(hR) = {', '.join(rows)} (δA/δ0 = {amplitudes})"
-
-
 def _ends(values: FloatArray) -> str:
     return f"{values[0]:.2g} to {values[-1]:.2g}" if len(values) else "none"
 
 
+@statement("Figure 8")
 def half_differs_most(figure8: xr.Dataset) -> Finding:
-    """Mean over h of |ln s(π)/s(0)| at every frequency ratio."""
+    """Wavy paraboloid: the phases 0 and π differ most at ω2/ω1 = 1/2.
+
+    Holds if: the mean over h of |ln s(π)/s(0)| is largest at 1/2
+    """
     curves = even(with_dims(figure8, "phase", "frequency_ratio"), "waviness_amplitude")
     change = np.abs(np.log(at(curves, phase=math.pi).s / at(curves, phase=0).s)).mean("waviness_amplitude")
     largest = float(change.idxmax("frequency_ratio"))
     return Finding(f"mean over h of |ln s(π)/s(0)| at ω2/ω1 = {listed(change)}", largest == 0.5)
 
 
-def loads_couple_weakly(figure8: xr.Dataset) -> Finding:
-    """Coupling of h with phase and frequency ratio."""
-    return coupling_with(even(figure8, "waviness_amplitude"), "waviness_amplitude", WEAK)
-
-
+@statement("Figure 8")
 def trends_are_similar(figure8: xr.Dataset) -> Finding:
-    """Check whether every curve oscillates with periods and swings that grow with h."""
+    """All curves show similar trends.
+
+    Holds if: every curve oscillates, with periods and swings that grow with h in 4 of 5 cases
+    """
     found = oscillations(with_dims(figure8, "phase", "frequency_ratio"))
     alike = sum(as_a_rule(longer_periods([one])) and as_a_rule(larger_swings([one])) for one in found)
     curves = figure8.s.transpose(..., "waviness_amplitude").values.reshape(len(found), -1)
@@ -175,55 +191,10 @@ def trends_are_similar(figure8: xr.Dataset) -> Finding:
     return Finding(measured, alike == len(found))
 
 
-STATEMENTS = (
-    Statement(
-        "Figure 7",
-        "Even a very small waviness matters, above all by its amplitude.",
-        "max/min over h/δ0 at least 1.2 on every curve",
-        waviness_matters,
-    ),
-    Statement(
-        "Abstract",
-        "A small waviness can raise or lower s markedly.",
-        "by 10% or more either way against the paraboloid, for both δA/δ0",
-        waviness_raises_and_lowers,
-        ("figure3", "figure7"),
-    ),
-    Statement(
-        "Figure 7",
-        "s oscillates at small waviness amplitudes, with periods and amplitudes that shrink as h → 0.",
-        "from one oscillation to the next, period and rise (or fall) grow with h in 4 of 5 cases; ripples "
-        "below 10% of a curve's range do not count",
-        oscillations_shrink,
-    ),
-    Statement(
-        "Figure 7",
-        "The normal oscillation hardly changes how much the waviness matters.",
-        "ln(max/min) over h/δ0, mean over the wavelengths, differs by at most 25% between the two δA/δ0",
-        effects_are_alike,
-    ),
-    Statement(
-        "Figure 7",
-        "Both amplitudes of the normal oscillation give quantitatively similar curves.",
-        "at equal h the curves, each over its mean, differ by at most half of the effect of h (rms)",
-        curves_are_alike,
-    ),
-    Statement(
-        "Figure 8",
-        "Wavy paraboloid: the phases 0 and π differ most at ω2/ω1 = 1/2.",
-        "the mean over h of |ln s(π)/s(0)| is largest at 1/2",
-        half_differs_most,
-    ),
-    Statement(
-        "Figure 8",
-        "All curves show similar trends.",
-        "every curve oscillates, with periods and swings that grow with h in 4 of 5 cases",
-        trends_are_similar,
-    ),
-    Statement(
-        "Figure 8",
-        "Waviness and load are weakly coupled.",
-        "at most 10% of the variance of ln s is left over by a product f(h)·g(ψ, ω2/ω1)",
-        loads_couple_weakly,
-    ),
-)
+@statement("Figure 8")
+def loads_couple_weakly(figure8: xr.Dataset) -> Finding:
+    """Waviness and load are weakly coupled.
+
+    Holds if: at most 10% of the variance of ln s is left over by a product f(h)·g(ψ, ω2/ω1)
+    """
+    return coupling_with(even(figure8, "waviness_amplitude"), "waviness_amplitude", WEAK)
