@@ -94,6 +94,8 @@ def mark_points(axes: Axes, x: NDArray[Any], y: NDArray[Any], words: str) -> Non
 
 #: A regime with a smaller share of the points is not named.
 _NAMED = 0.03
+#: Names keep so far from the labels of contours, as shares of the panel's width and height.
+_WORDS = (0.2, 0.08)
 
 
 def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
@@ -106,7 +108,7 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
     regime
         Flags, NaN where unknown.
     """
-    from scipy.ndimage import gaussian_filter
+    from scipy.ndimage import distance_transform_edt, gaussian_filter
 
     vertical, x = map(str, regime.dims)
     regime = regime.sortby([vertical, x])
@@ -124,15 +126,11 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
         for colour, wide in (("white", 2.0 * width), ("black", width)):
             axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide)
         if inside.mean() > _NAMED:
-            row, column = _middle(inside)
+            for label in axes.texts:
+                (x0, y0), panel = label.get_position(), (np.ptp(at), np.ptp(up))
+                near = np.abs(at - x0) < _WORDS[0] * panel[0], np.abs(up - y0) < _WORDS[1] * panel[1]
+                inside = inside & ~(near[1][:, None] & near[0])
+            # The point furthest from what is not inside. Words are wider than high: points count less across.
+            distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
+            row, column = np.unravel_index(int(distance.argmax()), inside.shape)
             axes.text(at[column], up[row], names[code], **look)
-
-
-def _middle(inside: Any) -> tuple[int, int]:
-    """The point of a region that is furthest from what is not in it and from the frame."""
-    from scipy.ndimage import distance_transform_edt
-
-    # Words are wider than high: points count less across.
-    distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
-    row, column = np.unravel_index(int(distance.argmax()), inside.shape)
-    return int(row), int(column)

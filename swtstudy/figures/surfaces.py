@@ -107,7 +107,7 @@ _DARK = 0.18
 
 #: Shares of a panel's width and height: a label's centre is so far from the frame, from lines and from other
 #: labels at least.
-_INSIDE, _BESIDE, _APART = (0.06, 0.04), (0.05, 0.04), (0.12, 0.06)
+_INSIDE, _BESIDE, _APART = (0.09, 0.06), (0.05, 0.04), (0.12, 0.06)
 
 #: Contours that are smaller than this share of a panel in both directions are left out.
 _ISLAND = 0.05
