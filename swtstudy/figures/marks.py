@@ -94,8 +94,6 @@ def mark_points(axes: Axes, x: NDArray[Any], y: NDArray[Any], words: str) -> Non
 
 #: A regime with a smaller share of the points is not named.
 _NAMED = 0.03
-#: Names keep so far from the labels of contours, as shares of the panel's width and height.
-_WORDS = (0.2, 0.08)
 
 
 def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
@@ -124,12 +122,8 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
         # Flags alone give a border in steps from point to point.
         smooth = gaussian_filter(inside.astype(float), 1.0, mode="nearest")
         for colour, wide in (("white", 2.0 * width), ("black", width)):
-            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide)
+            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide, zorder=3)
         if inside.mean() > _NAMED:
-            for label in axes.texts:
-                (x0, y0), panel = label.get_position(), (np.ptp(at), np.ptp(up))
-                near = np.abs(at - x0) < _WORDS[0] * panel[0], np.abs(up - y0) < _WORDS[1] * panel[1]
-                inside = inside & ~(near[1][:, None] & near[0])
             # The point furthest from what is not inside. Words are wider than high: points count less across.
             distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
             row, column = np.unravel_index(int(distance.argmax()), inside.shape)

@@ -200,7 +200,7 @@ def wrap_texts(figure: Figure) -> None:
         wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
         wrap(title, min(wide, figure.bbox.width - axes.bbox.x0))
     for axes in figure.axes:
-        wrap(axes.xaxis.label, 1.15 * axes.bbox.width)
+        wrap(axes.xaxis.label, (1.0 if figure.width is None else 1.15) * axes.bbox.width)
         wrap(axes.yaxis.label, axes.bbox.height, upright=True)
     if whole:
         wrap(whole, 0.98 * figure.bbox.width)

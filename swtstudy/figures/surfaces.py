@@ -5,6 +5,7 @@ Where it is least and greatest along x is found between the points of its grid.
 
 from __future__ import annotations
 
+import itertools
 import math
 from itertools import pairwise
 from typing import Any
@@ -12,13 +13,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps, rcParams
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 from matplotlib.path import Path
-from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
@@ -105,9 +106,11 @@ _COMMON = 0.15
 #: Colours of a lower luminance have white letters.
 _DARK = 0.18
 
-#: Shares of a panel's width and height: a label's centre is so far from the frame, from lines and from other
-#: labels at least.
-_INSIDE, _BESIDE, _APART = (0.09, 0.06), (0.05, 0.04), (0.12, 0.06)
+#: All in shares of a panel: a label is so far inside the frame; so far, across and up, from lines and from
+#: other labels; and a contour has one from this length on.
+_INSIDE, _BESIDE, _APART, _SHORTEST = 0.08, (0.07, 0.05), (0.2, 0.12), 0.16
+#: A contour bends where its direction changes by more from point to point, rad.
+_BENT = 0.25
 
 #: Contours that are smaller than this share of a panel in both directions are left out.
 _ISLAND = 0.05
@@ -234,7 +237,7 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
         _draw_extrema(axes, surface)
     shown = levels if life else levels[::2]
     labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small"}
-    places = _room_for_labels(axes, axes.clabel(lines, shown, inline=False, **labels))
+    places = _room_for_labels(axes, filled, lines, shown)
     labels |= {"manual": places, "colors": [_ink(filled, float(level)) for level in shown]}
     for words in axes.clabel(lines, shown, **labels) if places else ():
         words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
@@ -243,24 +246,47 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     return filled
 
 
-def _room_for_labels(axes: Axes, tried: list[Text]) -> list[tuple[float, float]]:
-    """Places of labels, in data coordinates, that are apart from the frame, from lines and from one another.
+def _room_for_labels(axes: Axes, filled: Artist, lines: ContourSet, shown: Any) -> list[tuple[float, float]]:
+    """Where labels have most room on their contours, apart from the frame, lines and one another.
 
-    The labels that matplotlib placed, which may lie anywhere on their contours, are removed.
+    Returns
+    -------
+    list of (x, y)
+        In data coordinates; at most one for each connected part of a contour.
     """
+    axes.autoscale_view()
     to_panel = axes.transData - axes.transAxes
-    taken = [to_panel.transform(line.get_xydata()) for line in axes.lines]
-    beside = np.concatenate([np.empty((0, 2)), *taken])
-    places: list[tuple[float, float]] = []
-    for label in tried:
-        place = to_panel.transform(label.get_position())
-        label.remove()
-        apart = to_panel.transform(places) if places else np.empty((0, 2))
-        near = np.concatenate([np.abs(beside - place) / _BESIDE, np.abs(apart - place) / _APART])
-        inside = np.all((place > _INSIDE) & (place < 1.0 - np.array(_INSIDE)))
-        if inside and not np.any(np.all(near < 1.0, axis=1)):
-            places.append(label.get_position())
-    return places
+    borders = [each for each in axes.collections if isinstance(each, ContourSet)]
+    paths = [path for each in borders if each not in (filled, lines) for path in each.get_paths()]
+    taken = [*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths)]
+    beside = to_panel.transform(np.concatenate([np.empty((0, 2)), *taken]))
+    beside = beside[np.isfinite(beside).all(axis=1)]
+    names = [label.get_position() for label in axes.texts]
+    placed = to_panel.transform(np.array(names).reshape(-1, 2))
+    for path in itertools.compress(lines.get_paths(), np.isin(np.asarray(lines.levels), shown)):
+        for part in _parts(path):
+            at = to_panel.transform(part)
+            if np.ptp(at, axis=0).max() < _SHORTEST:
+                continue
+            step = np.gradient(at, axis=0)
+            bend = np.abs(np.angle(np.exp(1j * np.diff(np.arctan2(step[:, 1], step[:, 0])))))
+            room = np.minimum(at, 1.0 - at).min(axis=1) / _INSIDE
+            for others, apart in ((beside, _BESIDE), (placed, _APART)):
+                near = np.abs(at[:, None] - others[None]) / np.array(apart)
+                room = np.minimum(room, near.max(axis=2).min(axis=1, initial=np.inf))
+            room[1:][bend > _BENT] = 0.0
+            if room.max() >= 1.0:
+                placed = np.vstack([placed, at[room.argmax()]])
+    found = to_panel.inverted().transform(placed[len(names) :])
+    return [(float(x), float(y)) for x, y in found]
+
+
+def _parts(path: Path) -> list[FloatArray]:
+    """The points of each connected part of a path, shapes (n, 2)."""
+    if path.codes is None:
+        return []
+    parts = np.split(np.asarray(path.vertices), np.flatnonzero(path.codes == Path.MOVETO)[1:])
+    return [part for part in parts if len(part) > 2]
 
 
 def _ink(colours: ScalarMappable, level: float) -> str:
@@ -277,12 +303,7 @@ def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
         inside = np.all((panel.min < low) & (high < panel.max))
         return bool(inside and np.all(high - low < _ISLAND * np.array([panel.width, panel.height])))
 
-    kept = []
-    for path in contours.get_paths():
-        vertices, codes = np.asarray(path.vertices), np.array([] if path.codes is None else path.codes)
-        begins = np.flatnonzero(codes == Path.MOVETO)[1:]
-        parts = zip(np.split(vertices, begins), np.split(codes, begins), strict=True)
-        kept.append([Path(*part) for part in parts if len(part[0]) and not island(part[0])])
+    kept = [[Path(part) for part in _parts(path) if not island(part)] for path in contours.get_paths()]
     contours.set_paths([Path.make_compound_path(*parts) for parts in kept])
 
 

@@ -26,5 +26,3 @@ def test_labels_of_maps_are_whole_and_apart(name: str, width: str | None) -> Non
         assert panel.x0 <= box.x0 <= box.x1 <= panel.x1
         assert panel.y0 <= box.y0 <= box.y1 <= panel.y1
     assert not [pair for pair in combinations(boxes, 2) if pair[0].overlaps(pair[1])]
-
-
