@@ -131,9 +131,17 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         else:
             flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
             surfaces = [panel.value.rename(values.name) for panel in flat]
+            for one, panel in zip(axes[row], flat if layout.regimes else (), strict=layout.regimes):
+                mark_borders(one, panel.regime)  # first: labels of contours keep away from them
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-            for one, panel in zip(axes[row], flat, strict=True):
-                _mark_surface(one, panel, layout)
+            for one, panel in zip(axes[row], flat if layout.validity else (), strict=layout.validity):
+                across_panel, up_panel = (
+                    np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
+                    for name in (layout.x, layout.vertical)
+                )
+                mark_cells(
+                    one, across_panel, up_panel, panel.outside.values, panel.outside.attrs["long_name"]
+                )
         across = axis_words(layout.x, dataset[layout.x].attrs)
         if upright:
             across, words = words, across
@@ -152,18 +160,6 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         add_scale(figure, axes, scale, dataset[layout.hue])
     add_legend(figure, axes, loops_of(dataset) if layout.hue == "load" else {})
     return figure
-
-
-def _mark_surface(axes: Axes, panel: xr.Dataset, layout: FigureLayout) -> None:
-    """Mark the borders of regimes, and what is outside of the model."""
-    if layout.regimes:
-        mark_borders(axes, panel.regime)
-    if layout.validity:
-        across, up = (
-            np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
-            for name in (layout.x, layout.vertical)
-        )
-        mark_cells(axes, across, up, panel.outside.values, panel.outside.attrs["long_name"])
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:

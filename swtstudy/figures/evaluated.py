@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from swtstudy.figures.legend import add_legend
-from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_texts, wrap_title
+from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_texts
 from swtstudy.figures.style import COLOURS, Style, stroke, styled
 from swtstudy.study.figure import wrong_formula
 from swtstudy.vocabulary.parameters import AXES
@@ -52,7 +52,6 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
         figure.suptitle(as_text(title) if wrong_formula(title) else title)
         add_legend(figure, panels)
         wrap_texts(figure)
-        wrap_title(figure)  # also on a screen: few parameters make a narrow figure
     return figure
 
 
@@ -112,7 +111,6 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
         axes.legend(loc="upper left")
         figure.suptitle("\n".join(fit_lines(fitted, math=True)))
         wrap_texts(figure)
-        wrap_title(figure)
     return figure
 
 

@@ -19,7 +19,7 @@ from swtstudy.figures.inspection_panels import (
     draw_tractions,
 )
 from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts, wrap_title
+from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.ticks import plain_ticks
 from swtstudy.points.validity import validity_lines
@@ -118,7 +118,6 @@ def draw_inspection(
             plain_ticks(axes)
         figure.suptitle(_headline(dataset, labels, headlines))
         wrap_texts(figure)
-        wrap_title(figure)  # also on a screen: what is given may be long
     return figure
 
 

@@ -54,18 +54,14 @@ class LoopHandler(HandlerLine2D):
         loop = self._loops.get(str(orig_handle.get_label()))
         if loop is None or not isinstance(orig_handle, Line2D):
             return [*artists]
-        normal, tangential = loop.course().T[:2]
         side = 0.85 * height
-        left, bottom = width - side - xdescent, -ydescent + 0.5 * (height - side)
-        x, y = left + side * _unit(tangential), bottom + side * _unit(normal)
+        corner = np.array([width - side - xdescent, -ydescent + 0.5 * (height - side)])
+        path = loop.course()[:, 1::-1]  # tangential across
+        spread = np.ptp(path, axis=0)
+        # A load that rests is in the middle.
+        share = np.where(spread > 0.0, (path - path.min(axis=0)) / np.where(spread > 0.0, spread, 1.0), 0.5)
         look = stroke(orig_handle.get_color(), linewidth=1.0)
-        return [*artists, Line2D(x, y, transform=trans, **look)]
-
-
-def _unit(values: np.ndarray) -> np.ndarray:
-    """From 0 to 1; in the middle where they are all the same."""
-    spread = float(np.ptp(values))
-    return (values - values.min()) / spread if spread else np.full(len(values), 0.5)
+        return [*artists, Line2D(*(corner + side * share).T, transform=trans, **look)]
 
 
 def loops_of(dataset: xr.Dataset) -> dict[str, Loop]:
@@ -77,8 +73,6 @@ def loops_of(dataset: xr.Dataset) -> dict[str, Loop]:
 
 
 _NO_LOOPS: Mapping[str, Any] = MappingProxyType({})
-#: Points in an inch.
-_POINTS = 72.0
 
 
 def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] = _NO_LOOPS) -> None:
@@ -98,44 +92,39 @@ def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] = _
     for one in axes.flat:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
-    labels = sorted(handles, key=lambda label: _rank(handles[label]))
-    if not labels:
-        return
-    look: dict[str, Any] = {"handler_map": {Line2D: LoopHandler(loops)}, **HANDLE} if loops else {}
-    place_legend(figure, [handles[label] for label in labels], labels, look)
 
+    def rank(label: str) -> tuple[bool, bool]:
+        handle = handles[label]
+        return handle.get_linestyle() == "None", handle.get_zorder() < Line2D.zorder
 
-def _rank(handle: Line2D) -> tuple[bool, bool]:
-    return handle.get_linestyle() == "None", handle.get_zorder() < Line2D.zorder
+    labels = sorted(handles, key=rank)
+    if labels:
+        look: dict[str, Any] = {"handler_map": {Line2D: LoopHandler(loops)}, **HANDLE} if loops else {}
+        place_legend(figure, [handles[label] for label in labels], labels, look)
 
 
 def place_legend(
     figure: Figure, handles: list[Any], labels: list[str], look: Mapping[str, Any] = _NO_LOOPS
 ) -> None:
     """Add a legend of these entries in as many columns as fit; see `add_legend`."""
-    size: float | None = None
-    for count in (*range(len(labels), 0, -1), 1):
-        legend = figure.legend(
-            handles, labels, loc="outside lower center", ncols=count, fontsize=size, **look
+
+    def place(columns: int, size: float | None = None) -> tuple[Legend, float, float]:
+        """A legend with its width and height, inches, padding included."""
+        made = figure.legend(
+            handles, labels, loc="outside lower center", ncols=columns, fontsize=size, **look
         )
-        width, height = _inches(legend, figure.dpi)
-        if width <= figure.get_figwidth() or size is not None:
+        around = 2.0 * made.borderaxespad * float(made.get_texts()[0].get_fontsize()) / 72.0
+        box = made.get_window_extent()
+        return made, box.width / figure.dpi + around, box.height / figure.dpi + around
+
+    room = figure.get_figwidth()
+    for columns in range(len(labels), 0, -1):
+        legend, width, height = place(columns)
+        if width <= room or columns == 1:
             break
-        if count == 1:
-            if figure.width is None:
-                break
-            size = _size(legend) * figure.get_figwidth() / width
         legend.remove()
-    wider = max(figure.get_figwidth(), width) if figure.width is None else figure.get_figwidth()
-    figure.set_size_inches(wider, figure.get_figheight() + height)
-
-
-def _size(legend: Legend) -> float:
-    return float(legend.get_texts()[0].get_fontsize())
-
-
-def _inches(legend: Legend, dpi: float) -> tuple[float, float]:
-    """Width and height of a legend with its padding, inches."""
-    around = 2.0 * legend.borderaxespad * _size(legend) / _POINTS
-    box = legend.get_window_extent()
-    return box.width / dpi + around, box.height / dpi + around
+    if width > room and figure.width is not None:
+        size = float(legend.get_texts()[0].get_fontsize())
+        legend.remove()
+        legend, width, height = place(1, size * room / width)
+    figure.set_size_inches(room if figure.width else max(room, width), figure.get_figheight() + height)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.sheet import Sheet, Width, wrap_texts, wrap_title
+from swtstudy.figures.sheet import Sheet, Width, wrap_texts
 from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.loads.loop import Loop
 from swtstudy.points.values import as_number
@@ -78,7 +78,6 @@ def draw_load(
             _draw_margin(axes, phase, study, loads)
         words = f"{name}: {signal.words}" if signal else name
         figure.suptitle(as_text(words))
-        wrap_title(figure)
         wrap_texts(figure)
     return figure
 

@@ -106,7 +106,7 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
     regime
         Flags, NaN where unknown.
     """
-    from scipy.ndimage import gaussian_filter
+    from scipy.ndimage import distance_transform_edt, gaussian_filter
 
     vertical, x = map(str, regime.dims)
     regime = regime.sortby([vertical, x])
@@ -122,17 +122,9 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
         # Flags alone give a border in steps from point to point.
         smooth = gaussian_filter(inside.astype(float), 1.0, mode="nearest")
         for colour, wide in (("white", 2.0 * width), ("black", width)):
-            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide)
+            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide, zorder=3)
         if inside.mean() > _NAMED:
-            row, column = _middle(inside)
+            # The point furthest from what is not inside. Words are wider than high: points count less across.
+            distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
+            row, column = np.unravel_index(int(distance.argmax()), inside.shape)
             axes.text(at[column], up[row], names[code], **look)
-
-
-def _middle(inside: Any) -> tuple[int, int]:
-    """The point of a region that is furthest from what is not in it and from the frame."""
-    from scipy.ndimage import distance_transform_edt
-
-    # Words are wider than high: points count less across.
-    distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
-    row, column = np.unravel_index(int(distance.argmax()), inside.shape)
-    return int(row), int(column)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.legend import add_legend
 from swtstudy.figures.marks import mark_points
 from swtstudy.figures.quantity_words import flag_words, is_life, part_words, quantity_words, slices
-from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_panel_titles
+from swtstudy.figures.sheet import Figure, Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.ticks import tick_flags, tick_in_pi
 from swtstudy.points.grid import SAMPLE
@@ -103,11 +103,7 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel("points")
             first.yaxis.get_major_locator().set_params(integer=True)
-    figure = _finished(figure, axes, layout)
-    if width is None:  # others are wrapped with all their texts
-        figure.draw_without_rendering()
-        wrap_panel_titles(figure)
-    return figure
+    return _finished(figure, axes, layout)
 
 
 def _draw_one(axes: Axes, values: xr.DataArray, edges: list[float], label: str | None, index: int) -> None:

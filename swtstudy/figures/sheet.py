@@ -1,7 +1,7 @@
 """The sheet that a figure fills: a screen, a journal's column, or its page.
 
-Its figures are displayed by notebooks. In print, titles and labels are broken into lines where they are
-longer than there is room.
+Notebooks display its figures. Titles and labels are broken into lines where they are longer than there is
+room.
 """
 
 from __future__ import annotations
@@ -85,33 +85,25 @@ class Sheet:
     @property
     def across(self) -> int:
         """Panels side by side."""
-        least = max(1, int(_SCREEN / self.panel[0])) if self.width is None else _ACROSS[self.width]
+        most = max(1, int(_SCREEN / self.panel[0])) if self.width is None else _ACROSS[self.width]
         # No more side by side than the lines need: four panels are two by two.
-        least = -(-self.count // -(-self.count // least))
-        if self.width is None:
-            return least
-        most = min(self.count, _ACROSS[self.width] + 1) if self.fold else least
-        choices = range(least, max(least, most) + 1)
-        return next((n for n in choices if self._height(n) <= _TALLEST), choices[-1])
-
-    @property
-    def lines(self) -> int:
-        """Lines of panels of each row."""
-        return -(-self.count // self.across)
+        across = -(-self.count // -(-self.count // most))
+        if self.width is not None and self.fold and self._height(across) > _TALLEST:
+            across = min(self.count, max(across, most + 1))
+        return across
 
     @property
     def size(self) -> tuple[float, float]:
         """Width and height, inches."""
+        across = self.across
         if self.width is None:
-            width, height = self.panel
-            return width * self.across, height * self.rows * self.lines
-        return WIDTHS[self.width], self._height(self.across)
+            return self.panel[0] * across, self.panel[1] * self.rows * -(-self.count // across)
+        return WIDTHS[self.width], self._height(across)
 
     def _height(self, across: int) -> float:
         """Height in print with so many panels side by side: flatter where they are wide, 8 cm at most."""
         each = min(0.85 + 0.45 * WIDTHS[self.width or "page"] / across, 8.0 / _INCH)
-        each = max(each, self.least_height)
-        return each * self.rows * -(-self.count // across)
+        return max(each, self.least_height) * self.rows * -(-self.count // across)
 
     def figure(self, beside: float = 0.0) -> Figure:
         """An empty figure; on a screen it has so many inches more in width, for scales beside the panels."""
@@ -128,19 +120,17 @@ class Sheet:
         share_x, share_y
             Which panels have the axis in common: "all", those of a "row", or "none".
         """
-        across, lines = self.across, self.lines
-        grid = figure.add_gridspec(self.rows * lines, across)
-        panels = np.empty((self.rows, self.count), dtype=object)
-        for row in range(self.rows):
-            for index in range(self.count):
-                line, column = divmod(index, across)
-                first = {"all": panels[0, 0], "row": panels[row, 0], "none": None}
-                shared = {"sharex": first[share_x], "sharey": first[share_y]}
-                one = figure.add_subplot(grid[row * lines + line, column], **shared)
-                panels[row, index] = one
-                one.tick_params(labelleft=column == 0 or share_y == "none")
-                last = row == self.rows - 1 and index + across >= self.count
-                one.tick_params(labelbottom=last or share_x != "all")
+        across, panels = self.across, np.empty((self.rows, self.count), dtype=object)
+        lines = -(-self.count // across)
+        for row, index in np.ndindex(self.rows, self.count):
+            line, column = divmod(index, across)
+            first = {"all": panels[0, 0], "row": panels[row, 0], "none": None}
+            cell = (self.rows * lines, across, (row * lines + line) * across + column + 1)
+            one = figure.add_subplot(*cell, sharex=first[share_x], sharey=first[share_y])
+            lowest = row == self.rows - 1 and index + across >= self.count
+            one.tick_params(labelleft=column == 0 or share_y == "none")
+            one.tick_params(labelbottom=lowest or share_x != "all")
+            panels[row, index] = one
         return panels
 
     def first_of_lines(self, panels: NDArray[Any]) -> NDArray[Any]:
@@ -177,75 +167,40 @@ def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
 #: A word with the blanks before it; a formula between $ is one word, also with the value that it has. No
 #: formula begins with a dollar behind a backslash.
 _WORD = re.compile(r"\s*(?:\\\$|\$(?:\\\$|[^$])*\$|[^\s$])+(?: = \S+)?")
-#: What of a formula is one letter, and what none.
-_COMMAND, _NO_LETTER = re.compile(r"\\[a-zA-Z]+"), re.compile(r"[\\${}_^,]")
-#: Labels of so many letters may be longer than a panel.
+#: Texts with fewer signs fit into the panels of a screen.
 _LONG = 30
 
 
 def wrap_texts(figure: Figure) -> None:
-    """Break titles and labels of axes that are longer than their panels; on a screen labels alone."""
-    if figure.width is None:
-        labels = {axes: (axes.get_xlabel(), axes.get_ylabel()) for axes in figure.axes}
-        long = [axes for axes, both in labels.items() if max(map(letters, both)) > _LONG]
-        if long:
-            figure.draw_without_rendering()
-        for axes in long:
-            _wrap(axes.xaxis.label, axes.bbox.width, False)
-            _wrap(axes.yaxis.label, axes.bbox.height, True)
+    """Break titles and labels that are longer than their panels, or than the figure; a word stays whole."""
+    whole = figure._suptitle  # type: ignore[attr-defined]
+    labels = [label for axes in figure.axes for label in (axes.xaxis.label, axes.yaxis.label)]
+    titles = [(axes, each) for axes in figure.axes for each in (axes.title, axes._left_title)]  # type: ignore[attr-defined]
+    texts = [*labels, *(title for _, title in titles), *([whole] if whole else [])]
+    if figure.width is None and all(len(text.get_text()) <= _LONG for text in texts):
         return
     figure.draw_without_rendering()
-    wrap_title(figure)
-    wrap_panel_titles(figure)
-    for axes in figure.axes:
-        _wrap(axes.xaxis.label, 1.15 * axes.bbox.width, False)
-        _wrap(axes.yaxis.label, axes.bbox.height, True)
 
+    def wrap(text: Text, room: float, upright: bool = False) -> None:
+        lines = []
+        for given in text.get_text().splitlines():
+            line = ""
+            for word in _WORD.findall(given):
+                text.set_text(line + word)
+                box = text.get_window_extent()
+                if line and (box.height if upright else box.width) > room:
+                    lines.append(line)
+                    line, word = "", word.lstrip()
+                line += word
+            lines.append(line)
+        text.set_text("\n".join(lines))
 
-def wrap_panel_titles(figure: Figure) -> None:
-    """Break the titles of panels that are longer than these, in a figure that has been laid out."""
-    for axes in figure.axes:
+    for axes, title in titles:
         ticks = axes.xaxis.get_tightbbox()
         wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
-        for text in (axes.title, axes._left_title, axes._right_title):  # type: ignore[attr-defined]
-            _wrap(text, min(wide, figure.bbox.width - axes.bbox.x0), False)
-
-
-def letters(words: str) -> int:
-    r"""Return about the number of letters of a label: of a formula those that are seen.
-
-    Examples
-    --------
-    >>> letters("stress"), letters(r"$\sigma_n\,a_H/(E^* \delta_0)$")
-    (6, 12)
-    """
-    return len(_NO_LETTER.sub("", _COMMAND.sub("x", words)))
-
-
-def wrap_title(figure: Figure) -> None:
-    """Break the title of a figure that is longer than the figure."""
-    if figure._suptitle is not None:  # type: ignore[attr-defined]
-        _wrap(figure._suptitle, 0.98 * figure.bbox.width, False)  # type: ignore[attr-defined]
-
-
-def _wrap(text: Text, room: float, upright: bool) -> None:
-    """Break a text into lines no longer than the room, in pixels; a single word stays whole."""
-    lines = []
-    for given in text.get_text().splitlines():
-        line = ""
-        for word in _WORD.findall(given):
-            if line and _length(text, line + word, upright) > room:
-                lines.append(line)
-                word = word.lstrip()
-                line = ""
-            line += word
-        lines.append(line)
-    text.set_text("\n".join(lines))
-
-
-def _length(text: Text, words: str, upright: bool) -> Any:
-    before = text.get_text()
-    text.set_text(words)
-    box = text.get_window_extent()
-    text.set_text(before)
-    return box.height if upright else box.width
+        wrap(title, min(wide, figure.bbox.width - axes.bbox.x0))
+    for axes in figure.axes:
+        wrap(axes.xaxis.label, (1.0 if figure.width is None else 1.15) * axes.bbox.width)
+        wrap(axes.yaxis.label, axes.bbox.height, upright=True)
+    if whole:
+        wrap(whole, 0.98 * figure.bbox.width)

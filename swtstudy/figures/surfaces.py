@@ -5,6 +5,7 @@ Where it is least and greatest along x is found between the points of its grid.
 
 from __future__ import annotations
 
+import itertools
 import math
 from itertools import pairwise
 from typing import Any
@@ -12,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps, rcParams
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
@@ -22,7 +24,6 @@ from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
 
-from swtstudy.figures.contour_labels import parts_of, places_of_labels
 from swtstudy.figures.quantity_words import flag_words, is_life
 from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
@@ -58,42 +59,30 @@ def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
     """
     known = np.where(np.isfinite(values), values, np.inf)
     heights = np.array([np.ptp(row[np.isfinite(row)]) if np.isfinite(row).any() else 0.0 for row in values])
-    whole = float(heights.max(initial=0.0))
-    turn = float(x[-1] - x[0])
-    closed = angle and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= _SAME_ENDS * whole))
+    whole, turn, last = float(heights.max(initial=0.0)), float(x[-1] - x[0]), len(x) - 1
+    closed = angle and last >= 2 and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= _SAME_ENDS * whole))
     places = np.full(len(values), np.nan)
-    for row, least in enumerate(known.argmin(axis=1)):
-        if heights[row] > _FLAT * whole:
-            places[row] = _vertex(x, known[row], int(least), turn if closed else None)
-    return _runs(places, turn)
-
-
-def _vertex(x: FloatArray, row: FloatArray, least: int, turn: float | None) -> float:
-    """The lowest point of the parabola through three neighbours; at an end that is not closed the end."""
-    last = len(x) - 1
-    if 0 < least < last:
-        at, values = x[least - 1 : least + 2], row[least - 1 : least + 2]
-    elif turn is None or last < 2:
-        return float(x[least])
-    else:
-        at = np.array([x[-2] - turn, x[0], x[1]]) + (turn if least == last else 0.0)
-        values = row[[-2, least, 1]]
-    left, right = (values[1] - values[0]) / (at[1] - at[0]), (values[2] - values[1]) / (at[2] - at[1])
-    if not (np.isfinite(left) and np.isfinite(right) and right > left):
-        return float(x[least])
-    # The slope falls linearly from the middle of one step to that of the other.
-    middle, next_middle = 0.5 * (at[0] + at[1]), 0.5 * (at[1] + at[2])
-    place = float(np.clip(middle - left * (next_middle - middle) / (right - left), middle, next_middle))
-    return place if turn is None else float(x[0] + (place - x[0]) % turn)
-
-
-def _runs(places: FloatArray, turn: float) -> FloatArray:
-    """Without runs of few rows between jumps."""
-    kept = places.copy()
-    for begin, end in pairwise([*jumps(places, turn), len(places)]):
+    for k in np.flatnonzero(heights > _FLAT * whole):
+        least = int(known[k].argmin())
+        places[k] = x[least]
+        if 0 < least < last:
+            at, (a, b, c) = x[least - 1 : least + 2], known[k, least - 1 : least + 2]
+        elif closed:
+            at = np.array([x[-2] - turn, x[0], x[1]]) + (turn if least == last else 0.0)
+            a, b, c = known[k, [-2, least, 1]]
+        else:
+            continue
+        left, right = (b - a) / (at[1] - at[0]), (c - b) / (at[2] - at[1])
+        if np.isfinite(left) and np.isfinite(right) and right > left:
+            # The slope of the parabola falls linearly from the middle of one step to that of the other.
+            first, second = 0.5 * (at[:-1] + at[1:])
+            vertex = float(np.clip(first - left * (second - first) / (right - left), first, second))
+            places[k] = x[0] + (vertex - x[0]) % turn if closed else vertex
+    ends = [*jumps(places, turn), len(places)]
+    for begin, end in pairwise(ends):
         if end - begin < _LEAST_SHARE * len(places):
-            kept[begin:end] = np.nan
-    return kept
+            places[begin:end] = np.nan
+    return places
 
 
 def jumps(places: FloatArray, turn: float) -> IndexArray:
@@ -116,6 +105,12 @@ _COMMON = 0.15
 
 #: Colours of a lower luminance have white letters.
 _DARK = 0.18
+
+#: All in shares of a panel: a label is so far inside the frame; so far, across and up, from lines and from
+#: other labels; and a contour has one from this length on.
+_INSIDE, _BESIDE, _APART, _SHORTEST = 0.08, (0.07, 0.05), (0.2, 0.12), 0.16
+#: A contour bends where its direction changes by more from point to point, rad.
+_BENT = 0.25
 
 #: Contours that are smaller than this share of a panel in both directions are left out.
 _ISLAND = 0.05
@@ -229,7 +224,7 @@ def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scala
 def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
     """Draw contours of a surface over (vertical, x); for s also where it is least and greatest along x."""
     vertical, x = map(str, surface.dims)
-    levels = look["norm"].boundaries
+    levels, life = look["norm"].boundaries, is_life(surface.attrs)
     surface = surface.sortby([vertical, x])
     at = surface[x], surface[vertical]
     axes.set_facecolor("0.8")
@@ -238,19 +233,60 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     if bool(surface.notnull().all()):
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
-    shown = levels if is_life(surface.attrs) else levels[::2]
-    look_of_labels: dict[str, Any] = {"fmt": power_words} if is_life(surface.attrs) else {"fmt": "%g"}
-    inks = [_ink(filled, float(level)) for level in shown]
     if surface.name == "s":
         _draw_extrema(axes, surface)
-    places = places_of_labels(axes, lines, shown)
-    look_of_labels |= {"manual": places, "fontsize": "x-small", "colors": inks}
-    for words in axes.clabel(lines, shown, **look_of_labels) if places else ():
-        words.set_color(words.get_color()[:3])  # not as pale as the lines
-        words.set_alpha(1.0)
+    shown = levels if life else levels[::2]
+    labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small"}
+    places = _room_for_labels(axes, filled, lines, shown)
+    labels |= {"manual": places, "colors": [_ink(filled, float(level)) for level in shown]}
+    for words in axes.clabel(lines, shown, **labels) if places else ():
+        words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
     axes.grid(False)
     _tick_angles(axes, surface)
     return filled
+
+
+def _room_for_labels(axes: Axes, filled: Artist, lines: ContourSet, shown: Any) -> list[tuple[float, float]]:
+    """Where labels have most room on their contours, apart from the frame, lines and one another.
+
+    Returns
+    -------
+    list of (x, y)
+        In data coordinates; at most one for each connected part of a contour.
+    """
+    axes.autoscale_view()
+    to_panel = axes.transData - axes.transAxes
+    borders = [each for each in axes.collections if isinstance(each, ContourSet)]
+    paths = [path for each in borders if each not in (filled, lines) for path in each.get_paths()]
+    taken = [*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths)]
+    beside = to_panel.transform(np.concatenate([np.empty((0, 2)), *taken]))
+    beside = beside[np.isfinite(beside).all(axis=1)]
+    names = [label.get_position() for label in axes.texts]
+    placed = to_panel.transform(np.array(names).reshape(-1, 2))
+    for path in itertools.compress(lines.get_paths(), np.isin(np.asarray(lines.levels), shown)):
+        for part in _parts(path):
+            at = to_panel.transform(part)
+            if np.ptp(at, axis=0).max() < _SHORTEST:
+                continue
+            step = np.gradient(at, axis=0)
+            bend = np.abs(np.angle(np.exp(1j * np.diff(np.arctan2(step[:, 1], step[:, 0])))))
+            room = np.minimum(at, 1.0 - at).min(axis=1) / _INSIDE
+            for others, apart in ((beside, _BESIDE), (placed, _APART)):
+                near = np.abs(at[:, None] - others[None]) / np.array(apart)
+                room = np.minimum(room, near.max(axis=2).min(axis=1, initial=np.inf))
+            room[1:][bend > _BENT] = 0.0
+            if room.max() >= 1.0:
+                placed = np.vstack([placed, at[room.argmax()]])
+    found = to_panel.inverted().transform(placed[len(names) :])
+    return [(float(x), float(y)) for x, y in found]
+
+
+def _parts(path: Path) -> list[FloatArray]:
+    """The points of each connected part of a path, shapes (n, 2)."""
+    if path.codes is None:
+        return []
+    parts = np.split(np.asarray(path.vertices), np.flatnonzero(path.codes == Path.MOVETO)[1:])
+    return [part for part in parts if len(part) > 2]
 
 
 def _ink(colours: ScalarMappable, level: float) -> str:
@@ -262,12 +298,12 @@ def _ink(colours: ScalarMappable, level: float) -> str:
 def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
     """Remove what is too small to be labelled: between two points of a grid a level may come and go."""
 
-    def island(part: Path) -> bool:
-        box = part.get_extents()
-        inside = panel.x0 < box.x0 and box.x1 < panel.x1 and panel.y0 < box.y0 and box.y1 < panel.y1
-        return bool(inside and box.width < _ISLAND * panel.width and box.height < _ISLAND * panel.height)
+    def island(part: NDArray[Any]) -> bool:
+        low, high = part.min(axis=0), part.max(axis=0)
+        inside = np.all((panel.min < low) & (high < panel.max))
+        return bool(inside and np.all(high - low < _ISLAND * np.array([panel.width, panel.height])))
 
-    kept = [[part for part in parts_of(path) if not island(part)] for path in contours.get_paths()]
+    kept = [[Path(part) for part in _parts(path) if not island(part)] for path in contours.get_paths()]
     contours.set_paths([Path.make_compound_path(*parts) for parts in kept])
 
 

@@ -1,4 +1,4 @@
-"""Ticks at fractions of π and at cells, as many as an axis has room for."""
+"""Ticks at fractions of π, of logarithmic axes and at cells, as many as an axis has room for."""
 
 from __future__ import annotations
 
@@ -15,66 +15,58 @@ from swtstudy.vocabulary.wording import pi_words
 
 #: An end of an axis is a multiple of π if it is relatively this close to it.
 _TOLERANCE = 1e-9
-#: Logarithmic axes with a smaller ratio of their ends have plain numbers.
-_DECADES = 1e3
-#: What is ticked of a decade; of fewer ticks than these so many are even steps.
-_DIGITS, _FEW, _EVEN = (1.0, 2.0, 5.0), 2, 4
-#: From this ratio of the ends on, powers of ten beside each other are whole: others would not have room.
-_WHOLE = 100.0
-#: Numbers from this on, and below one over it, are powers of ten, and all beside them on an axis.
-_PLAIN = 1e5
-#: Most steps between ticks, however long the axis.
+#: Most steps between ticks at multiples of π.
 _STEPS = 6
+#: Logarithmic axes with a larger ratio of their ends have matplotlib's ticks, at powers of ten.
+_DECADES = 1e3
+#: From this ratio of the ends on, powers of ten across a panel are whole: others would not have room.
+_WHOLE = 100.0
+#: Numbers above this, and below its inverse, are written as powers of ten.
+_PLAIN = 1e5
 #: Width of a letter, and distance of two labels upwards, in em.
 _LETTER, _UPWARDS = 0.62, 1.1
-#: Largest denominator of a multiple of π that is ticked.
-_DENOMINATOR = 4
 
 
 class _Plain(ScalarFormatter):
-    """Numbers as words: each that is a formula takes milliseconds to read."""
+    """Numbers as plain text: matplotlib takes milliseconds to typeset each formula."""
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         return super().__call__(x, pos).removeprefix(r"$\mathdefault{").removesuffix("}$")
 
 
 def plain_ticks(axes: Axes) -> None:
-    """Write the numbers at both axes as words, quicker to draw; the power at the end of an axis stays."""
+    """Write the numbers at both axes as plain text, quicker to draw."""
     for axis in (axes.xaxis, axes.yaxis):
         if isinstance(axis.get_major_formatter(), ScalarFormatter):
             axis.set_major_formatter(_Plain())
 
 
 def tick_in_pi(axis: Axis, low: float, high: float) -> None:
-    """Put ticks at multiples of π/4, or at coarser ones over a long range or a short axis."""
-    axis.set_major_locator(_InPi(low / math.pi, high / math.pi))
-    axis.set_major_formatter(
-        FuncFormatter(lambda x, _: pi_words(Fraction(x / math.pi).limit_denominator(_DENOMINATOR)))
-    )
+    """Put ticks at multiples of π/4, or at coarser ones over a long range."""
+    low, high = low / math.pi, high / math.pi
+    coarse = Fraction(max(1, math.ceil((high - low) / _STEPS)))
+    step = next((s for s in (Fraction(1, 4), Fraction(1, 2)) if high - low <= _STEPS * s), coarse)
+    first, last = math.ceil(low / step - _TOLERANCE), math.floor(high / step + _TOLERANCE)
+    places = [step * index for index in range(first, last + 1)]
+    axis.set_ticks([float(place) * math.pi for place in places], labels=[pi_words(each) for each in places])
 
 
 def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
-    """Put plain numbers at 1, 2, 5 of each decade of a logarithmic axis of few; even ones where few lie.
+    """Tick 1, 2 and 5 of each decade of a logarithmic axis of less than three decades.
 
-    Large and small ones are powers of ten; on an axis across, those of 1, 2, 5 of two decades have no room.
+    Where fewer than two of these lie on the axis, ticks are at even steps.
     """
     if high >= _DECADES * low or not low > 0.0:
         return
     powers = high >= _PLAIN or low < 1.0 / _PLAIN
     across = axis.axis_name == "x"  # type: ignore[attr-defined]
-    whole = powers and across and high >= _WHOLE * low
-    digits = (1.0,) if whole else _DIGITS
-    if sum(low <= digit * 10.0**power <= high for power in _powers(low, high) for digit in digits) < _FEW:
-        axis.set_major_locator(MaxNLocator(_EVEN, steps=[1, 2, 2.5, 5, 10]))
-    else:
-        axis.set_major_locator(LogLocator(subs=digits))
+    digits = (1.0,) if powers and across and high >= _WHOLE * low else (1.0, 2.0, 5.0)
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    inside = [low <= digit * 10.0**power <= high for power in decades for digit in digits]
+    few = sum(inside) < 2
+    axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]) if few else LogLocator(subs=digits))
     axis.set_major_formatter(FuncFormatter(lambda x, _: power_words(x) if powers else f"{x:g}"))
     axis.set_minor_formatter(NullFormatter())
-
-
-def _powers(low: float, high: float) -> range:
-    """Exponents of the decades between two numbers."""
-    return range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
 
 
 def power_words(value: float) -> str:
@@ -82,8 +74,7 @@ def power_words(value: float) -> str:
     if value <= 0.0:
         return ""
     exponent = math.floor(math.log10(value) + _TOLERANCE)
-    digits = f"{value / 10.0**exponent:.3g}"
-    power = f"10^{{{exponent}}}"
+    digits, power = f"{value / 10.0**exponent:.3g}", f"10^{{{exponent}}}"
     return f"${power}$" if digits == "1" else rf"${digits}\cdot{power}$"
 
 
@@ -100,21 +91,6 @@ def tick_cells(axis: Axis, words: Sequence[str], most: int) -> None:
     axis.set_major_formatter(FuncFormatter(lambda x, _: words[round(x)] if 0 <= x < len(words) else ""))
 
 
-class _InPi(Locator):
-    """Multiples of π between two ends, which are given in π."""
-
-    def __init__(self, low: float, high: float) -> None:
-        self.low, self.high = low, high
-
-    def __call__(self) -> list[float]:
-        span = self.high - self.low
-        room = max(min(_STEPS, self.axis.get_tick_space()), 1)  # type: ignore[union-attr]
-        step = next((s for s in (Fraction(1, 4), Fraction(1, 2), Fraction(1)) if span / s <= room), None)
-        step = step or Fraction(math.ceil(span / room))
-        first, last = math.ceil(self.low / step - _TOLERANCE), math.floor(self.high / step + _TOLERANCE)
-        return [float(step * index) * math.pi for index in range(first, last + 1)]
-
-
 class _Cells(Locator):
     """Every cell, or every second, third … one, with the shortest words that steps of this size give."""
 
@@ -122,17 +98,15 @@ class _Cells(Locator):
         self.words, self.most = words, most
 
     def __call__(self) -> list[float]:
-        least = next((step for step in range(1, len(self.words)) if self._fits(step)), len(self.words))
-        step = min(range(least, 2 * least), key=self._longest)
-        return [float(place) for place in range(0, len(self.words), step)]
-
-    def _longest(self, step: int) -> int:
-        return max(map(len, self.words[::step]))
-
-    def _fits(self, step: int) -> bool:
-        """Return whether labels have room; matplotlib counts 3 em for each across, and 2 upwards."""
         axis: Any = self.axis
-        count = -(-len(self.words) // step)
-        if axis.axis_name == "y":
-            return count <= min(self.most, axis.get_tick_space() * 2.0 / _UPWARDS)
-        return count <= min(self.most, axis.get_tick_space() * 3.0 / (_LETTER * self._longest(step) + 1.0))
+        longest = {step: max(map(len, self.words[::step])) for step in range(1, 2 * len(self.words))}
+
+        def fits(step: int) -> bool:
+            # matplotlib counts 3 em for each label across, and 2 upwards.
+            em = axis.get_tick_space() * (2.0 if axis.axis_name == "y" else 3.0)
+            room = em / (_UPWARDS if axis.axis_name == "y" else _LETTER * longest[step] + 1.0)
+            return -(-len(self.words) // step) <= min(self.most, room)
+
+        least = next(filter(fits, range(1, len(self.words))), len(self.words))
+        step = min(range(least, 2 * least), key=longest.__getitem__)
+        return [float(place) for place in range(0, len(self.words), step)]

@@ -105,7 +105,6 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
     assert len(lines) == 2 + (len(lines) > 2)
     assert " ".join(lines) == LONG
     assert all(line.count("$") % 2 == 0 for line in lines)
-    assert drawn("lines", None).get_suptitle() == LONG
 
 
 @pytest.mark.parametrize(
