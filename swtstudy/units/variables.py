@@ -171,7 +171,10 @@ def _of_criterion(kind: Kind, name: str, grid: PhysicalGrid) -> Iterator[Variabl
     """The value of s or of a mean, its error, and its life or its usage of a limit, if these are known."""
     end = name.removeprefix("s")
     place = end.removeprefix("_")
-    meaning, below = CRITERIA[kind.criterion].values + end.replace("_", " "), rf"_\mathrm{{{place}}}" * bool(place)
+    meaning, below = (
+        CRITERIA[kind.criterion].values + end.replace("_", " "),
+        rf"_\mathrm{{{place}}}" * bool(place),
+    )
     own: dict[str, Any] = {"of": name, "scale": kind.scale, "criterion": kind.criterion}
     yield Variable(f"{kind.name}{end}", f"{kind.symbol}{below}", meaning, kind.unit, **own)
     if kind.criterion == FINDLEY and grid.findley_limits:

@@ -201,7 +201,7 @@ def shown_numbers(axis):
 
 def test_all_panels_of_a_contact_have_its_units(rig):
     figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
-    panels = {each.get_title("left")[5:]: each for each in figure.axes}
+    panels = {each.get_title("left")[5:].replace("\n", " "): each for each in figure.axes}
     at = f"on the critical plane at $x$ = {float(point.shown_x):.4g} unit of length"
     plane = next(each for each in figure.axes if "load plane" in each.get_title("left"))
     assert plane.get_xlabel() == "$F_x$ (unit of force)"
