@@ -525,10 +525,8 @@ def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
     evaluate(S, H, W, C, R, P, K, L, Q, largest, position(S, k, middle), plus, minus)
     S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]
     S.ends[m, 0], S.ends[m, 1], S.ends[k, 1] = middle, S.ends[k, 1], middle
-    highest = max(S.value[0], S.value[1])
-    for side in range(2):
-        highest = max(highest, S.at_ends[k, 0, side], S.at_ends[k, 1, side])
-    unseen = 1 if whole and S.unseen[k] and highest > Q.near * S.best else 0
+    # On a piece on which the growth may turn, values at three places within tell what the first one does not.
+    unseen = 1 if whole and S.unseen[k] else 0
     S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = unseen, unseen, 0, 0
     upper = S.upper[k]
     S.upper[k], S.upper[m] = 0, 1
