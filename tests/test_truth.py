@@ -111,14 +111,8 @@ def test_an_audit_finds_the_largest_value_of_the_body(point: truth.Point) -> Non
     assert truth.largest_in_body(point) == pytest.approx(point.s, rel=1e-4, abs=point.error)
 
 
-#: Points whose recorded mean is about a shoulder of swt along the line, which is no local maximum.
-ABOUT_SHOULDERS = ("rounded punch 0", "forces 2")
-
-
 @pytest.mark.parametrize("point", some_of(MEANS, 1))
-def test_means_over_a_critical_distance(point: truth.Point, request: pytest.FixtureRequest) -> None:
-    if point.name in ABOUT_SHOULDERS:
-        request.applymarker(pytest.mark.xfail(strict=True, reason="means are about local maxima"))
+def test_means_over_a_critical_distance(point: truth.Point) -> None:
     assert truth.off_means(point) == {}
 
 

@@ -268,7 +268,7 @@ OF_MEANS = 1e-2
 
 
 def is_elsewhere(name: str, found: dict[str, float], recorded: dict[str, float]) -> bool:
-    """Whether a larger mean was found about another local maximum than the recorded one."""
+    """Whether a larger mean was found about another place than the recorded one."""
     kind, _, way = name.removeprefix("s_").partition("_")
     place = f"{kind}_x_{way}" if way else f"{kind}_x"
     return found[name] > recorded[name] and abs(found[place] - recorded[place]) > 1e-3

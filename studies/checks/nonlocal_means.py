@@ -7,6 +7,8 @@
   quadrature, over the claimed errors. The dense rule has Gauss's points on even panels of root-graded
   coordinates, and values that are each found alone; where it differs by more than is claimed it is made
   denser until it changes by less than that;
+* for the same points means about places along the whole line, each ℓ/8 from the next: by how much one is
+  larger than the one that the solver says is the largest;
 * how the means tend to s as ℓ falls.
 
 Points that are done are kept in results/nonlocal_means.csv: a run that was stopped goes on.
@@ -25,9 +27,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.kernel.field import criterion_at, means_about, open_cycle
+from swtstudy.kernel.field import criterion_at, direction_at, largest_radius, mean_about, open_cycle
+from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.profiles.table import TabulatedProfile
-from swtstudy.solver.means import GROWTH, RTOL
+from swtstudy.solver.means import DOWN, GROWTH, RTOL, worst_means
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import arguments_of, solve_points
 from swtstudy.vocabulary.choices import is_plane
@@ -61,8 +64,16 @@ RATIOS = [(1, 1), (1, 2), (2, 1), (3, 2), (1, 3)]
 SEED = 19
 #: Runs that are timed: others on the machine make them longer, none shorter.
 RUNS = 3
-#: The means, in the order of `means_about`.
-MEANS = ("volume", "point, depth", "point, plane", "line, depth", "line, plane")
+#: The means, as the kernel knows them, and whether they go along the critical plane.
+MEANS = {
+    "volume": (SPHERE, False),
+    "point, depth": (POINT, False),
+    "point, plane": (POINT, True),
+    "line, depth": (LINE, False),
+    "line, plane": (LINE, True),
+}
+#: Places of the line in a distance ℓ, and most of them; accuracy of means there.
+PLACES, MOST, OF_PLACES = 8, 400, 1e-2
 #: Panels of the dense rule in the distance, in the inclination, along an arc and on a line at first, Gauss's
 #: points on each, and how often it is made twice as dense.
 PANELS, GAUSS, TWICE = (2, 3, 1, 4), 4, 3
@@ -163,12 +174,29 @@ def _on(x: float, away, way):
     return x + away * way[0], 0.0 * away, away * way[1]
 
 
+def about(opened, x: float, distance: float, rtol: float) -> FloatArray:
+    """All means about x, and what they claim, (2, 5)."""
+    ways = DOWN, direction_at(opened, x)
+    return np.array(
+        [mean_about(opened, kind, x, ways[along], distance, 0.0, rtol) for kind, along in MEANS.values()]
+    ).T
+
+
+def excess(point: Points, distance: float) -> FloatArray:
+    """By how much means about places along the whole line are larger than the largest, relative, (5,)."""
+    largest = worst_means(point, solve_points(point, 1e-4), np.array([distance]))
+    opened = open_cycle(GROWTH, **arguments_of(point))
+    end = largest_radius(opened) + distance
+    places = np.linspace(-end, end, min(int(2.0 * end * PLACES / distance), MOST))
+    known = np.concatenate([largest.volume.ravel(), largest.point.ravel(), largest.line.ravel()])
+    return np.max([about(opened, x, distance, OF_PLACES)[0] for x in places], axis=0) / known - 1.0
+
+
 def ratios(point: Points, distance: float) -> FloatArray:
-    """Values, claimed errors, and differences from the dense rule, (3, 5)."""
+    """Values, claimed errors, differences from the dense rule, and the excess of other places, (4, 5)."""
     solution = solve_points(point, 1e-6)
     x, double_angle = float(solution.critical_x[0]), np.radians(2.0 * float(solution.critical_angle[0]))
-    opened = open_cycle(GROWTH, **arguments_of(point))
-    value, claimed = means_about(opened, x, double_angle, np.array([distance]), RTOL)[:, 0].T
+    value, claimed = about(open_cycle(GROWTH, **arguments_of(point)), x, distance, RTOL)
     opened, before = open_cycle(**arguments_of(point)), np.full(len(MEANS), np.inf)
     for twice in range(TWICE):
         known = dense_means(opened, x, double_angle, distance, twice)
@@ -176,22 +204,19 @@ def ratios(point: Points, distance: float) -> FloatArray:
         if (off <= claimed).all() or (twice and (np.abs(known - before) <= 0.1 * claimed).all()):
             break
         before = known
-    return np.stack([value, claimed, off])
+    return np.stack([value, claimed, off, excess(point, distance)])
 
 
 def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: int) -> str:
     """Line of the table of times: the least of some runs."""
     points, cells = points_of(*scene, count), []
-    solution = solve_points(points, 1e-6)
     for distance in (DISTANCE, SEVERAL):
         spent, claimed = [], 0.0
         for _ in range(RUNS):
             begin = time.process_time()
             for k in range(count):
-                opened = open_cycle(GROWTH, **arguments_of(points[[k]]))
-                own = float(solution.critical_x[k]), np.radians(2.0 * float(solution.critical_angle[k]))
-                found = means_about(opened, *own, distance, RTOL)
-                claimed = max(claimed, float((found[0, :, 1] / found[0, :, 0]).max()))
+                found = worst_means(points[[k]], solve_points(points[[k]], 1e-6), distance)
+                claimed = max(claimed, float((found.volume_error / found.volume).max()))
             spent.append(time.process_time() - begin)
         cells.append(f"{1e3 * min(spent) / count:.1f} ms")
     name = f"{scene[0]}, δA/δ0 = {scene[2]:g}, ω2/ω1 = {scene[3][0]}/{scene[3][1]}"
@@ -199,12 +224,12 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
 
 
 def sweep(file: Path, count: int) -> FloatArray:
-    """Ratios at so many points of each profile, (profiles, count, 3, 5); those in the file are done."""
+    """Ratios at so many points of each profile, (profiles, count, 4, 5); those in the file are done."""
     done: dict[tuple[str, int], FloatArray] = {}
     if file.exists():
         with open(file, encoding="utf-8", newline="") as text:
             for row in csv.reader(text):
-                done[row[0], int(row[1])] = np.array(row[2:], float).reshape(3, -1)
+                done[row[0], int(row[1])] = np.array(row[2:], float).reshape(4, -1)
     with open(file, "a", encoding="utf-8", newline="") as text:
         rows = csv.writer(text)
         for profile in SHAPES:
@@ -220,8 +245,8 @@ def limits(profile: str, sizes: FloatArray) -> str:
     """Line of the table of small distances."""
     point, _ = next(random_points(profile))
     solution = solve_points(point, 1e-6)
-    x, double_angle = float(solution.critical_x[0]), np.radians(2.0 * float(solution.critical_angle[0]))
-    found = means_about(open_cycle(**arguments_of(point)), x, double_angle, sizes, RTOL)[0, :, 0]
+    opened, x = open_cycle(GROWTH, **arguments_of(point)), float(solution.critical_x[0])
+    found = np.array([mean_about(opened, SPHERE, x, DOWN, size, 0.0, RTOL)[0] for size in sizes])
     return f"| {profile} | " + " | ".join(f"{v:.5f}" for v in found / solution.s[0]) + " |"
 
 
@@ -234,22 +259,30 @@ def main() -> None:
     count = 1 if given.quick else given.points
     given.results.mkdir(exist_ok=True)
     found = sweep(given.results / "nonlocal_means.csv", count)
-    lines = ["# Nonlocal means", "", "Processor time of a point, the least of 3 runs, with all three means, "]
+    lines = [
+        "# Nonlocal means",
+        "",
+        "Processor time of a point, the least of 3 runs, with s and the largest of all three means, ",
+    ]
     lines[-1] += "ℓ = 0.1 a_H or eleven distances up to that, and the largest relative error claimed."
     lines += ["", "| scene | one distance | eleven | error claimed |", "|---|---|---|---|"]
     lines += [times(scene, 1 if given.quick else len(PHASES)) for scene in SCENES]
-    value, claimed, off = np.moveaxis(found, 2, 0)
+    value, claimed, off, higher = np.moveaxis(found, 2, 0)
     within = (off <= claimed).all(axis=-1)
     lines += ["", f"At {within.sum()} of {within.size} random points all means are within their claimed "]
-    lines[-1] += "errors of dense quadrature."
-    lines += ["", "| profile | mean | median off | largest | median claimed | most off over claimed |"]
-    lines += ["|---|---|---|---|---|---|"]
+    lines[-1] += (
+        "errors of dense quadrature. The last column tells by how much a mean about another place of "
+    )
+    lines[-1] += f"the line, known to {OF_PLACES:g}, exceeds the largest one."
+    lines += ["", "| profile | mean | median off | largest | median claimed | off over claimed | elsewhere |"]
+    lines += ["|---|---|---|---|---|---|---|"]
     for row, profile in enumerate(SHAPES):
         for k, name in enumerate(MEANS):
             size = np.maximum(value[row, :, k], 1e-300)
             share, own = off[row, :, k] / size, claimed[row, :, k] / size
             worst = (off[row, :, k] / np.maximum(claimed[row, :, k], 1e-300)).max()
-            cells = f"{np.median(share):.0e} | {share.max():.0e} | {np.median(own):.0e} | {worst:.2f}"
+            cells = f"{np.median(share):.0e} | {share.max():.0e} | {np.median(own):.0e} | {worst:.2f} | "
+            cells += f"{max(float(higher[row, :, k].max()), 0.0):.0e}"
             lines.append(f"| {profile} | {name} | {cells} |")
     sizes = np.array([1e-8, 1e-6, 1e-4, 1e-2])
     lines += ["", "Mean over the half sphere, over s, as ℓ falls; beside the edge of a truncated "]

@@ -30,9 +30,10 @@ from nonlocal_means import dense_means
 from overlooked import CHUNK, SCENES
 
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
-from swtstudy.kernel.field import Opened, criterion_at, largest_radius, open_cycle, passed_radii
+from swtstudy.kernel.field import Opened, criterion_at, largest_radius, mean_about, open_cycle, passed_radii
+from swtstudy.kernel.mean import SPHERE
 from swtstudy.paper.audit.body_maximum import body_maximum
-from swtstudy.solver.means import means_at
+from swtstudy.solver.means import DOWN, RTOL
 from swtstudy.solver.solve import arguments_of, solve_points
 
 Array = NDArray[np.float64]
@@ -170,7 +171,7 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             with np.errstate(all="ignore"):
                 if kind == "mean":
                     distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
-                    found = float(means_at(own, x, angle, distance).volume[0, 0])
+                    found, _ = mean_about(opened, SPHERE, x[0], DOWN, distance[0], 0.0, RTOL)
                     about = float(x[0]), float(np.radians(2.0 * angle[0])), float(distance[0])
                     dense = float(dense_means(opened, *about, 1)[0])
                     allowed = KINDS[kind][1]

@@ -15,7 +15,6 @@ from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
 from swtstudy.kernel.loads import leave_bulk_out, load_of
-from swtstudy.kernel.maxima import find_maxima_of, maxima
 from swtstudy.kernel.point import RESULT, solve_points, workspace
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
@@ -201,35 +200,6 @@ def count_batch(x, double_angle, *points, **given):
                 shares = (N["shares"][begin:end] for begin, end in pairwise(ends))
                 found.append([np.repeat(-np.sort(-each), load["rounds"]) for each in shares])
             first = done
-    return found
-
-
-def maxima_batch(least, s, *points, **given):
-    """Local maxima of the criterion along the surface line.
-
-    Parameters
-    ----------
-    least, s
-        Shape (n,): lower limit of the values, and the largest value.
-    points, given
-        As of `chunks`.
-
-    Returns
-    -------
-    list
-        For each point arrays of x, 2θ in rad and the value at its maxima, descending, and of the x of the
-        places on both sides between which each is the highest, (m, 2); of a mirrored load those at x > 0
-        alone.
-    """
-    found, M = [], _of_this_thread("maxima", maxima)
-    for rows, profiles, which, loads, asks in chunks(*points, **given):
-        for i, (limit, largest) in enumerate(zip(least[rows], s[rows], strict=True)):
-            # All that may be above the limit is looked at closely.
-            asks["near"][i] = min(float(asks["near"][i]), float(limit / largest)) if largest > 0.0 else 1.0
-            find_maxima_of(*_workspace(), M, profiles, which, loads, asks, np.int64(i), float(limit))
-            _refuse_overflow(M["overflow"])
-            order = np.argsort(-M["value"][: M["maxima"]], kind="stable")
-            found.append(tuple(M[name][order] for name in ("x", "angle", "value", "between")))
     return found
 
 

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from swtstudy.kernel.along import map_line, plane_at
 from swtstudy.kernel.batch import _of_this_thread, _refuse_overflow, _workspace, chunks, warm_up
 from swtstudy.kernel.beneath import edges, stress_field
 from swtstudy.kernel.body import (
@@ -18,7 +19,8 @@ from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS
-from swtstudy.kernel.mean import MAX_DISTANCES, cells, means_at
+from swtstudy.kernel.line import MAX_SEEN
+from swtstudy.kernel.mean import FIRST, cells, mean_at
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of, shift_of
 
@@ -161,38 +163,79 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
     return values, missing, normals
 
 
-def means_about(opened, x, double_angle, distance, rtol):
-    """Means of the criterion about a place of the surface line.
+def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
+    """Mean of the criterion about a place of the surface line, and its absolute error.
 
     Parameters
     ----------
     opened
         The load cycle.
-    x, double_angle
-        Signed x in a_H, and 2θ of the critical plane there in rad.
+    kind
+        Of `swtstudy.kernel.mean`: `SPHERE`, over a half sphere of radius ℓ, or half disc in the plane;
+        `POINT`, at ℓ/2; `LINE`, over 0 … 2ℓ.
+    x
+        Signed, in a_H.
+    direction
+        Of the line: to the right, and down.
     distance
-        Shape (k,): ℓ > 0 in a_H.
+        ℓ > 0 in a_H.
+    known
+        The mean as far as it is known, or 0: values that are much lower are told roughly.
     rtol
         Relative accuracy asked for.
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (5, k, 2), values and absolute errors: over half spheres, or half discs in the plane; at ℓ/2
-        straight down, and along the critical plane; over 0 … 2ℓ straight down, and along the plane.
+    first
+        `FIRST`, or `ROUGHLY` of a mean that only leads to another: cells at first.
     """
     C, R, P, L, Q, largest = opened
     H, W, K = _workspace()[3:]
     B, S, G = _of_this_thread("body", body_workspace)
-    M, found = _of_this_thread("cells", cells), np.empty((5, len(distance), 2))
-    for first in range(0, len(distance), MAX_DISTANCES):
-        some = np.ascontiguousarray(distance[first : first + MAX_DISTANCES])
-        part = np.empty((5, len(some), 2))
-        own = float(x), float(double_angle), some, largest, float(rtol), part
-        means_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
-        _refuse_overflow(np.isnan(part).any())
-        found[:, first : first + MAX_DISTANCES] = part
-    return found
+    M = _of_this_thread("cells", cells)
+    own = kind, float(x), *direction, float(distance), largest, float(known), float(rtol), first
+    mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
+    _refuse_overflow(np.isnan(M["average"]))
+    return float(M["average"]), float(M["error"])
+
+
+def surface_above(opened, limit, s):
+    """The criterion along the surface line, closely where it exceeds a limit.
+
+    Parameters
+    ----------
+    opened
+        The load cycle.
+    limit, s
+        The limit, and the largest value.
+
+    Returns
+    -------
+    x, values
+        Shape (n,): ascending signed places in a_H, of a mirrored load those at x ≥ 0 alone, and the values;
+        values below the limit may be low.
+    """
+    C, R, P, L, Q, _ = opened
+    S, H, W, K = _workspace()[2:]
+    Q = Q.copy()
+    Q["near"] = min(float(Q["near"]), limit / s)
+    map_line(S, H, W, C, R, P, K, L, Q, float(limit))
+    count = min(int(S["positions"]), MAX_SEEN)
+    place, value = S["seen"][:count], S["seen_value"][:count]
+    x = np.sqrt(np.maximum(float(P["flat_radius"]) ** 2 + place * np.abs(place), 0.0))
+    if not L["mirrored"]:
+        x, value = np.concatenate([-x, x]), np.concatenate([value[:, 1], value[:, 0]])
+    else:
+        value = value[:, 0]
+    order = np.argsort(x, kind="stable")
+    order = order[value[order] >= 0.0]
+    return x[order], value[order]
+
+
+def direction_at(opened, x):
+    """Direction into the body along the critical plane at x of the surface line: to the right, and down."""
+    C, R, P, L, Q, largest = opened
+    S, H, W, K = _workspace()[2:]
+    angle = 0.5 * plane_at(S, H, W, C, R, P, K, L, Q, largest, float(x))
+    sign = 1.0 if np.cos(angle) >= 0.0 else -1.0
+    return -np.sin(angle) * sign, np.cos(angle) * sign
 
 
 def von_mises_at(opened, places):

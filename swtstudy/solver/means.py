@@ -1,36 +1,75 @@
 """swt not at a point but over a critical distance ℓ: means over a volume or a line, and the point method.
 
 The field swt(x, y, z), each value with its own critical plane, is averaged over the half sphere of radius ℓ
-about the critical point, in a plane contact over the half disc in its section; or taken at the depth ℓ/2
-(point method), or as the mean over the depths 0 … 2ℓ, straight down or along the critical plane. These are
-means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and line methods are.
+about a place x of the surface line, in a plane contact over the half disc in its section; or taken at the
+depth ℓ/2 (point method), or as the mean over the depths 0 … 2ℓ, straight down or along the critical plane of
+that place. These are means of a parameter that is quadratic in stress, not of stress, as Taylor's volume and
+line methods are.
 
-With ℓ → 0 all three tend to the largest swt over all planes at the critical point. That is s, unless a plane
-that does not hold the y axis is higher there, or unless the critical point is the edge r = b of a truncated
+Each is the largest one over x. swt is largest at a peak that may be narrower than ℓ, and the largest mean is
+often elsewhere. Columns of a few values tell about where it is; from the highest of them parabolas lead
+to its maximum.
+
+With ℓ → 0 all three tend to the largest swt over all planes of the surface line. That is s, unless a plane
+that does not hold the y axis is higher, or unless the critical point is the edge r = b of a truncated
 paraboloid: beside that the pressure is infinite like a logarithm, and so slow is the limit.
-
-Means are taken about whichever place of the surface line has most of them: the critical point has the largest
-swt, but about another local maximum swt may fall off more slowly.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
-from swtstudy.kernel.batch import maxima_batch
-from swtstudy.kernel.field import means_about, open_cycle
-from swtstudy.kernel.mean import OF_VALUE
+from swtstudy.kernel.field import (
+    MANY,
+    Opened,
+    criterion_at,
+    direction_at,
+    far_field_of,
+    largest_radius,
+    mean_about,
+    open_cycle,
+    surface_above,
+)
+from swtstudy.kernel.mean import FIRST, LINE, POINT, ROUGHLY, SPHERE
 from swtstudy.solver.points import Points, Solution
 from swtstudy.solver.solve import arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
-#: What each place may be the worst of.
-KINDS = ("volume", "point", "line")
-#: Relative accuracy of means, and of swt at local maxima; tolerance of what grew in stick.
-RTOL, OF_MAXIMA, GROWTH = 1e-3, 1e-4, 1e-5
+#: Kinds of means, and the kernel's.
+KINDS = {"volume": SPHERE, "point": POINT, "line": LINE}
+#: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
+#: tolerance of what grew in stick.
+RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
+#: A parabola has found a place if it foretells the mean there so closely, relative; most means on the way.
+FORETOLD, MOST_STEPS = 1e-3, 12
+#: Columns of at least this share of the highest are looked at, and means at these of this share of the
+#: largest one are climbed from: they lie within ℓ/4 of their maxima.
+WORTH_A_LOOK, WORTH_A_CLIMB = 0.7, 0.94
+#: Straight down, to the right and down.
+DOWN = (0.0, 1.0)
+#: Gauss's nodes t of a column, at depths 2ℓt², and their weights in the mean over the depths.
+_NODE, _WEIGHT = np.polynomial.legendre.leggauss(3)
+NODE, OF_LINE = 0.5 + 0.5 * _NODE, 0.5 * (1.0 + _NODE) * _WEIGHT
+#: Most columns within the contact; over s, a limit below which all of them are looked at.
+MOST_COLUMNS, LOWEST = 400, 0.02
+#: A mean about a place, and its error.
+Mean = Callable[[float], tuple[float, float]]
+
+
+def _of_disc() -> FloatArray:
+    """Weights of a column's values in the mean over the half disc of radius ℓ, if they do not depend on x."""
+    t = (np.arange(200) + 0.5) / 200.0 * np.sqrt(0.5)
+    share = 4.0 * t * np.sqrt(1.0 - 4.0 * t**4)  # of depths 2ℓt² ≤ ℓ
+    series = np.linalg.inv(np.vander(NODE, increasing=True))
+    return (share / share.sum()) @ np.vander(t, 3, increasing=True) @ series
+
+
+OF_DISC = _of_disc()
 
 
 @dataclass(frozen=True)
@@ -40,8 +79,8 @@ class Means:
     Attributes
     ----------
     volume, volume_error, volume_x
-        Shape (n, k): means over half spheres, or half discs in the plane; and the signed x of the points of
-        the surface line that they are about.
+        Shape (n, k): means over half spheres, or half discs in the plane; and the signed x of the places of
+        the surface line that they are about, NaN far from the contact.
     point, point_error, point_x, line, line_error, line_x
         Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
     """
@@ -62,73 +101,125 @@ class Means:
         shapes = [(n, k)] * 3 + [(n, k, len(DIRECTIONS))] * 6
         return cls(*(np.full(shape, np.nan) for shape in shapes))
 
-    def least(self, row: int) -> float:
-        """The smallest mean of a point."""
-        return min(float(getattr(self, kind)[row].min()) for kind in KINDS)
-
-    def raise_to(self, row: int, means: FloatArray, x: float) -> None:
-        """Take the means about x, (5, k, 2), where they are larger, or where there are none."""
-        volume, *rest = means
-        for kind, own in zip(KINDS, (volume, np.stack(rest[:2], 1), np.stack(rest[2:], 1)), strict=True):
-            value, error, place = (getattr(self, name)[row] for name in (kind, f"{kind}_error", f"{kind}_x"))
-            # It is not by noise that one of two is taken.
-            larger = np.isnan(value) | (own[..., 0] > (1.0 + OF_VALUE) * value)
-            value[larger], error[larger], place[larger] = own[larger, 0], own[larger, 1], x
-
-
-def means_at(
-    points: Points, x: FloatArray, angle: FloatArray, distance: FloatArray, rtol: float = RTOL
-) -> Means:
-    """Means about one place each of n points.
-
-    Parameters
-    ----------
-    points
-        n points.
-    x, angle
-        Shape (n,): signed x of the places on the surface line, in a_H, and the angle between the normal of
-        the worst plane there and the x axis, degrees; NaN where there is none.
-    distance
-        Shape (k,): ℓ > 0 in a_H.
-    rtol
-        Relative accuracy asked for.
-    """
-    found = Means.blank(len(x), len(distance))
-    for row in np.flatnonzero(np.isfinite(x)):
-        opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
-        double_angle = np.radians(2.0 * angle[row])
-        found.raise_to(int(row), means_about(opened, x[row], double_angle, distance, rtol), float(x[row]))
-    return found
-
 
 def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Means:
-    """The largest means about the critical points and all other local maxima of swt along the line.
+    """The largest means over places of the surface line.
 
-    Each kind, distance and direction has its own place. A maximum is tried if its swt is above one of the
-    means found so far: no mean about it could be larger otherwise, but where what is nearby is higher, which
-    is tried itself.
+    Each kind, distance and direction has its own place.
 
     Parameters
     ----------
     points, solution
         n points and their solution.
     distance
-        As of `means_at`.
+        Shape (k,): ℓ > 0 in a_H.
     """
-    x, angle = solution.critical_x, solution.critical_angle
-    found = means_at(points, x, angle, distance)
-    rows = np.flatnonzero(np.isfinite(x))
-    if not rows.size:
-        return found
-    limits = np.array([max(found.least(int(row)), 0.0) for row in rows]), solution.s[rows]
-    others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=OF_MAXIMA)
-    for row, maxima in zip(rows.tolist(), others, strict=True):
-        opened, mirrored = None, (maxima[0] > 0.0).all()  # what is at -x is that of x then
-        for place, double_angle, swt, ends in zip(*maxima, strict=True):
-            critical = abs(x[row]) if mirrored else x[row]
-            # The critical point itself is between the neighbours of one of them.
-            if swt <= found.least(row) or ends.min() <= critical <= ends.max():
-                continue
-            opened = opened or open_cycle(GROWTH, **arguments_of(points[[row]]))
-            found.raise_to(row, means_about(opened, place, double_angle, distance, RTOL), float(place))
+    found = Means.blank(len(solution.s), len(distance))
+    for row in np.flatnonzero(np.isfinite(solution.critical_x)):
+        opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
+        critical, s = float(solution.critical_x[row]), float(solution.s[row])
+        for k, each in enumerate(distance):
+            for kind, means in _largest(opened, critical, s, float(each)).items():
+                for name, own in zip((kind, f"{kind}_error", f"{kind}_x"), means.T, strict=True):
+                    values = getattr(found, name)
+                    values[row, k] = own if values.ndim == 3 else own[0]
     return found
+
+
+def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict[str, FloatArray]:
+    """By kind the largest means over ℓ in each direction, their errors and their places, (directions, 3)."""
+
+    def mean(kind: str, way: int, known: float, rtol: float, first: int, x: float) -> tuple[float, float]:
+        direction = DOWN if way == 0 else direction_at(opened, x)
+        return mean_about(opened, KINDS[kind], x, direction, distance, known, rtol, first)
+
+    least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
+    x, columns = _columns(opened, critical, s, distance, least)
+    beside = sum(np.interp(x + side, x, columns @ OF_DISC) for side in (-0.5 * distance, 0.5 * distance))
+    # At ℓ/2 from its middle a sphere has 3/4 of the section there.
+    volume = (columns @ OF_DISC + 0.75 * beside) / 2.5
+    estimates = {"volume": volume, "point": columns[:, 1], "line": columns @ OF_LINE}
+    far, found = far_field_of(opened), {}
+    for kind, estimate in estimates.items():
+        rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
+        if min(abs(start - critical) for start in starts) > 0.5 * distance:
+            starts.append(critical)
+        for way in range(1 if kind == "volume" else len(DIRECTIONS)):
+            rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
+            close = partial(mean, kind, way, most, CLOSE, FIRST)
+            place, known = _climb_all(rough, close, starts, 0.25 * distance)
+            value, error = mean(kind, way, known, RTOL, FIRST, place)
+            rows.append((far, 0.0, np.nan) if far > value else (value, error + FORETOLD * value, place))
+        found[kind] = np.array(rows)
+    return found
+
+
+def _columns(
+    opened: Opened, critical: float, s: float, distance: float, limit: float
+) -> tuple[FloatArray, FloatArray]:
+    """Columns where the surface exceeds a limit: their x, ascending, and values at `NODE`, (n, 3)."""
+    place, value = surface_above(opened, max(limit, LOWEST * s), s)
+    high = (value[:-1] > limit) | (value[1:] > limit) | (limit < LOWEST * s)
+    end = largest_radius(opened) + distance
+    left, right = (np.clip(each[high], -end, end) for each in (place[:-1] - distance, place[1:] + distance))
+    step = max(0.5 * distance, 2.0 * end / MOST_COLUMNS)
+    near = [np.arange(np.floor(a / step), np.ceil(b / step) + 1) for a, b in zip(left, right, strict=True)]
+    outside = place[(value > limit) & (np.abs(place) > end)]
+    x = np.unique(np.concatenate([*(step * each for each in near), outside, [critical]]))
+    if opened.load["mirrored"]:
+        x = x[x >= -distance]
+    at = np.zeros((len(x), len(NODE), 3))
+    at[..., 0], at[..., 2] = x[:, None], 2.0 * distance * NODE**2
+    return x, criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)
+
+
+def _tops(estimate: FloatArray) -> list[int]:
+    """Columns that are as high as both neighbours, the highest first, if they are worth a look."""
+    padded = np.concatenate([[-1.0], estimate, [-1.0]])
+    is_top = (estimate >= padded[:-2]) & (estimate >= padded[2:])
+    is_top &= estimate >= WORTH_A_LOOK * estimate.max()
+    order = np.argsort(-estimate, kind="stable")
+    return [int(k) for k in order if is_top[k]]
+
+
+def _climb_all(rough: Mean, close: Mean, starts: list[float], step: float) -> tuple[float, float]:
+    """The place of the largest mean that is reached from places, and the mean: roughly the highest first."""
+    best, largest = starts[0], 0.0
+    for value, x in sorted(((rough(x)[0] if len(starts) > 1 else 1.0, x) for x in starts), reverse=True):
+        if value < WORTH_A_CLIMB * largest:
+            break
+        place, value = _climb(close, x, step)
+        if value > largest:
+            best, largest = place, value
+    return best, largest
+
+
+def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
+    """From a place to a maximum by parabolas through three places, until one foretells the mean there."""
+    at, of, foretold = [x], [mean(x)[0]], np.inf
+    for _ in range(MOST_STEPS):
+        k = int(np.argmax(of))
+        if k in (0, len(at) - 1):  # the top of what is known so far is at its end
+            new, foretold = at[k] + (step if k > 0 or len(at) == 1 else -step), np.inf
+            step *= 2.0 if len(at) > 2 else 1.0
+        else:
+            new, foretold = _top_of_parabola(at[k - 1 : k + 2], of[k - 1 : k + 2])
+        value = mean(new)[0]
+        j = int(np.searchsorted(at, new))
+        at.insert(j, new)
+        of.insert(j, value)
+        if abs(value - foretold) <= FORETOLD * value:
+            break
+    k = int(np.argmax(of))
+    return at[k], of[k]
+
+
+def _top_of_parabola(at: list[float], of: list[float]) -> tuple[float, float]:
+    """Place and value of the top of the parabola through three places, the highest in the middle."""
+    (a, b, c), (before, m, after) = at, of
+    left, right = (m - before) / (b - a), (m - after) / (c - b)
+    curvature = (left + right) / (c - a)
+    slope = (left * (c - b) - right * (b - a)) / (c - a)
+    if curvature <= 0.0:  # three equal means
+        return b + 0.5 * (c - b), m
+    return b + 0.5 * slope / curvature, m + 0.25 * slope * slope / curvature

@@ -131,7 +131,7 @@ QUANTITIES: dict[str, Quantity] = {
             r"s_\mathrm{volume}",
             "mean of swt over a volume",
             "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of "
-            "plane contacts half discs, about local maxima of swt, which is that about volume_x",
+            "plane contacts half discs, about places of the surface line, which is that about volume_x",
             "volume",
             has_error=True,
             dims=(DISTANCE,),
@@ -140,8 +140,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_point",
             r"s_\mathrm{point}",
             "swt at a distance",
-            "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that from "
-            "point_x (point method)",
+            "largest swt/SWT0 at half the critical distance from places of the surface line, which is that "
+            "from point_x (point method)",
             "point",
             has_error=True,
             dims=(DISTANCE, "direction"),
@@ -150,8 +150,8 @@ QUANTITIES: dict[str, Quantity] = {
             "s_line",
             r"s_\mathrm{line}",
             "mean of swt along a line",
-            "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which is "
-            "that from line_x",
+            "largest mean of swt/SWT0 over twice the critical distance from places of the surface line, "
+            "which is that from line_x",
             "line",
             has_error=True,
             dims=(DISTANCE, "direction"),
@@ -161,7 +161,8 @@ QUANTITIES: dict[str, Quantity] = {
                 f"{kind}_x",
                 rf"x_\mathrm{{{kind}}}/a_H",
                 f"place of s_{kind}",
-                f"signed x of the local maximum of swt that s_{kind} is about, in units of a_H",
+                f"signed x of the place of the surface line that s_{kind} is about, in units of a_H; NaN far "
+                "from the contact",
                 f"{kind}_x",
                 dims=dims,
                 is_place=True,

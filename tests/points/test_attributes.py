@@ -57,11 +57,12 @@ def test_nonlocal_values():
     words = {name: found[name].attrs["comment"] for name in ("s_volume", "s_point", "s_line")}
     assert words == {
         "s_volume": "largest mean of swt/SWT0 over the half spheres of the critical distance, in the "
-        "section of plane contacts half discs, about local maxima of swt, which is that about volume_x",
-        "s_point": "largest swt/SWT0 at half the critical distance from local maxima of swt, which is that "
-        "from point_x (point method)",
-        "s_line": "largest mean of swt/SWT0 over twice the critical distance from local maxima of swt, which "
-        "is that from line_x",
+        "section of plane contacts half discs, about places of the surface line, which is that about "
+        "volume_x",
+        "s_point": "largest swt/SWT0 at half the critical distance from places of the surface line, which is "
+        "that from point_x (point method)",
+        "s_line": "largest mean of swt/SWT0 over twice the critical distance from places of the surface "
+        "line, which is that from line_x",
     }
     assert found.volume_x.attrs["symbol"] == r"x_\mathrm{volume}/a_H"
     assert not any("units" in found[name].attrs for name in (*words, "critical_distance"))
@@ -89,8 +90,8 @@ def test_nonlocal_values_are_of_the_criterion(criterion, value):
     assert told["s_volume"]["long_name"] == f"mean of {value} over a volume"
     assert told["s_point"]["long_name"] == f"{value} at a distance"
     assert told["s_line"]["comment"] == (
-        f"largest mean of {value} in the unit of s over twice the critical distance from local maxima of "
-        f"{value}, which is that from line_x"
+        f"largest mean of {value} in the unit of s over twice the critical distance from places of the "
+        "surface line, which is that from line_x"
     )
     assert not [each for each in told.values() if "swt" in " ".join(map(str, each.values())).lower()]
 

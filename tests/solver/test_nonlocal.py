@@ -1,6 +1,6 @@
 """Means of swt over critical distances: their quadrature and their values."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -10,8 +10,8 @@ from solved import solve_points
 
 from swtstudy import TabulatedProfile
 from swtstudy.kernel import mean
-from swtstudy.kernel.field import MANY, criterion_at, open_cycle
-from swtstudy.solver.means import means_at
+from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about, open_cycle
+from swtstudy.solver.means import DOWN
 from swtstudy.solver.solve import arguments_of
 
 
@@ -31,14 +31,13 @@ MOMENTS = {
 }
 
 
-def of_known(function, kind, sizes, centre=1.2, along=2, rounds=0, plane=0):
+def of_known(function, kind, size, centre=1.2, along=2, rounds=0, plane=0):
     """Cells of a known function of x, y and z about x = centre, after so many halvings of the worst."""
     cells = mean.cells()
     cells.kind, cells.plane, cells.centre, cells.x, cells.along = kind, plane, centre, centre, along
     cells.into[:], cells.largest = (0.0, 1.0), 1.0
-    cells.distances, cells.distance[: len(sizes)] = len(sizes), sizes
-    cells.reach = max(sizes) * (1.0 if kind == mean.SPHERE else 2.0)
-    mean.lay_cells(cells)
+    cells.reach = size * (1.0 if kind == mean.SPHERE else 2.0)
+    mean.lay_cells(cells, mean.FIRST)
     for k in range(int(cells.cells)):
         fill(cells, k, function)
     for _ in range(rounds):
@@ -53,55 +52,49 @@ def of_known(function, kind, sizes, centre=1.2, along=2, rounds=0, plane=0):
 
 def fill(cells, k, function):
     """Fill a cell with a function's values, and integrate it."""
-    at = np.zeros((mean.WHAT, mean.MAX_ALONG, mean.NODES, mean.NODES))
+    at = np.zeros((mean.WHAT, mean.NODES, mean.NODES))
     for i in range(mean.NODES):
         for j in range(mean.NODES if cells.kind == mean.SPHERE else 1):
             for m in range(int(cells.along)):
-                at[0, m, i, j] = function(*mean.node_of(cells, k, i, j, m))
-    mean.write_series(cells, k, at)
-    for n in range(int(cells.distances)):
-        mean.integrate_cell(cells, k, n)
+                at[0, i, j] += mean.OF_ALONG[cells.along, m] * function(*mean.node_of(cells, k, i, j, m))
+    mean.write_series(cells, at)
+    mean.integrate_cell(cells, k)
 
 
+@pytest.mark.parametrize("size", [0.4, 0.05])
 @pytest.mark.parametrize("centre", [1.2, 0.5, 0.0])
 @pytest.mark.parametrize("powers", MOMENTS)
-def test_means_over_half_spheres_of_several_sizes(centre, powers):
-    sizes = np.array([0.4, 0.25, 0.05])
-
+def test_means_over_half_spheres(centre, powers, size):
     def monomial(x, y, z):
         return (x - centre) ** powers[0] * y ** powers[1] * z ** powers[2]
 
-    along = 4 if centre == 0.0 else 3
-    found = of_known(monomial, mean.SPHERE, sizes, centre, along, rounds=20)
-    expected = MOMENTS[powers] * sizes ** sum(powers)
-    off = np.abs(found.average[:3] - np.maximum(expected, 0.0))
-    assert (off < 2e-3 * 0.4 ** sum(powers)).all()
-    # What arcs of smaller spheres miss is no more than a share of the largest one's.
-    assert (off <= found.error[:3] + 1e-3 * 0.4 ** sum(powers)).all()
+    found = of_known(monomial, mean.SPHERE, size, centre, 4 if centre == 0.0 else 3, rounds=20)
+    off = abs(found.average - max(MOMENTS[powers] * size ** sum(powers), 0.0))
+    assert off < 2e-3 * size ** sum(powers)
+    assert off <= found.error + 1e-3 * size ** sum(powers)
 
 
 def test_means_over_half_discs():
     """Of 1, x² and z over a half disc: 1, 1/4 and 4/(3π)."""
-    sizes, centre = np.array([0.4, 0.1]), 0.2
+    size, centre = 0.4, 0.2
     for function, expected in (
         (lambda x, y, z: 1.0, 1.0),
-        (lambda x, y, z: (x - centre) ** 2, 0.25 * sizes**2),
-        (lambda x, y, z: z, 4.0 / (3.0 * np.pi) * sizes),
+        (lambda x, y, z: (x - centre) ** 2, 0.25 * size**2),
+        (lambda x, y, z: z, 4.0 / (3.0 * np.pi) * size),
     ):
-        found = of_known(function, mean.SPHERE, sizes, centre, 1, rounds=10, plane=1)
-        np.testing.assert_allclose(found.average[:2], expected, rtol=1e-3)
+        found = of_known(function, mean.SPHERE, size, centre, 1, rounds=10, plane=1)
+        assert found.average == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize("kind", [mean.SPHERE, mean.LINE])
 def test_kinks_are_halved_and_in_the_error(kind):
     """A ridge at a depth of 0.087: what is claimed holds before and after halvings."""
-    sizes = np.array([0.2, 0.12])
-    exact = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, sizes, rounds=400).average[:2]
+    exact = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, 0.2, rounds=400).average
     claimed = []
     for rounds in (0, 5, 30):
-        found = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, sizes, rounds=rounds)
-        assert (np.abs(found.average[:2] - exact) <= found.error[:2]).all()
-        claimed.append(found.of_cells[:2].max())
+        found = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, 0.2, rounds=rounds)
+        assert abs(found.average - exact) <= found.error
+        claimed.append(found.of_cells)
     assert claimed[0] > 3.0 * claimed[2]
 
 
@@ -114,11 +107,26 @@ SCENES = {
 DISTANCE = 0.15
 
 
-def nonlocal_of(batch, distance, rtol=1e-3):
-    """s, critical x, and the means of a batch."""
-    solution = solve_points(batch, 1e-6)
-    found = means_at(batch, solution.critical_x, solution.critical_angle, np.atleast_1d(distance), rtol)
-    return solution, found
+@dataclass
+class About:
+    """Means about one place and errors: over the half sphere, and by direction at ℓ/2 and over 0 … 2ℓ."""
+
+    volume: tuple[float, float]
+    point: list[tuple[float, float]]
+    line: list[tuple[float, float]]
+
+
+def means_about(batch, distance, rtol=1e-3):
+    """The solution of a batch of one point, and means about its critical point."""
+    solution, cycle = solve_points(batch, 1e-6), opened(batch)
+    x = float(solution.critical_x[0])
+
+    def about(kind, direction=DOWN):
+        return mean_about(cycle, kind, x, direction, distance, 0.0, rtol)
+
+    ways = DOWN, direction_at(cycle, x)
+    lines = ([about(kind, way) for way in ways] for kind in (mean.POINT, mean.LINE))
+    return solution, About(about(mean.SPHERE), *lines)
 
 
 def field(cycle, x, y, z, tolerance=1e-3):
@@ -156,17 +164,18 @@ def mean_of_field(cycle, x, distance):
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_volume_means_are_those_of_the_field(name):
-    solution, found = nonlocal_of(SCENES[name], DISTANCE)
+    solution, found = means_about(SCENES[name], DISTANCE)
     expected = mean_of_field(opened(SCENES[name]), float(solution.critical_x[0]), DISTANCE)
-    assert found.volume[0, 0] == pytest.approx(expected, rel=2e-3)
-    assert found.volume_error[0, 0] < 2e-3 * found.volume[0, 0]
+    value, error = found.volume
+    assert value == pytest.approx(expected, rel=2e-3)
+    assert error < 2e-3 * value
 
 
 @pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SCENES)
 def test_points_and_lines_are_those_of_the_field(name):
     """In both directions, by Simpson's rule in the root of the distance."""
-    solution, found = nonlocal_of(SCENES[name], DISTANCE)
+    solution, found = means_about(SCENES[name], DISTANCE)
     cycle = opened(SCENES[name])
     x, angle = float(solution.critical_x[0]), np.radians(solution.critical_angle[0])
     share = np.linspace(0.0, 1.0, 17)
@@ -174,30 +183,18 @@ def test_points_and_lines_are_those_of_the_field(name):
     for number, (right, down) in enumerate([(0.0, 1.0), (-np.sin(angle), np.cos(angle))]):
         at = np.append(0.5 * DISTANCE, away)
         values = field(cycle, x + at * right, 0.0 * at, at * down, 1e-4)
-        assert found.point[0, 0, number] == pytest.approx(values[0], rel=1e-3)
+        assert found.point[number][0] == pytest.approx(values[0], rel=1e-3)
         expected = simpson(2.0 * share * values[1:], x=share)
-        assert found.line[0, 0, number] == pytest.approx(expected, rel=4e-3)
+        assert found.line[number][0] == pytest.approx(expected, rel=4e-3)
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_all_means_tend_to_s(name):
     """Like the root of the distance: the surface's stress falls so at the contact edge."""
-    solution, found = nonlocal_of(SCENES[name], np.array([1e-10, 1e-8, 1e-6]))
-    for values in (found.volume, found.point[..., 0], found.line[..., 0]):
-        fall = 1.0 - values[0] / solution.s
-        assert abs(fall[0]) < 3e-4
-        assert fall[2] < 1.5e-2
-
-
-def test_several_distances_share_their_places():
-    """Each mean is what it is alone, and critical points of either side have the same."""
-    batch, distance = SCENES["paraboloid"], np.array([0.1, 0.002, 0.05])
-    _, found = nonlocal_of(batch, distance)
-    alone = [nonlocal_of(batch, each)[1] for each in distance]
-    for name, values in vars(found).items():
-        if not name.endswith("error"):
-            one = np.concatenate([getattr(each, name) for each in alone], axis=1)
-            np.testing.assert_allclose(values, one, rtol=2e-3)
+    for distance, least in ((1e-10, 3e-4), (1e-6, 1.5e-2)):
+        solution, found = means_about(SCENES[name], distance)
+        for value, _ in (found.volume, found.point[0], found.line[0]):
+            assert value == pytest.approx(float(solution.s[0]), rel=least)
 
 
 def worn():
@@ -259,15 +256,14 @@ KNOWN = [
 def test_known_means(known):
     """In gross slip and partial slip, with bulk stress, of a table: as claimed."""
     batch, distance, *expected = known
-    _, found = nonlocal_of(batch, distance)
-    values = found.volume[0, 0], found.point[0, 0, 0], found.line[0, 0, 0]
-    off = np.abs(np.subtract(values, expected)) / expected
+    _, found = means_about(batch, distance)
+    values, errors = np.array([found.volume, found.point[0], found.line[0]]).T
+    off = np.abs(values - expected) / expected
     # The critical place is a smooth maximum, known to 1e-4; beneath it swt falls by 1e-3 over that.
     assert (off < [1.5e-3, 1e-3, 1e-3]).all()
-    errors = found.volume_error[0, 0], found.point_error[0, 0, 0], found.line_error[0, 0, 0]
     # The other rule is off by up to 8e-4 itself.
-    assert (off < np.array(errors) / expected + 8e-4).all()
-    assert (np.array(errors) / expected < 2.1e-3).all()
+    assert (off < errors / expected + 8e-4).all()
+    assert (errors / expected < 2.1e-3).all()
 
 
 #: ℓ, and swt at ℓ/2 in both directions, of the field with 60 instants on each stretch and six looks closer.
@@ -310,7 +306,8 @@ RIVALS = [
 def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(known):
     """Their peaks are narrower than the gaps between the instants; swt was 1 % low without."""
     batch, distance, expected = known
-    np.testing.assert_allclose(nonlocal_of(batch, distance)[1].point[0, 0], expected, rtol=3e-4)
+    found = [value for value, _ in means_about(batch, distance)[1].point]
+    np.testing.assert_allclose(found, expected, rtol=3e-4)
 
 
 def test_planes_that_take_turns_straight_down_are_all_found():
@@ -337,11 +334,9 @@ def test_a_mean_of_a_thousandth_of_swt_is_known_to_a_hundredth():
     """By as many more places as that takes; 65,536 places all over the half sphere say 4.06e-6 ± 0.02e-6."""
     load = {"p": 2, "normal_amplitude": 0.31101609, "tangential_amplitude": 0.00193947, "phase": 1.01996498}
     point = points(poisson_ratio=0.47682492, friction=0.97499048, **load)
-    solution = solve_points(point, 1e-5)
-    at = solution.critical_x, solution.critical_angle
-    found = means_at(point, *at, np.array([0.15678342]))
-    assert found.volume[0, 0] == pytest.approx(4.031e-6, rel=3e-3)
-    assert found.volume_error[0, 0] < 0.01 * found.volume[0, 0]
+    value, error = means_about(point, 0.15678342)[1].volume
+    assert value == pytest.approx(4.031e-6, rel=3e-3)
+    assert error < 0.01 * value
 
 
 @pytest.mark.parametrize("name", SCENES)

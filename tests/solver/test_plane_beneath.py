@@ -9,9 +9,12 @@ from numpy.typing import NDArray
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from solved import solve_points
 
+from swtstudy.kernel.field import mean_about, open_cycle
+from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
 from swtstudy.paper.audit.body_maximum import body_maximum
-from swtstudy.solver.means import means_at
+from swtstudy.solver.means import DOWN
+from swtstudy.solver.solve import arguments_of
 
 Array = NDArray[np.float64]
 NU = 0.3
@@ -57,22 +60,26 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
     batch = plane_points(name, NU, 0.6, 0.0, 0.5, bulk_stress_amplitude=0.05, **shape)
     found = solve_points(batch)
     x = float(found.critical_x[0])
-    distance = np.array([0.02, 0.1])
-    means = means_at(batch, found.critical_x, found.critical_angle, distance)
+    opened = open_cycle(**arguments_of(batch))
+
+    def mean(kind: int, size: float) -> tuple[float, float]:
+        return mean_about(opened, kind, x, DOWN, size, 0.0, 1e-3)
+
     node, weight = np.polynomial.legendre.leggauss(10)
     node, weight = 0.5 * (1.0 + node), 0.5 * weight
-    for k, size in enumerate(distance):
+    for size in (0.02, 0.1):
         # d = ℓ t², φ = π sin²: roots beside the edge and the surface.
         d, turn = size * node**2, np.pi * np.sin(0.5 * np.pi * node) ** 2
         of_turn = weight * np.sin(np.pi * node)
         swt, _ = swt_at(batch, x + d[:, None] * np.cos(turn), 0.0, d[:, None] * np.sin(turn))
         area = (weight * node**3)[:, None] * of_turn
         disc = float((area * swt).sum() / area.sum())
-        assert means.volume[0, k] == pytest.approx(disc, rel=3e-3)
-        assert abs(means.volume[0, k] - disc) < 3.0 * means.volume_error[0, k] + 1e-3 * disc
-        assert means.point[0, k, 0] == pytest.approx(float(swt_at(batch, x, 0.0, 0.5 * size)[0]), rel=2e-3)
+        value, error = mean(SPHERE, size)
+        assert value == pytest.approx(disc, rel=3e-3)
+        assert abs(value - disc) < 3.0 * error + 1e-3 * disc
+        assert mean(POINT, size)[0] == pytest.approx(float(swt_at(batch, x, 0.0, 0.5 * size)[0]), rel=2e-3)
         line = float((2.0 * node * weight * swt_at(batch, x, 0.0, 2.0 * size * node**2)[0]).sum())
-        assert means.line[0, k, 0] == pytest.approx(line, rel=3e-3)
+        assert mean(LINE, size)[0] == pytest.approx(line, rel=3e-3)
 
 
 @pytest.mark.quick(1)

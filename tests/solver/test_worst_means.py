@@ -1,7 +1,8 @@
-"""Values over critical distances about the place that has most of it."""
+"""Values over critical distances are the largest over places of the surface line."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -9,8 +10,14 @@ import numpy as np
 import pytest
 from asking import study
 from numpy.testing import assert_allclose
+from scenes import plane_points, points
+from solved import solve_points
 
 import swtstudy
+from swtstudy.kernel.field import direction_at, largest_radius, mean_about, open_cycle
+from swtstudy.kernel.mean import LINE, POINT, SPHERE
+from swtstudy.solver.means import DOWN, worst_means
+from swtstudy.solver.solve import arguments_of
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}
@@ -30,6 +37,49 @@ def jump(count: int) -> tuple[np.ndarray, float, float]:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if place(middle) * before > 0.0 else (low, middle)
     return np.linspace(low - 0.01, high + 0.01, count), before, after
+
+
+#: Where the critical point is a narrow peak, and where the mean is largest far from it.
+ELSEWHERE = {
+    "no peak of swt": points(
+        "power_law",
+        poisson_ratio=0.2,
+        friction=0.4,
+        normal_amplitude=0.5,
+        tangential_amplitude=0.3,
+        exponent=3.0,
+    ),
+    "two sines": points(normal_amplitude=0.14, tangential_amplitude=0.05, p=3, phase=0.077),
+    "bulk stress": replace(points(phase=2.0), bulk_stress_amplitude=np.array([0.05])),
+    "cylinder": plane_points("cylinder", 0.3, 0.6, 0.0, 0.5),
+}
+
+
+@pytest.mark.quick(2)
+@pytest.mark.parametrize("name", ELSEWHERE)
+def test_no_mean_about_another_place_is_larger(name: str) -> None:
+    batch, distance = ELSEWHERE[name], 0.06
+    found = worst_means(batch, solve_points(batch), np.array([distance]))
+    opened = open_cycle(**arguments_of(batch))
+    end = largest_radius(opened) + distance
+    for place in np.arange(-end, end, 0.5 * distance):
+        for way, direction in enumerate((DOWN, direction_at(opened, place))):
+            volume, point, line = (
+                mean_about(opened, kind, place, direction, distance, 0.0, 1e-2)[0]
+                for kind in (SPHERE, POINT, LINE)
+            )
+            assert volume < 1.01 * found.volume[0, 0]
+            assert point < 1.002 * found.point[0, 0, way]
+            assert line < 1.005 * found.line[0, 0, way]
+
+
+@pytest.mark.parametrize("friction", [0.01, 0.3])
+def test_no_mean_is_lower_than_the_bulk_stress_far_away(friction: float) -> None:
+    """That has the amplitude B of σ_xx and the largest stress B: B²."""
+    own = {"tangential_amplitude": 1e-3, "normal_amplitude": 0.1, "bulk_stress_amplitude": 0.1}
+    found = swtstudy.solve(friction=friction, critical_distance=0.2, rtol=1e-3, **own)
+    for name in ("s_volume", "s_point", "s_line"):
+        assert (found[name] > 0.1**2 * (1.0 - 1e-3)).all()
 
 
 @pytest.mark.slow
