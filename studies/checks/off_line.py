@@ -170,7 +170,7 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
             with np.errstate(all="ignore"):
                 if kind == "mean":
                     distance = DISTANCES[0] * DISTANCES[1] ** rng.uniform(size=1)
-                    found = float(means_at(own, x, angle, distance).volume[0, 0])
+                    found = float(means_at(own, x, angle, distance)["volume"][0, 0])
                     about = float(x[0]), float(np.radians(2.0 * angle[0])), float(distance[0])
                     dense = float(dense_means(opened, *about, 1)[0])
                     allowed = KINDS[kind][1]

@@ -23,7 +23,7 @@ def foreseen(grid: Grid) -> tuple[str, ...]:
     """
     if grid.size > MOST_POINTS or not grid.margins:
         return ()
-    found = margins(Distinct.of(grid), grid, foreseen=True)
+    found = margins(Distinct.of(grid), grid, without_compiler=True)
     unknown = dict.fromkeys(("s", "s_error", "critical_x", "critical_angle", "s_surface"))
     arrays = {name: np.full(grid.size, np.nan) for name in unknown}
     lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + _ROUNDING

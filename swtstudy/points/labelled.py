@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
@@ -210,37 +209,39 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: Distinct, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
+def margins(points: Distinct, grid: Grid, without_compiler: bool = False) -> dict[str, NDArray]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
-    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
-    known without a compiler, to 1e-5.
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Without a
+    compiler they are known to 1e-5.
     """
-    from swtstudy.solver.margins import Margins
+    from swtstudy.solver.margins import foreseen, margins_of
 
-    names = grid.margins
+    names, n = grid.margins, len(points.rows)
     if not names:
         return {}
-    of = Margins.foreseen if foreseen else Margins.of
-    every = np.full((len(fields(Margins)), len(points.rows)), np.nan)
+    found: dict[str, NDArray] = {}
     for rows in alike(points.rows):
         for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
+            own = points_from(points.rows[some], points.definitions)
             with np.errstate(all="ignore"):
-                found_here = of(points_from(points.rows[some], points.definitions))
-            every[:, some] = list(vars(found_here).values())
-    radius, stick, shift, ratio, slide, moved = every[:, points.index]
-    width = radius - stick  # of the slip zone
+                made = foreseen(own) if without_compiler else margins_of(own)
+            for name, values in made.items():
+                found.setdefault(name, np.full(n, np.nan))[some] = values
+    found = {name: values[points.index] for name, values in found.items()}
+    radius, shift = found["contact_radius"], found["bulk_shift"]
+    width = radius - found["stick_radius"]  # of the slip zone
     if "bulk_shift" in names:
         shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = {
-            "stick_zone": zones(moved, grid),
+        told: dict[str, NDArray] = {
+            "stick_zone": zones(found["moved"], grid),
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
-            "prescribed_force_ratio": ratio,
+            "prescribed_force_ratio": found["force_ratio"],
         }
     if "radius_ratio" in names:
-        found["radius_ratio"] = radius * grid.curvatures
+        told["radius_ratio"] = radius * grid.curvatures
     if "slide_ratio" in names:
-        found["slide_ratio"] = slide * grid.slip_scales / radius
-    return {name: found[name] for name in names}
+        told["slide_ratio"] = found["slide"] * grid.slip_scales / radius
+    return {name: told[name] for name in names}

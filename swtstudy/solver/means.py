@@ -15,8 +15,6 @@ swt, but about another local maximum swt may fall off more slowly.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from swtstudy.kernel.batch import maxima_batch
@@ -33,47 +31,11 @@ KINDS = ("volume", "point", "line")
 RTOL, OF_MAXIMA, GROWTH = 1e-3, 1e-4, 1e-5
 
 
-@dataclass(frozen=True)
-class Means:
-    """swt over k critical distances at n points, over E* δ0/R as s, with absolute errors; NaN without s.
-
-    Attributes
-    ----------
-    volume, volume_error, volume_x
-        Shape (n, k): means over half spheres, or half discs in the plane; and the signed x of the points of
-        the surface line that they are about.
-    point, point_error, point_x, line, line_error, line_x
-        Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
-    """
-
-    volume: FloatArray
-    volume_error: FloatArray
-    volume_x: FloatArray
-    point: FloatArray
-    point_error: FloatArray
-    point_x: FloatArray
-    line: FloatArray
-    line_error: FloatArray
-    line_x: FloatArray
-
-    @classmethod
-    def blank(cls, n: int, k: int) -> Means:
-        """Means of so many points without values."""
-        shapes = [(n, k)] * 3 + [(n, k, len(DIRECTIONS))] * 6
-        return cls(*(np.full(shape, np.nan) for shape in shapes))
-
-    def least(self, row: int) -> float:
-        """The smallest mean of a point."""
-        return min(float(getattr(self, kind)[row].min()) for kind in KINDS)
-
-    def raise_to(self, row: int, means: FloatArray, x: float) -> None:
-        """Take the means about x, (5, k, 2), where they are larger, or where there are none."""
-        volume, *rest = means
-        for kind, own in zip(KINDS, (volume, np.stack(rest[:2], 1), np.stack(rest[2:], 1)), strict=True):
-            value, error, place = (getattr(self, name)[row] for name in (kind, f"{kind}_error", f"{kind}_x"))
-            # It is not by noise that one of two is taken.
-            larger = np.isnan(value) | (own[..., 0] > (1.0 + OF_VALUE) * value)
-            value[larger], error[larger], place[larger] = own[larger, 0], own[larger, 1], x
+#: swt over k critical distances at n points, over E* δ0/R as s, NaN without s. ``volume``, shape (n, k), are
+#: means over half spheres, or half discs in the plane; ``point`` and ``line``, shape (n, k, 2), values at ℓ/2
+#: and means over 0 … 2ℓ in both `DIRECTIONS`. Each has its absolute error, such as ``volume_error``, and the
+#: signed x of the points of the surface line that it is about, such as ``volume_x``.
+Means = dict[str, FloatArray]
 
 
 def means_at(
@@ -93,12 +55,32 @@ def means_at(
     rtol
         Relative accuracy asked for.
     """
-    found = Means.blank(len(x), len(distance))
+    shape = len(x), len(distance), len(DIRECTIONS)
+    found = {
+        f"{kind}{end}": np.full(shape[:2] if kind == "volume" else shape, np.nan)
+        for kind in KINDS
+        for end in ("", "_error", "_x")
+    }
     for row in np.flatnonzero(np.isfinite(x)):
         opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
-        double_angle = np.radians(2.0 * angle[row])
-        found.raise_to(int(row), means_about(opened, x[row], double_angle, distance, rtol), float(x[row]))
+        means = means_about(opened, x[row], np.radians(2.0 * angle[row]), distance, rtol)
+        _raise(found, int(row), means, float(x[row]))
     return found
+
+
+def _raise(found: Means, row: int, means: FloatArray, x: float) -> None:
+    """Take the means about x, (5, k, 2), where they are larger, or where there are none."""
+    volume, *rest = means
+    for kind, own in zip(KINDS, (volume, np.stack(rest[:2], 1), np.stack(rest[2:], 1)), strict=True):
+        value, error, place = (found[f"{kind}{end}"][row] for end in ("", "_error", "_x"))
+        # It is not by noise that one of two is taken.
+        larger = np.isnan(value) | (own[..., 0] > (1.0 + OF_VALUE) * value)
+        value[larger], error[larger], place[larger] = own[larger, 0], own[larger, 1], x
+
+
+def _least(found: Means, row: int) -> float:
+    """The smallest mean of a point."""
+    return min(float(found[kind][row].min()) for kind in KINDS)
 
 
 def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Means:
@@ -120,15 +102,15 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
     rows = np.flatnonzero(np.isfinite(x))
     if not rows.size:
         return found
-    limits = np.array([max(found.least(int(row)), 0.0) for row in rows]), solution.s[rows]
+    limits = np.array([max(_least(found, int(row)), 0.0) for row in rows]), solution.s[rows]
     others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=OF_MAXIMA)
     for row, maxima in zip(rows.tolist(), others, strict=True):
         opened, mirrored = None, (maxima[0] > 0.0).all()  # what is at -x is that of x then
         for place, double_angle, swt, ends in zip(*maxima, strict=True):
             critical = abs(x[row]) if mirrored else x[row]
             # The critical point itself is between the neighbours of one of them.
-            if swt <= found.least(row) or ends.min() <= critical <= ends.max():
+            if swt <= _least(found, row) or ends.min() <= critical <= ends.max():
                 continue
             opened = opened or open_cycle(GROWTH, **arguments_of(points[[row]]))
-            found.raise_to(row, means_about(opened, place, double_angle, distance, RTOL), float(place))
+            _raise(found, row, means_about(opened, place, double_angle, distance, RTOL), float(place))
     return found

@@ -68,11 +68,11 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
         swt, _ = swt_at(batch, x + d[:, None] * np.cos(turn), 0.0, d[:, None] * np.sin(turn))
         area = (weight * node**3)[:, None] * of_turn
         disc = float((area * swt).sum() / area.sum())
-        assert means.volume[0, k] == pytest.approx(disc, rel=3e-3)
-        assert abs(means.volume[0, k] - disc) < 3.0 * means.volume_error[0, k] + 1e-3 * disc
-        assert means.point[0, k, 0] == pytest.approx(float(swt_at(batch, x, 0.0, 0.5 * size)[0]), rel=2e-3)
+        assert means["volume"][0, k] == pytest.approx(disc, rel=3e-3)
+        assert abs(means["volume"][0, k] - disc) < 3.0 * means["volume_error"][0, k] + 1e-3 * disc
+        assert means["point"][0, k, 0] == pytest.approx(float(swt_at(batch, x, 0.0, 0.5 * size)[0]), rel=2e-3)
         line = float((2.0 * node * weight * swt_at(batch, x, 0.0, 2.0 * size * node**2)[0]).sum())
-        assert means.line[0, k, 0] == pytest.approx(line, rel=3e-3)
+        assert means["line"][0, k, 0] == pytest.approx(line, rel=3e-3)
 
 
 @pytest.mark.quick(1)
