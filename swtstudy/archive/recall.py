@@ -10,22 +10,20 @@ import xarray as xr
 
 from swtstudy.archive.attributes import defined_in, read_runs
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found, Run
+from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
 from swtstudy.points.shapes import shapes_needed
 from swtstudy.points.values import NamedValues, Value, read_value
 from swtstudy.units.contacts_at_rest import check_contacts
-from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
-from swtstudy.vocabulary.choices import NONE
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS, SHIFT, Control, replaced_by
+from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED, NONLOCAL, Request
 from swtstudy.vocabulary.variables import CONTACT, SOLVED, has_units, require
 
@@ -42,27 +40,19 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     report, dims = Report(), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    known = defined_in(dataset.attrs)
+    known, along = defined_in(dataset.attrs), dict[str, str]()
     values: NamedValues = {}
-    for name, parameter in table.items():
-        if name not in dataset.coords or name in pairs or name == DISTANCE:
-            continue
-        if dataset[name].dims not in ((), (name,), (SAMPLE,)) or not {*dataset[name].dims} <= {*dims}:
-            report(name, f"dimensions {dataset[name].dims}", "an axis of s, or a single value")
+    for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
+        own = tuple(map(str, dataset[name].dims))
+        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
+            report(name, f"dimensions {own}", "an axis of s, or a single value")
             continue
         raw = np.atleast_1d(dataset[name].values).tolist()
-        values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
-    if SHIFT not in values and any(values.get("bulk_stress_amplitude", ())):
-        values[SHIFT] = (NONE,)  # archives from before there was a choice
-    along = {
-        name: str(dataset[name].dims[0]) for name in values if name in dataset.coords and dataset[name].dims
-    }
+        values[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
+        along |= dict.fromkeys([name] * len(own), "".join(own))
     for name in (name for name in dims if name not in along.values()):
         report(name, "a dimension without values of a parameter", ", ".join(table))
-    profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
-    _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
-    for twice in given_twice({*values, *dims}):
-        report.of(*twice)
+    _check_complete(values, {*values, *dims, *pairs}, report)
     control = Control.given({*values, *dims}).name
     if dataset.get("control", control) != control:
         report("control", literal(dataset.control.values.tolist()), literal(control))
@@ -72,15 +62,10 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     axes = {name: values[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, axes, samples)
-    return _of_contacts(completed(fixed, axes, samples, given))
-
-
-def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
-    """A grid of contacts that can be."""
-    report = Report()
-    named = any(isinstance(profile, str) for profile in grid.values("profile"))
-    for name in ("young_modulus", "poisson_ratio", "friction", *("radius",) * named):
-        if name not in grid.pairs and not grid.values(name):
+    grid = completed(fixed, axes, samples, given)
+    for name in ("young_modulus", "poisson_ratio", "friction", "radius"):
+        named = name != "radius" or any(isinstance(each, str) for each in grid.values("profile"))
+        if named and name not in grid.pairs and not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
     if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):
         report.of(MEAN_LOADS, *wrong)
@@ -90,13 +75,16 @@ def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     return grid
 
 
-def _check_complete(given: set[str], shape: Sequence[str], report: Report) -> None:
-    """Parameters without a value; an archive may leave out optional ones."""
+def _check_complete(values: NamedValues, given: set[str], report: Report) -> None:
+    """Parameters without a value, or two for one; an archive may leave out optional ones."""
     replaced = replaced_by(given)
+    shape = shapes_needed([value for value in values.get("profile", ()) if isinstance(value, str)])
     for name, parameter in PARAMETERS.items():
         needed = parameter.default is not None and not parameter.optional and name not in replaced
         if (needed or name in shape) and name not in given:
             report(name, "nothing", parameter.allowed)
+    for twice in given_twice(given):
+        report.of(*twice)
 
 
 def _values(
@@ -144,6 +132,6 @@ def found_in(dataset: xr.Dataset) -> Found:
         lost = np.isnan(arrays["s_volume"]) & np.isfinite(arrays["s"])[:, None]
         arrays["distance"] = np.where(lost, np.nan, points.distances)
     runs = read_runs(dataset.attrs["runs"])
-    each = [run["seconds"] / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
+    each = [run.seconds / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
     arrays |= {"row": points.rows, "seconds": np.array([*each, 0.0])[arrays["run"]]}
-    return Found(arrays, tuple(map(Run.from_json, runs)))
+    return Found(arrays, runs)

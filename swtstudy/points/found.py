@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -40,6 +40,8 @@ class Run:
         Date and time of its first result, ISO 8601.
     quantities
         What its points have beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
+    seconds
+        Time that it has taken to compute what an archive has of it.
     """
 
     solver_version: str
@@ -48,16 +50,11 @@ class Run:
     versions: str
     started: str = field(default="", compare=False)
     quantities: tuple[str, ...] = ()
+    seconds: float = field(default=0.0, compare=False)
 
     def to_json(self) -> dict[str, Any]:
         """The run as JSON has it; without quantities, if there are none."""
         return {name: value for name, value in asdict(self).items() if value != ()}
-
-    @classmethod
-    def from_json(cls, raw: Mapping[str, Any]) -> Run:
-        """The run from `to_json`."""
-        own = {name: raw[name] for name in cls.__dataclass_fields__ if name in raw}
-        return cls(**own | {"quantities": tuple(raw.get("quantities", ()))})
 
 
 @dataclass

@@ -44,8 +44,8 @@ def margins_of(points: Points) -> Margins:
     dict
         Arrays of shape (n,). ``contact_radius``: the largest of the cycle in a_H, half the width in plane
         contacts. ``stick_radius``: that of the permanent stick zone in a_H; NaN where there is none.
-        ``force_ratio``: the largest ratio of F_x to μ F_N that is prescribed: there is no equilibrium where it
-        is above 1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
+        ``force_ratio``: the largest F_x/(μ F_N) that is prescribed: there is no equilibrium where it is above
+        1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
         displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus that limit if the depth is
         constant; 0 without gross slip, NaN where the bodies part or the tangential force is prescribed.
         ``moved``: 1 where the bulk stress moves the stick zone in s, else 0. ``bulk_shift``: by how much the

@@ -194,9 +194,9 @@ def test_several_distances_share_their_places():
     batch, distance = SCENES["paraboloid"], np.array([0.1, 0.002, 0.05])
     _, found = nonlocal_of(batch, distance)
     alone = [nonlocal_of(batch, each)[1] for each in distance]
-    for name, values in vars(found).items():
+    for name, values in found.items():
         if not name.endswith("error"):
-            one = np.concatenate([getattr(each, name) for each in alone], axis=1)
+            one = np.concatenate([each[name] for each in alone], axis=1)
             np.testing.assert_allclose(values, one, rtol=2e-3)
 
 
@@ -310,7 +310,7 @@ RIVALS = [
 def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(known):
     """Their peaks are narrower than the gaps between the instants; swt was 1 % low without."""
     batch, distance, expected = known
-    np.testing.assert_allclose(nonlocal_of(batch, distance)[1].point[0, 0], expected, rtol=3e-4)
+    np.testing.assert_allclose(nonlocal_of(batch, distance)[1]["point"][0, 0], expected, rtol=3e-4)
 
 
 def test_planes_that_take_turns_straight_down_are_all_found():
