@@ -52,13 +52,14 @@ def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
 
 def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     attributes, real = dataset.attrs, has_units(dataset)
-    for name in _TEXTS:
-        if not isinstance(attributes[name], str):
-            yield f"attribute {name}", _words(attributes[name]), "a text"
+    seconds = attributes.get("wall_time_seconds", 0.0)
+    wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
     if not is_rtol(attributes["rtol"], SMALLEST_STORED_RTOL):
-        yield "attribute rtol", _words(attributes["rtol"]), ALLOWED_RTOL
-    if not 0.0 <= plain_number(attributes.get("wall_time_seconds", 0.0)) < np.inf:
-        yield "attribute wall_time_seconds", _words(attributes["wall_time_seconds"]), "a number of seconds"
+        wrong["rtol"] = ALLOWED_RTOL
+    if not 0.0 <= plain_number(seconds) < np.inf:
+        wrong["wall_time_seconds"] = "a number of seconds"
+    for name, allowed in wrong.items():
+        yield f"attribute {name}", _words(attributes[name]), allowed
     others = [str(name) for name in dataset.data_vars] if real else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
@@ -66,23 +67,21 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         "figure": partial(read_figure, others=others),
         CONTACT: read_contact,
     }
-    for name, read in readers.items():
+    for name in (name for name in readers if name in attributes and name not in wrong):
         try:
-            read(attributes[name]) if name in attributes else None
+            readers[name](attributes[name])
         except ValueError as error:
             yield f"attribute {name}", f"{_words(attributes[name])} ({error})", "JSON as swtstudy writes it"
-    for name, words in (("regime", REGIMES), ("status", STATES)):
-        meanings = dataset[name].attrs["flag_meanings"]
-        if meanings != " ".join(words):
-            yield f"attribute flag_meanings of {name}", _words(meanings), " ".join(words)
-    units = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
-    units |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    units |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
     plain = without_units(dataset) if real else dataset
-    for name in (name for name in units if name in plain):
-        found = plain[name].attrs.get("units", units[name])
-        if str(found) != units[name]:
-            yield f"attribute units of {name}", _words(found), _words(units[name])
+    known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
+    known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
+    known |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
+    every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
+    every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
+    for attribute, name, allowed in every:
+        found = plain[name].attrs.get(attribute, allowed)
+        if str(found) != allowed:
+            yield f"attribute {attribute} of {name}", _words(found), _words(allowed)
 
 
 def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
