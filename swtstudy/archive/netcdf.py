@@ -20,8 +20,8 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.check import lacking, mistakes
 from swtstudy.archive.paths import ArchiveError, LockedError, is_locked
+from swtstudy.archive.recall import lacking, mistakes
 from swtstudy.vocabulary.files import replacing
 
 _GROUP = "check_sum"

@@ -16,7 +16,6 @@ from typing import Literal
 from swtstudy.points import rules
 from swtstudy.points.canonical import canonical_number
 from swtstudy.points.grid import Grid, complete
-from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import (
     DEGREES,
     NOTHING,
@@ -103,7 +102,7 @@ def read_grid(
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     given = {*fixed, *axes, *samples}
     rules.check_amplitudes(given, good, report)
-    check_shapes_given(fixed, {**axes, **samples}, good, report)
+    rules.check_shapes_given(fixed, {**axes, **samples}, good, report)
     rules.check_forces(given, good, report)
     rules.check_criteria(given, good, report)
     if report or len(good_samples) < len(samples):
@@ -114,7 +113,7 @@ def read_grid(
     values = {name: grid.values(grid.control.given_for(name)) for name in rules.AMPLITUDES}
     largest = {name: max(map(as_number, each), default=0.0) for name, each in values.items()}
     rules.check_largest(grid, largest, report)
-    check_shapes(grid, report)
+    rules.check_shapes(grid, report)
     return (None if report else grid), report
 
 

@@ -71,13 +71,10 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     points = Distinct.of(study.grid, study.asked)
     known = known_points(path)
     found = matching(points, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
-    there = known["status"] != MISSING
-    lost = points.rows[(found["status"] == MISSING) & bool(len(known))]
-    own = known.usable(np.inf, SOLVER_VERSION)
-    coarse = look_up(lost, known, own & ~known.usable(study.rtol, SOLVER_VERSION)) >= 0
-    outdated = look_up(lost, known, there & ~own) >= 0
-    others = not_in(points, study.asked, known)
-    return Work(points, study.asked, found, others, int(outdated.sum()), int(coarse.sum()))
+    lost, own = points.rows[found["status"] == MISSING], known.usable(np.inf, SOLVER_VERSION)
+    candidates = (known["status"] != MISSING) & ~own, own & ~known.usable(study.rtol, SOLVER_VERSION)
+    outdated, coarse = (int((look_up(lost, known, some) >= 0).sum()) for some in candidates)
+    return Work(points, study.asked, found, not_in(points, study.asked, known), outdated, coarse)
 
 
 def not_in(points: Distinct, asked: Request, known: Found) -> Found:
