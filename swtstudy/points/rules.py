@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -135,31 +136,29 @@ def check_loops(grid: Grid, report: Report) -> None:
         report.of("load", found, "two displacements or two forces; or vertices")
 
 
-def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
-    """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
-    for load in grid.loops if NORMAL_AMPLITUDES.isdisjoint(given) else ():
-        if load.mean_normal is not None:
-            mean = f"{load.mean_normal:g}"
-            found = f"{literal(load.name)} with a mean normal load of {mean}, without units"
-            allowed = f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{mean} or the like"
-            report.of("load", found, allowed)
-            return
-
-
 def sizes_of(load: Loop) -> dict[str, float]:
     """Largest size of the values of a loop, by the amplitude that multiplies them."""
     ends = load.normal_ends, load.tangential_ends, load.bulk_ends or (0.0, 0.0)
     return {name: max(map(abs, each)) for name, each in zip(AMPLITUDES, ends, strict=True)}
 
 
-def check_largest(grid: Grid, amplitudes: Mapping[str, float], report: Report) -> None:
-    """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
-    for load in grid.loops:
-        for name, largest in sizes_of(load).items():
-            size, words = amplitudes.get(name, 0.0) * largest, name.rpartition("_")[0].replace("_", " ")
-            if not size <= LARGEST_LOAD:
-                found = f"{literal(load.name)} with a {words} of {size:.3g}"
-                report.of("load", found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
+def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
+    """Loads so large that rounding is left of the mean one, and those in units where nothing has units.
+
+    Only amplitudes over the mean load fit the latter.
+    """
+    sized = [load for load in grid.loops if load.mean_normal is not None]
+    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
+        mean = f"{load.mean_normal:g}"
+        found = f"{literal(load.name)} with a mean normal load of {mean}, without units"
+        allowed = f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{mean} or the like"
+        report.of("load", found, allowed)
+    for load, name in itertools.product(grid.loops, AMPLITUDES):
+        amplitudes = map(as_number, grid.values(grid.control.given_for(name)))
+        size, words = sizes_of(load)[name] * max(amplitudes, default=0.0), name.rpartition("_")[0]
+        if not size <= LARGEST_LOAD:
+            found = f"{literal(load.name)} with a {words.replace('_', ' ')} of {size:.3g}"
+            report.of("load", found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
 
 
 def check_shapes_given(

@@ -11,6 +11,7 @@ import asyncio
 import logging
 import multiprocessing
 import os
+import pickle
 import signal
 import sys
 import threading
@@ -20,6 +21,8 @@ from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, Thre
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
+
+import cloudpickle
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -38,11 +41,24 @@ def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
     """Workers of a run: those of a cluster, if there is a client of one."""
     if client is not None:
         return ClusterPool(client)
-    return LocalPool(count) if processes else ThreadPool(count)
+    return LocalPool(count) if processes else Workers(count)
+
+
+class _Task:
+    """A task for another process: to unpickle it is to do it.
+
+    So a worker that lacks what the task needs reports that as the error of the task.
+    """
+
+    def __init__(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+        self._parts = function, arguments
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return self._parts
 
 
 class Workers:
-    """What the kinds of workers have in common."""
+    """Threads of this process, which the compiled solver lets run side by side; the base of other kinds."""
 
     lost: Errors = ()
     gone: Errors = ()
@@ -55,11 +71,11 @@ class Workers:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        self.renew()
+        self.renew(wait=True)
 
     def _start(self) -> Any:
         """Start an executor."""
-        raise NotImplementedError
+        return ThreadPoolExecutor(self.size)
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
@@ -73,16 +89,6 @@ class Workers:
             executor.shutdown(wait, cancel_futures=True)
 
 
-class ThreadPool(Workers):
-    """Threads of this process: the compiled solver lets them run side by side."""
-
-    def _start(self) -> ThreadPoolExecutor:
-        return ThreadPoolExecutor(self.size)
-
-    def __exit__(self, *_: object) -> None:
-        self.renew(wait=True)
-
-
 class LocalPool(Workers):
     """Worker processes on this machine, which start with the first task."""
 
@@ -92,11 +98,9 @@ class LocalPool(Workers):
         return start_workers(self.size)
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """As in `concurrent.futures.Executor`; a task that a worker cannot read is no lost worker."""
-        import cloudpickle
-
+        """See `Workers`."""
         try:
-            return super().submit(_call, cloudpickle.dumps((function, arguments)))
+            return super().submit(pickle.loads, cloudpickle.dumps(_Task(function, arguments)))
         except BrokenProcessPool as error:
             lost: Future[Any] = Future()
             lost.set_exception(error)
@@ -126,6 +130,10 @@ class ClusterPool(Workers):
 
     def _start(self) -> Any:
         return self._client.get_executor(pure=False)
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """See `Workers`."""
+        return super().submit(pickle.loads, cloudpickle.dumps(_Task(function, arguments)))
 
     def __enter__(self) -> Workers:
         threading.Thread(target=self._watch, daemon=True).start()
@@ -165,14 +173,6 @@ def start_workers(count: int) -> ProcessPoolExecutor:
         for _ in range(count):
             pool.submit(_warm_up)
     return pool
-
-
-def _call(task: bytes) -> Any:
-    """Do a task, in a worker."""
-    import pickle
-
-    function, arguments = pickle.loads(task)
-    return function(*arguments)
 
 
 def _prepare() -> None:
