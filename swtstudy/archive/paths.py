@@ -63,15 +63,15 @@ def check_archive_path(path: Path) -> None:
 
 def _check(path: Path, report: Report) -> None:
     whole, length = path.absolute(), len(os.fsencode(path.name))
-    wrong = {
-        "bytes that are not UTF-8": any("\ud800" <= c <= "\udfff" for c in str(whole)),
+    checks = (
+        ("bytes that are not UTF-8", "a path in UTF-8", any("\ud800" <= c <= "\udfff" for c in str(whole))),
         # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
-        "a backslash": any("\\" in part for part in whole.parts[1:]),
-        "a null character": "\0" in str(whole),
-    }
-    for found in (words for words, is_so in wrong.items() if is_so):
-        report.append(Mistake("", found, "a path in UTF-8, without them", str(path)))
-    if not any(wrong.values()) and length > (longest := _longest_name(_existing(path.parent)) - _ADDED):
+        ("a backslash", "a path without one", any("\\" in part for part in whole.parts[1:])),
+        ("a null character", "a path without one", "\0" in str(whole)),
+    )
+    wrong = [Mistake("", found, allowed, str(path)) for found, allowed, is_so in checks if is_so]
+    report += wrong
+    if not wrong and length > (longest := _longest_name(_existing(path.parent)) - _ADDED):
         report.append(Mistake("", f"a name of {length} bytes", f"at most {longest}", str(path)))
 
 

@@ -185,8 +185,9 @@ def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
             at = look_up(_with_distance(points.rows, distance), pairs, np.ones(len(i), bool))
             there = np.flatnonzero(at >= 0)
             for name in _OF_DISTANCE & known.arrays.keys():
-                shape = len(found), points.distances.shape[1], *known[name].shape[2:]
-                found.arrays.setdefault(name, np.full(shape, np.nan))
+                if j == 0:
+                    shape = *points.distances.shape, *known[name].shape[2:]
+                    found.arrays[name] = np.full(shape, np.nan)
                 found[name][there, j] = known[name][i[at[there]], k[at[there]]]
     return found
 

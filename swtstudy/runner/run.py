@@ -124,16 +124,13 @@ def run_suite(
     StudyError
         A ValueError with every mistake in every study, before anything is computed.
     """
-    folder = shipped_folder() if folder is None else folder
-    studies = read_studies([str(folder)])
+    studies = read_studies([str(shipped_folder() if folder is None else folder)])
     targets = archive_paths(studies, results)
     found: dict[str, xr.Dataset] = {}
-
-    def done(study: Study, path: Path, dataset: xr.Dataset) -> None:
-        found[path.stem] = dataset
-
     pairs = [(study, targets[path]) for path, study in studies.items()]
-    run_and_draw(pairs, formats, done, width, **options)
+    run_and_draw(
+        pairs, formats, lambda _, path, dataset: found.update({path.stem: dataset}), width, **options
+    )
     return found
 
 

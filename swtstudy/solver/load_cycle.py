@@ -101,10 +101,8 @@ class LoadCycle:
     def centre(self, place: FloatArray) -> FloatArray:
         """Centres x/a_H of stick zones of sizes s, (n,): off the axis where a bulk stress moves them."""
         cycle = self.memory[0]
-        if not self.moved:
-            return np.zeros(len(place))
         own = self.profile, cycle.shift, cycle.largest, self.largest
-        return np.array([centre_of(*own, float(s)) for s in place])
+        return np.array([centre_of(*own, float(s)) if self.moved else 0.0 for s in place])
 
     @property
     def oscillations(self) -> int:

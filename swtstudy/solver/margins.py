@@ -77,21 +77,19 @@ def _motion(points: Points) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
     The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
     """
     path: Any = points.path
-    p, q = int(points.p[0]), int(points.q[0])
-    if path is None:
-        own = (q, points.phase), (p, np.zeros(1)), (p, points.bulk_stress_phase)
-        rows = tuple([(order, 1.0, phase[:, None])] for order, phase in own)
-    elif hasattr(path, "vertices"):
+    if hasattr(path, "vertices"):
         columns = path.vertices.T[:, None]
         return columns[0], columns[1], columns[2] if len(columns) > 2 else 0.0 * columns[0], False
+    if path is None:
+        p, q, still = int(points.p[0]), int(points.q[0]), np.zeros(1)
+        own = (q, points.phase), (p, still), (p, points.bulk_stress_phase)
+        rows: Any = [[(order, 1.0, phase[:, None])] for order, phase in own]
     else:
-        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk"))
+        rows = [path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk")]
     fastest = max([1, *(order for row in rows for order, _, _ in row)])
     turn = 2.0 * np.pi / (SAMPLES * fastest) * np.arange(SAMPLES * fastest)[None]
-    normal, tangential, bulk = (
-        sum((size * np.sin(order * turn + phase) for order, size, phase in row), np.zeros((1, turn.size)))
-        for row in rows
-    )
+    zero = np.zeros((1, turn.size))
+    normal, tangential, bulk = (sum((a * np.sin(k * turn + φ) for k, a, φ in row), zero) for row in rows)
     return normal, tangential, bulk, True
 
 
