@@ -104,15 +104,15 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
 def _found(points: Distinct, rtol: float, asked: Request) -> Found:
     """All that is asked of points, solved one chunk after another; raises if one has no value."""
     from swtstudy.points.chunk import chunks, fill
-    from swtstudy.points.found import Found
+    from swtstudy.points.found import Found, blank
 
     found = Found.blank(points.rows)
     with Progress(len(found)) as progress:
         for chunk in chunks(points, np.ones(len(found), bool), asked):
-            part = Found.blank(chunk.rows)
-            fill(part, chunk, rtol)
-            found.put(chunk.places, part)
-            progress.add(len(chunk))
+            arrays = blank(len(chunk.places))
+            fill(arrays, chunk, rtol)
+            found.put(chunk.places, arrays)
+            progress.add(len(chunk.places))
     return found
 
 

@@ -6,7 +6,6 @@ import os
 import signal
 import tempfile
 import time
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -90,7 +89,7 @@ def lose_at(friction: float, points: Points, rtol: float) -> Solution:
     """Like `smooth`, but it finds no value at one value of the friction."""
     solution = smooth(points, rtol)
     s = np.where(np.isclose(points.friction, friction), np.nan, solution.s)
-    return replace(solution, s=s)
+    return solution._replace(s=s)
 
 
 class Counting:

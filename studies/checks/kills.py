@@ -49,7 +49,7 @@ def child(what: str, text: str, path: str, log: str) -> None:
     def noted(*arguments: Any) -> list[Chunk]:
         found = list(cut(*arguments))
         with open(f"{log}-chunks", "a") as file:
-            file.writelines(f"{len(chunk)}\n" for chunk in found)
+            file.writelines(f"{len(chunk.places)}\n" for chunk in found)
         return found
 
     work.chunks = noted

@@ -196,7 +196,7 @@ def _solved(several: list[Points], rtol: float) -> list[Solution]:
         own = [points for _, points in group]
         joined, begin = solve_points(Points.joined(own), rtol), 0
         for points in own:
-            parts.append(joined[slice(begin, begin + len(points))])
+            parts.append(Solution(*(values[begin : begin + len(points)] for values in joined)))
             begin += len(points)
     return parts
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from datetime import UTC, datetime
 from os import PathLike
 from pathlib import Path
@@ -56,9 +57,8 @@ def history_line(what: str) -> str:
 def _provenance(study: Study, found: Found, history: str, seconds: float) -> dict[str, Any]:
     made = found["run"] >= 0
     of_runs = np.bincount(found["run"][made], found["seconds"][made], len(found.runs))
-    runs = [
-        {**run.to_json(), "seconds": round(s, 6)} for run, s in zip(found.runs, of_runs.tolist(), strict=True)
-    ]
+    each = zip(found.runs, of_runs.tolist(), strict=True)
+    runs = [replace(run, seconds=round(own, 6)).to_json() for run, own in each]
     attributes: dict[str, Any] = {
         "Conventions": "CF-1.11",
         "title": study.title,
@@ -71,12 +71,10 @@ def _provenance(study: Study, found: Found, history: str, seconds: float) -> dic
         "computing_time_seconds": round(float(of_runs.sum()), 3),
         "study": study.text,
         "runs": json.dumps(runs),
+        "definitions": definitions_text(study.grid.given) if study.grid.given else None,
+        "figure": study.figure and study.figure.to_json(),
     }
-    if study.grid.given:
-        attributes["definitions"] = definitions_text(study.grid.given)
-    if study.figure is not None:
-        attributes["figure"] = study.figure.to_json()
-    return attributes
+    return {name: value for name, value in attributes.items() if value is not None}
 
 
 def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:

@@ -10,33 +10,25 @@ import json
 import math
 import platform
 from collections.abc import Collection, Hashable, Iterable, Mapping
-from dataclasses import asdict, fields
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from swtstudy.points.found import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import literal, plain_number
+from swtstudy.vocabulary.mistakes import literal
 from swtstudy.vocabulary.quantities import COUNTS, DISTANCE, EVERY_VARIABLE, NAMED
 from swtstudy.vocabulary.version import __version__
 
 
-def read_runs(text: object) -> list[dict[str, Any]]:
-    """The runs that made the values, with their ``seconds`` of computing."""
-    runs = _json(text, list)
-    for raw in runs:
-        if not isinstance(raw, dict) or not {*raw} <= {*(item.name for item in fields(Run)), "seconds"}:
-            raise ValueError(f"not a run: {literal(raw)}")
-        for name, kind in (("solver_version", str), ("rtol", float), ("study", str), ("versions", str)):
-            if not isinstance(raw.get(name), kind):
-                raise ValueError(f"{name} of a run: {literal(raw[name]) if name in raw else 'nothing'}")
-        raw.setdefault("seconds", 0.0)
-        names, seconds = raw.get("quantities", []), raw["seconds"]
-        if not isinstance(names, list) or not {*map(str, names)} <= {*NAMED, COUNTS, DISTANCE}:
-            raise ValueError(f"quantities of a run: {literal(names)}")
-        if not 0.0 <= plain_number(seconds) < math.inf:
-            raise ValueError(f"seconds of a run: {literal(seconds)}")
+def read_runs(text: object) -> tuple[Run, ...]:
+    """The runs that made the values."""
+    runs: tuple[Run, ...] = _read(tuple[Run, ...], text)
+    for run in runs:
+        if not {*run.quantities} <= {*NAMED, COUNTS, DISTANCE}:
+            raise ValueError(f"quantities of a run: {literal(run.quantities)}")
+        if not 0.0 <= run.seconds < math.inf:
+            raise ValueError(f"seconds of a run: {literal(run.seconds)}")
     return runs
 
 
@@ -57,7 +49,7 @@ def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
 
     kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}
-    for raw in _json(text, list):
+    for raw in _read(list[dict[str, Any]], text):
         try:
             defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
@@ -73,16 +65,7 @@ def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Defini
 
 def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     """The layout of the figure, which may show others than what every study may have."""
-    raw = _json(text, dict)
-    try:
-        layout = FigureLayout.from_json(str(text))
-    except (KeyError, TypeError):
-        raise ValueError(f"not the layout of a figure: {literal(raw)}") from None
-    texts = [layout.x, layout.kind, *layout.y]
-    texts += [word for word in (layout.hue, layout.panels, layout.title, layout.vertical) if word is not None]
-    marks = layout.regimes, layout.validity
-    if not all(isinstance(word, str) for word in texts) or not all(isinstance(mark, bool) for mark in marks):
-        raise ValueError(f"not the layout of a figure: {literal(asdict(layout))}")
+    layout: FigureLayout = _read(FigureLayout, text)
     for key, found, allowed in wrong_layout(layout):
         raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
     for y in layout.y:
@@ -91,18 +74,15 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     return layout
 
 
-def _json(text: object, kind: type) -> Any:
-    if not isinstance(text, str):
-        raise ValueError("not a text")
+def _read(kind: Any, text: object) -> Any:
+    """The value of a type that is written as JSON; a ValueError with the first thing that is wrong in it."""
+    from pydantic import TypeAdapter, ValidationError
+
     try:
-        raw = json.loads(text)
-    except RecursionError:
-        raise ValueError("nested too deeply") from None
-    except ValueError as error:
-        raise ValueError(f"not JSON: {error}") from None
-    if not isinstance(raw, kind):
-        raise ValueError("not a list" if kind is list else "not a table")
-    return raw
+        return TypeAdapter(kind).validate_json(text, strict=True)  # type: ignore[arg-type]
+    except ValidationError as error:
+        wrong = error.errors()[0]
+        raise ValueError(": ".join([*map(str, wrong["loc"]), wrong["msg"]])) from None
 
 
 #: Packages whose versions can affect the numbers or the file.

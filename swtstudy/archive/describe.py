@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, read_runs
 from swtstudy.archive.outcome import outcome
@@ -21,7 +22,7 @@ from swtstudy.units.results import is_uncounted, sequence_words
 from swtstudy.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
-from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
 from swtstudy.vocabulary.wording import coordinate_words, listed, number_words, numbers_words, unit_words
 
@@ -29,11 +30,11 @@ from swtstudy.vocabulary.wording import coordinate_words, listed, number_words, 
 _LISTED = 8
 #: Letters to the left of the words of a line.
 INDENT = 17
-#: What scales the columns of a loop: one of these each.
+#: What scales the columns of a loop, one of these each, and the symbol of what the column is then.
 _COLUMNS = (
-    ("normal_force_amplitude", "normal_amplitude"),
-    ("tangential_force_amplitude", "tangential_amplitude"),
-    ("bulk_stress_amplitude",),
+    {"normal_force_amplitude": "F_N", "normal_amplitude": "δ"},
+    {"tangential_force_amplitude": "F_x", "tangential_amplitude": "u"},
+    {"bulk_stress_amplitude": "σ_B"},
 )
 #: Of an error that is rtol of s.
 _ROUNDING = 1e-9
@@ -57,28 +58,31 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     if "source" in attributes:
         versions = f" ({attributes['versions']})" if "versions" in attributes else ""
         yield "made by", f"{attributes['source']}{versions}"
-    for line in attributes.get("history", "").splitlines():
-        yield "history", line
+    yield from (("history", line) for line in attributes.get("history", "").splitlines())
     yield from _parameters(dataset)
     yield from _contact(dataset)
     if "control" in dataset.coords:
         yield "prescribed", str(dataset.control.item())
-    if "runs" in attributes:
-        yield from _quantities(dataset)
+    asked = request_of(dataset) if "runs" in attributes else NOTHING
+    if asked.names:
+        yield "quantities", ", ".join(asked.names)
+    if asked.distances:
+        distances = ", ".join(f"{value:.4g}" for value in asked.distances)
+        yield "distances", f"{distances}{_unit(dataset[DISTANCE])}"
     if "status" in dataset:
         yield "complete", completeness(dataset)
     if "rtol" in attributes:
         yield "asked for", f"rtol {attributes['rtol']:g}"
         yield "accurate", accuracy(dataset)
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
-    for line in validity_lines(dataset, inside=True):
-        yield "validity", line
-    if "runs" in attributes:
-        yield from _runs(dataset)
-    failed = [*failures(dataset)]
-    yield from (("failed", f"{where}: {why}") for where, why in failed[:_LISTED])
-    if len(failed) > _LISTED:
-        yield "failed", f"{len(failed) - _LISTED} more"
+    yield from (("validity", line) for line in validity_lines(dataset, inside=True))
+    for number, run in enumerate(read_runs(attributes.get("runs", "[]"))):
+        words = f"{int((dataset.run == number).sum())} points, rtol {run.rtol:g}, solver version "
+        words += f"{run.solver_version}, {run.seconds:.1f} s of computing, started {run.started}"
+        yield f"run {number}", words
+    failed = [f"{where}: {why}" for where, why in failures(dataset)]
+    more = [f"{len(failed) - _LISTED} more"] if len(failed) > _LISTED else []
+    yield from (("failed", words) for words in [*failed[:_LISTED], *more])
     if "figure" in attributes:
         yield "figure", _figure_words(FigureLayout.from_json(attributes["figure"]))
 
@@ -86,7 +90,11 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for name in map(str, dataset.s.dims):
         if name == SAMPLE:
-            yield "sample", _sample_words(dataset[SAMPLE])
+            attributes, words = dataset[SAMPLE].attrs, f"{dataset.sizes[SAMPLE]} points"
+            if "design" in attributes:
+                design = str(attributes["design"]).replace("_", " ")
+                words += f" ({design} design, seed {attributes.get('seed')})"
+            yield "sample", words
         else:
             yield "axis", f"{name}: {_axis_words(dataset[name])}{_unit(dataset[name])}"
     for load, words in recorded_loads(dataset):
@@ -94,27 +102,18 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for name in (*PARAMETERS, *CONTACT_AXES):
         if name not in dataset.coords or name in dataset.dims or name in unsaid(dataset):
             continue
-        values, unit = dataset[name].values, _unit(dataset[name])
-        if not values.ndim:
-            yield "fixed", f"{name}: {_words(dataset[name])}{unit}"
-        elif dataset[name].dims == ("body",):
-            yield "of each body", f"{name}: {_axis_words(dataset[name])}{unit}"
-        else:
-            yield "sampled", f"{name}: {_range_words(dataset[name])}{unit}"
+        dims = dataset[name].dims
+        label = "fixed" if not dims else "of each body" if dims == ("body",) else "sampled"
+        words = _range_words(dataset[name]) if label == "sampled" else _axis_words(dataset[name])
+        yield label, f"{name}: {words}{_unit(dataset[name])}"
 
 
 def unsaid(dataset: xr.Dataset) -> set[str]:
     """Names of coordinates without a meaning: of loops the phase, of recorded loads the factors of 1."""
-    loads = _loops(dataset)
-    if not loads:
-        return set()
-    factors = {
-        name
-        for name in map(str, dataset.coords)
-        if name.endswith("_amplitude") and np.all(dataset[name].values == LOOP_AMPLITUDE)
-    }
+    loads, names = _loops(dataset), map(str, dataset.coords)
+    factors = {n for n in names if n.endswith("_amplitude") and (dataset[n].values == LOOP_AMPLITUDE).all()}
     recorded = all(each.mean_normal is not None for each in loads)
-    return {"frequency_ratio", "phase"} | (factors if recorded else set())
+    return {"frequency_ratio", "phase", *(factors if recorded else ())} if loads else set()
 
 
 def _loops(dataset: xr.Dataset) -> list[Any]:
@@ -129,59 +128,40 @@ def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for load in _loops(dataset) if has_units(dataset) else ():
         if load.mean_normal is None:
             continue
+        means = load.mean_normal, 0.0, float(dataset.get("bulk_stress_mean", 0.0))
         said = []
-        for symbol, column, place in zip(("F_N", "F_x", "σ_B"), load.course().T, _COLUMNS, strict=False):
-            name = next((each for each in place if each in dataset.coords), None)
-            if name is None or dataset[name].ndim:
-                continue
-            mean = load.mean_normal if symbol == "F_N" else float(dataset.get("bulk_stress_mean", 0.0))
-            mean = 0.0 if symbol == "F_x" else mean
-            symbol = {"normal_amplitude": "δ", "tangential_amplitude": "u"}.get(name, symbol)
-            ends = mean + float(dataset[name]) * np.array([column.min(), column.max()])
-            low, high = (number_words(end).replace("-", "−") for end in ends)
-            said.append(f"{symbol} {low} to {high}{_unit(dataset[name])}")
+        for column, mean, names in zip(load.course().T, means, _COLUMNS, strict=False):
+            name = next((each for each in names if each in dataset.coords and not dataset[each].ndim), None)
+            if name is not None:
+                ends = mean + float(dataset[name]) * np.array([column.min(), column.max()])
+                low, high = (number_words(end).replace("-", "−") for end in ends)
+                said.append(f"{names[name]} {low} to {high}{_unit(dataset[name])}")
         yield str(load), ", ".join(said)
-
-
-def _quantities(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
-    asked = request_of(dataset)
-    if asked.names:
-        yield "quantities", ", ".join(asked.names)
-    if asked.distances:
-        distances = ", ".join(f"{value:.4g}" for value in asked.distances)
-        yield "distances", f"{distances}{_unit(dataset[DISTANCE])}"
 
 
 def _figure_words(layout: FigureLayout) -> str:
     """Describe the figure of the study: "s over phase, a line for each normal_amplitude"."""
     parts = [f"{', '.join(layout.y)} over {layout.x}"]
-    parts += [f"upwards {layout.vertical}"] * bool(layout.vertical)
-    parts += [f"a line for each {layout.hue}"] * bool(layout.hue)
-    parts += [f"a panel for each {layout.panels}"] * bool(layout.panels)
+    roles = {"upwards": layout.vertical, "a line for each": layout.hue, "a panel for each": layout.panels}
+    parts += [f"{words} {name}" for words, name in roles.items() if name]
     return ("" if layout.kind == "lines" else f"{layout.kind}: ") + ", ".join(parts)
 
 
 def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
     """Count the computed points of each regime that there is."""
-    meanings = dataset.regime.attrs["flag_meanings"].split()
     computed = (dataset.status == COMPUTED if "status" in dataset else dataset.regime.notnull()).values
-    counts = np.bincount(dataset.regime.values[computed].astype(int).ravel(), minlength=len(meanings))
-    return {meaning: int(n) for n, meaning in zip(counts, meanings, strict=False) if n}
+    return _counted(dataset.regime.values[computed], dataset.regime.attrs["flag_meanings"].split())
 
 
-def _runs(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
-    runs = read_runs(dataset.attrs["runs"])
-    counted = np.bincount(dataset.run.values.astype(int).ravel() + 1, minlength=len(runs) + 1)[1:]
-    for number, run in enumerate(runs):
-        words = f"{counted[number]} points, rtol {run['rtol']:g}, solver version {run['solver_version']}, "
-        yield f"run {number}", f"{words}{run['seconds']:.1f} s of computing, started {run['started']}"
+def _counted(flags: NDArray[Any], words: Sequence[str]) -> dict[str, int]:
+    """Number of points with each flag that there is, by what it means."""
+    counts = np.bincount(flags.astype(int).ravel(), minlength=len(words)).tolist()
+    return {each: count for each, count in zip(words, counts, strict=False) if count}
 
 
 def failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """Say of each point that failed where it is, and why."""
-    if "message" not in dataset:
-        return
-    for flat in np.flatnonzero(dataset.status.values == FAILED).tolist():
+    for flat in np.flatnonzero(dataset.status.values == FAILED).tolist() if "message" in dataset else ():
         point = dataset.isel(index_at(dataset.s, flat))
         names = [n for n in (*PARAMETERS, *CONTACT_AXES) if n in dataset.coords and dataset[n].ndim]
         where = ", ".join(f"{name}={_words(point[name])}" for name in names)
@@ -190,25 +170,21 @@ def failures(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     """List the facts of the contacts of a study with units, besides the values of parameters."""
-    if has_units(dataset):
-        given = read_contact(dataset.attrs[CONTACT])
-        units = ", ".join(filter(None, vars(given.units).values()))
-        if units:
-            yield "units", units
-        for material in dict.fromkeys(given.materials):
-            yield "material", _constants(material)
-        if given.scatter:
-            yield "scatter", scatter_words(given.scatter)
-        for torsion in dict.fromkeys(given.shear_materials):
-            yield "in torsion", _constants(torsion)
-        if given.yield_strengths:
-            yield "yields at", _stresses(given.yield_strengths, given.units)
-        if given.findley_limits:
-            yield "Findley limit", _stresses(given.findley_limits, given.units)
-        if given.materials or given.shear_materials:
-            yield "lives", _counted_words(dataset)
-        if sequence := sequence_words(dataset, given.blocks):
-            yield "sequence", sequence
+    if not has_units(dataset):
+        return
+    given = read_contact(dataset.attrs[CONTACT])
+    lives = given.materials or given.shear_materials
+    several: dict[str, Iterable[str]] = {
+        "units": [", ".join(filter(None, vars(given.units).values()))],
+        "material": map(_constants, dict.fromkeys(given.materials)),
+        "scatter": [scatter_words(given.scatter)] if given.scatter else (),
+        "in torsion": map(_constants, dict.fromkeys(given.shear_materials)),
+        "yields at": [_stresses(given.yield_strengths, given.units)],
+        "Findley limit": [_stresses(given.findley_limits, given.units)],
+        "lives": [_counted_words(dataset)] if lives else (),
+        "sequence": [sequence_words(dataset, given.blocks)],
+    }
+    yield from ((label, words) for label, lines in several.items() for words in lines if words)
 
 
 def scatter_words(scatter: Scatter) -> str:
@@ -225,8 +201,9 @@ def _constants(material: FatigueConstants | ShearConstants) -> str:
 
 
 def _stresses(values: tuple[float, ...], units: Units) -> str:
-    """The stresses of both bodies, once where they are alike."""
-    return f"{', '.join(number_words(each, 6) for each in dict.fromkeys(values))} {units.stress}"
+    """The stresses of both bodies, once where they are alike; empty if there are none."""
+    several = ", ".join(number_words(each, 6) for each in dict.fromkeys(values))
+    return f"{several} {units.stress}" if several else ""
 
 
 def _counted_words(dataset: xr.Dataset) -> str:
@@ -250,27 +227,20 @@ def _words(value: xr.DataArray) -> str:
 
 
 def _axis_words(axis: xr.DataArray) -> str:
-    return listed([_words(each) for each in axis], _LISTED)
-
-
-def _sample_words(sample: xr.DataArray) -> str:
-    design = sample.attrs.get("design")
-    words = f" ({design.replace('_', ' ')} design, seed {sample.attrs.get('seed')})" if design else ""
-    return f"{sample.size} points{words}"
+    return listed([_words(each) for each in axis], _LISTED) if axis.ndim else _words(axis)
 
 
 def _range_words(axis: xr.DataArray) -> str:
     known = axis[np.sort(np.unique(axis.values, return_index=True)[1])]
     if axis.dtype.kind not in "fiu" or known.size <= 2:
         return _axis_words(known)
-    ends = (known[int(find(known.values))] for find in (np.argmin, np.argmax))
-    return "from {} to {}".format(*map(_words, ends))
+    ends = int(known.values.argmin()), int(known.values.argmax())
+    return f"from {_words(known[ends[0]])} to {_words(known[ends[1]])}"
 
 
 def completeness(dataset: xr.Dataset) -> str:
     """Count the points that are computed, failed, missing."""
-    counts = np.bincount(dataset.status.values.astype(int).ravel(), minlength=len(STATES))
-    return ", ".join(f"{count} {state}" for count, state in zip(counts, STATES, strict=False) if count)
+    return ", ".join(f"{count} {state}" for state, count in _counted(dataset.status.values, STATES).items())
 
 
 def relative_errors(dataset: xr.Dataset) -> FloatArray:

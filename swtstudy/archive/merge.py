@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
-from swtstudy.points.canonical import Definitions, Distinct, canonical_number, describe_point, group_rows
+from swtstudy.points.canonical import Distinct, canonical_number, describe_point, group_rows
 from swtstudy.points.found import Found, join, look_up, matching
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
@@ -58,57 +57,43 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         A ValueError, if points of the grid are in none of them and `sparse` is False.
     """
     datasets = [open_results(path) for path in paths]
-    parts = [found_in(dataset) for dataset in datasets]
+    parts, grids = [found_in(dataset) for dataset in datasets], [grid_of(dataset) for dataset in datasets]
     known = join(parts)
-    sources = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
-    runs = [(run, path) for path, part in zip(paths, parts, strict=True) for run in part.runs]
-    _refuse_several("solver versions", {run.solver_version: path for run, path in reversed(runs)})
-    _refuse_other_contacts(paths, datasets)
-    grids = [grid_of(dataset) for dataset in datasets]
+    versions = {run.solver_version: p for p, part in zip(paths, parts, strict=True) for run in part.runs}
     controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
+    _refuse_several("solver versions", versions)
+    _refuse_other_contacts(paths, datasets)
     _refuse_several("prescribed loads", controls)
-    grid, asked = _union(grids), _asked(datasets)
-    _refuse_conflicts(paths, known, sources, grid.definitions)
-    points = Distinct.of(grid, asked)
+    grid, asked = _union(grids), _asked([request_of(dataset) for dataset in datasets])
+    sources = [str(path) for path, part in zip(paths, parts, strict=True) for _ in range(len(part))]
+    _refuse_conflicts(sources, known, grid)
+    points, names = Distinct.of(grid, asked), ", ".join(map(str, paths))
     # What an archive says is missing is no gap.
     absent = look_up(points.rows, known, np.ones(len(known), bool)) < 0
-    made = f"merged from {', '.join(path.name for path in paths)}"
-    if absent.any():
-        gaps = f"{int(absent[points.index].sum())} of {grid.size} points"
-        made += f", {gaps} in none of them"
+    gaps = f"{int(absent[points.index].sum())} of {grid.size} points in none of them" if absent.any() else ""
     merged = matching(points, known, known["status"] != MISSING)
     lacks = merged.lacking(asked)
-    if not sparse and (absent.any() or lacks.any()):
-        example = describe_point(
-            points.rows[np.flatnonzero(absent if absent.any() else lacks)[0]], points.definitions
-        )
-        words = (
-            f"the grid of all values in {_names(paths)} has {gaps} in none of them"
-            if absent.any()
-            else (
-                f"{' or '.join(asked.items)} is known of some points in {_names(paths)}, but not of "
-                f"{int(lacks.sum())} others"
-            )
-        )
-        raise GapsError(f"{words}, such as {example}; --sparse (sparse=True in Python) leaves them missing")
-    study = _study(paths, datasets, grid, asked)
-    history = [history_line(made)]
-    history += [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
-    return build(study, points, merged.take(slice(None)), "\n".join(dict.fromkeys(history)), 0.0)
+    if not sparse and (gaps or lacks.any()):
+        words = f"the grid of all values in {names} has {gaps}"
+        if not gaps:
+            words = f"{' or '.join(asked.items)} is known of some points in {names}, but not of "
+            words += f"{int(lacks.sum())} others"
+        example = points.rows[np.flatnonzero(absent if gaps else lacks)[0]]
+        words += f", such as {describe_point(example, points.definitions)}"
+        raise GapsError(f"{words}; --sparse (sparse=True in Python) leaves them missing")
+    study = _study(names, datasets, grid, asked)
+    made = f"merged from {', '.join([*(path.name for path in paths), *filter(None, [gaps])])}"
+    history = [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
+    lines = dict.fromkeys([history_line(made), *history])
+    return build(study, points, merged.take(slice(None)), "\n".join(lines), 0.0)
 
 
-def _asked(datasets: Sequence[xr.Dataset]) -> Request:
-    """The quantities that the archives have, all together."""
-    own = [request_of(dataset) for dataset in datasets]
+def _asked(own: Sequence[Request]) -> Request:
+    """The quantities of several requests, all together."""
     names = dict.fromkeys(name for each in own for name in each.names)
-    keyed = {canonical_number(v): v for each in reversed(own) for v in reversed(each.distances)}
-    is_axis = any(each.is_axis for each in own) or len(keyed) > 1
-    distances = tuple(sorted(keyed.values()))
-    return Request(tuple(names), distances, is_axis, any(each.counts for each in own))
-
-
-def _names(paths: Sequence[Path]) -> str:
-    return ", ".join(map(str, paths))
+    distances = distinct([distance for each in own for distance in each.distances])
+    is_axis = any(each.is_axis for each in own) or len(distances) > 1
+    return Request(tuple(names), distances, is_axis, any(each.counts for each in own))  # type: ignore[arg-type]
 
 
 def _refuse_several(what: str, where: Mapping[str, Path]) -> None:
@@ -118,22 +103,20 @@ def _refuse_several(what: str, where: Mapping[str, Path]) -> None:
         raise ConflictError(f"results of different {what} cannot be merged: {words}")
 
 
-def _refuse_conflicts(
-    paths: Sequence[Path], known: Found, sources: NDArray[np.int64], definitions: Definitions
-) -> None:
+def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
     """Refuse values of one point that differ by more than their estimated errors."""
-    computed = np.flatnonzero(known["status"] == COMPUTED)
-    first, group = group_rows(known["row"][computed])
-    one, other, s = computed[first[group]], computed, known["s"]
+    other = np.flatnonzero(known["status"] == COMPUTED)
+    first, group = group_rows(known["row"][other])
+    one, s = other[first[group]], known["s"]
     error = known["s_error"][one] + known["s_error"][other]
     # Equal values do not conflict even where the error is not finite.
     equal = np.isclose(s[one], s[other], rtol=_ROUNDING, atol=0, equal_nan=True)
     with np.errstate(invalid="ignore"):
         apart = np.flatnonzero(~equal & ~(np.abs(s[one] - s[other]) <= error))
     if apart.size:
-        a, b = (f"{s[row[apart[0]]]:.8g} in {paths[sources[row[apart[0]]]]}" for row in (one, other))
+        a, b = (f"{s[rows[apart[0]]]:.8g} in {sources[rows[apart[0]]]}" for rows in (one, other))
+        point = describe_point(known["row"][one[apart[0]]], grid.definitions)
         more = f"; {apart.size - 1} more" if apart.size > 1 else ""
-        point = describe_point(known["row"][one[apart[0]]], definitions)
         raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
 
 
@@ -165,39 +148,36 @@ def _union(grids: list[Grid]) -> Grid:
         point for grid in grids for point in zip(*(grid.samples[name] for name in sampled[0]), strict=True)
     )
     samples = dict(zip(sampled[0], zip(*points, strict=True), strict=True)) if points else {}
-    names = list(dict.fromkeys(name for grid in grids for name in grid.axes))
     # That of a load which was measured is no value of its own.
-    every = [name for name in AXES if any(name in grid.names for grid in grids)]
-    values = {name: _distinct([v for grid in grids for v in grid.values(name)]) for name in every}
-    others = [name for name in every if name not in (*names, *samples)]
-    names += [name for name in others if len(values[name]) > 1]
-    fixed = {name: values[name][0] for name in others if name not in names and values[name]}
-    return replace(grids[0], fixed=fixed, axes={name: values[name] for name in names}, samples=samples)
+    every = [name for name in AXES if any(name in grid.names for grid in grids) and name not in samples]
+    values = {name: distinct([v for grid in grids for v in grid.values(name)]) for name in every}
+    axes = dict.fromkeys(name for grid in grids for name in grid.axes)
+    axes |= dict.fromkeys(name for name in every if len(values[name]) > 1)
+    fixed = {name: values[name][0] for name in every if name not in axes and values[name]}
+    return replace(grids[0], fixed=fixed, axes={name: values[name] for name in axes}, samples=samples)
 
 
-def _distinct(values: list[Value]) -> tuple[Value, ...]:
+def distinct(values: Sequence[Value]) -> tuple[Value, ...]:
     """Distinct values, numbers in increasing order."""
     if any(isinstance(value, str | Definition) for value in values):
-        distinct = tuple(dict.fromkeys(values))
-        names = [str(value) for value in distinct]
+        found = tuple(dict.fromkeys(values))
+        names = [str(value) for value in found]
         if several := sorted({name for name in names if names.count(name) > 1}):
             raise ConflictError(f"{', '.join(several)}: of this name each archive defines another one")
-        return distinct
+        return found
     keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
     return tuple(sorted(keyed.values(), key=as_number))
 
 
-def _study(paths: Sequence[Path], datasets: list[xr.Dataset], grid: Grid, asked: Request) -> Study:
+def _study(names: str, datasets: list[xr.Dataset], grid: Grid, asked: Request) -> Study:
     """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
-    rtol = max(float(dataset.attrs["rtol"]) for dataset in datasets)
-    figure = None
+    rtol, figure = max(float(dataset.attrs["rtol"]) for dataset in datasets), None
     if "figure" in datasets[0].attrs:
         layout = read_figure(datasets[0].attrs["figure"], [str(name) for name in datasets[0].data_vars])
         if {name for _, name in layout.roles()} - {*QUANTITY_AXES} == set(grid.dims):
             figure = layout
-    text = to_toml(" + ".join(titles), rtol, grid, figure, asked)
     try:
-        return Study.from_text(text, "the merged study")
+        return Study.from_text(to_toml(" + ".join(titles), rtol, grid, figure, asked), "the merged study")
     except ValueError as error:
-        raise ArchiveError(f"{_names(paths)}: these archives do not make one study:\n{error}") from None
+        raise ArchiveError(f"{names}: these archives do not make one study:\n{error}") from None

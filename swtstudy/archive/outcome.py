@@ -57,32 +57,31 @@ def _of_criteria(dataset: xr.Dataset) -> Iterator[str]:
 
 def _values(dataset: xr.Dataset, name: str) -> str:
     """The value of a criterion: one with its place, or the least and the greatest with their points."""
-    values = dataset[name].values.ravel()
+    values, unit = dataset[name].values.ravel(), _unit(dataset[name])
     known = np.flatnonzero(np.isfinite(values))
     if not known.size:
         return f"{name} is finite at no point"
-    unit = unit_words(str(dataset[name].attrs.get("units", "1")))
-    least, most = int(known[values[known].argmin()]), int(known[values[known].argmax()])
-    numbers = numbers_words(values[[least, most]])
-    if numbers[0] == numbers[1]:
-        place, alike = _position(dataset, most), f" at all {known.size} points" * (known.size > 1)
-        return f"{name} = {numbers[1]}{unit}{alike}{f' at {place}' * bool(place)}"
-    ends = []
-    for flat, number in zip((least, most), numbers, strict=True):
-        where = "; ".join(filter(None, (point_words(dataset, flat), _position(dataset, flat))))
-        ends.append(f"{number}{unit} ({where})")
-    return f"{name} = {' to '.join(ends)}"
+    ends = [int(known[values[known].argmin()]), int(known[values[known].argmax()])]
+    least, most = numbers_words(values[ends])
+    if least == most:
+        place, alike = _position(dataset, ends[1]), f" at all {known.size} points" * (known.size > 1)
+        return f"{name} = {most}{unit}{alike}{f' at {place}' * bool(place)}"
+    places = ("; ".join(filter(None, (point_words(dataset, k), _position(dataset, k)))) for k in ends)
+    several = (f"{each}{unit} ({where})" for each, where in zip((least, most), places, strict=True))
+    return f"{name} = {' to '.join(several)}"
+
+
+def _unit(values: xr.DataArray) -> str:
+    return unit_words(str(values.attrs.get("units", "1")))
 
 
 def _position(dataset: xr.Dataset, flat: int) -> str:
     """Position of the critical point of one of the flattened points; empty where none is critical."""
-    name = "critical_position" if "critical_position" in dataset else "critical_x"
-    if name not in dataset:
-        return ""
-    x = float(dataset[name].isel(index_at(dataset.s, flat), missing_dims="ignore"))
-    symbol = "x" if name == "critical_position" else "x/a_H"
-    unit = unit_words(str(dataset[name].attrs.get("units", "1")))
-    return f"{symbol} = {number_words(x, 3)}{unit}" if math.isfinite(x) else ""
+    for name, symbol in (("critical_position", "x"), ("critical_x", "x/a_H")):
+        if name in dataset:
+            x = float(dataset[name].isel(index_at(dataset.s, flat), missing_dims="ignore"))
+            return f"{symbol} = {number_words(x, 3)}{_unit(dataset[name])}" if math.isfinite(x) else ""
+    return ""
 
 
 def life_words(dataset: xr.Dataset) -> Iterator[str]:
@@ -140,10 +139,8 @@ def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:
         yield f"{' to '.join(map(number_words, (distances.min(), distances.max())))}{unit}", life.values
         return
     for k, distance in enumerate(distances):
-        yield (
-            f"{number_words(distance)}{unit}",
-            (life.isel({DISTANCE: k}) if life[DISTANCE].ndim else life).values,
-        )
+        own = life.isel({DISTANCE: k}, missing_dims="ignore")
+        yield f"{number_words(distance)}{unit}", own.values
 
 
 def _ends(lives: FloatArray) -> str:

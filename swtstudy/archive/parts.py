@@ -22,9 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
+from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.points.canonical import NAMES, ROW, group_rows
-from swtstudy.points.found import Found, Run, join
+from swtstudy.points.found import Found, join
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 
@@ -118,42 +119,35 @@ def save_part(folder: Path, found: Found) -> None:
     )
     arrays = dict(found.arrays)
     messages = {place: words for place, words in enumerate(arrays.pop("message")) if words}
-    meta = {"layout": _LAYOUT, "runs": [run.to_json() for run in found.runs], "messages": messages}
+    runs = json.dumps([run.to_json() for run in found.runs])
+    meta = json.dumps({"layout": _LAYOUT, "runs": runs, "messages": messages})
     content = io.BytesIO()
-    np.savez(content, meta=np.array(json.dumps(meta)), **arrays)  # type: ignore[arg-type]
+    np.savez(content, meta=np.array(meta), **arrays)  # type: ignore[arg-type]
     with replacing(folder / f"{number:06d}.npz") as temporary, open(temporary, "wb") as file:
         file.write(content.getbuffer())
-        file.write(_check_sum(content.getbuffer()))
+        file.write(hashlib.sha256(content.getbuffer()).digest())
 
 
 def _read(path: Path) -> Found | None:
+    """The values in a part; None, with a warning, if it cannot be read."""
     try:
-        return _found_in(path.read_bytes())
+        content = path.read_bytes()
+        # A zip file's own check sums do not cover its lengths, flags and offsets, which a reader trusts.
+        written, check_sum = content[:-_CHECK_SUM_SIZE], content[-_CHECK_SUM_SIZE:]
+        if hashlib.sha256(written).digest() != check_sum:
+            raise ValueError("damaged")
+        with np.load(io.BytesIO(written), allow_pickle=False) as part:
+            arrays = dict(part)
+        meta = json.loads(arrays.pop("meta").item())
+        if meta["layout"] != _LAYOUT:
+            raise ValueError("made by another version of swtstudy")
+        words = (meta["messages"].get(str(place), "") for place in range(len(arrays["row"])))
+        return Found(arrays | {"message": np.array([*words], object)}, read_runs(meta["runs"]))
     except FileNotFoundError:
         raise
     except (OSError, ValueError, KeyError, TypeError) as error:
         _warn_left_out(path, str(error))
         return None
-
-
-def _found_in(content: bytes) -> Found:
-    # A zip file's own check sums do not cover its lengths, flags and offsets, which a reader trusts.
-    written, check_sum = content[:-_CHECK_SUM_SIZE], content[-_CHECK_SUM_SIZE:]
-    if _check_sum(written) != check_sum:
-        raise ValueError("damaged")
-    with np.load(io.BytesIO(written), allow_pickle=False) as part:
-        meta = json.loads(part["meta"].item())
-        if meta["layout"] != _LAYOUT:
-            raise ValueError("made by another version of swtstudy")
-        arrays = {name: part[name] for name in part.files if name != "meta"}
-        arrays["message"] = np.full(len(arrays["row"]), "", object)
-        for place, words in meta["messages"].items():
-            arrays["message"][int(place)] = words
-        return Found(arrays, tuple(map(Run.from_json, meta["runs"])))
-
-
-def _check_sum(content: bytes | memoryview) -> bytes:
-    return hashlib.sha256(content).digest()
 
 
 @functools.cache

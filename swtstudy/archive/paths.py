@@ -11,7 +11,7 @@ import os
 import socket
 import stat
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
@@ -62,23 +62,17 @@ def check_archive_path(path: Path) -> None:
 
 
 def _check(path: Path, report: Report) -> None:
-    whole = path.absolute()
-    found = []
-    try:
-        str(whole).encode()
-    except UnicodeEncodeError:
-        found.append(("bytes that are not UTF-8", "a path in UTF-8"))
-    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
-    if any("\\" in part for part in whole.parts[1:]):
-        found.append(("a backslash", "a path without one"))
-    if "\0" in str(whole):
-        found.append(("a null character", "a path without one"))
-    if not found:
-        longest = _longest_name(_existing(path.parent)) - _ADDED
-        length = len(os.fsencode(path.name))
-        if length > longest:
-            found.append((f"a name of {length} bytes", f"at most {longest}"))
-    report += [Mistake("", *parts, str(path)) for parts in found]
+    whole, length = path.absolute(), len(os.fsencode(path.name))
+    checks = (
+        ("bytes that are not UTF-8", "a path in UTF-8", any("\ud800" <= c <= "\udfff" for c in str(whole))),
+        # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
+        ("a backslash", "a path without one", any("\\" in part for part in whole.parts[1:])),
+        ("a null character", "a path without one", "\0" in str(whole)),
+    )
+    wrong = [Mistake("", found, allowed, str(path)) for found, allowed, is_so in checks if is_so]
+    report += wrong
+    if not wrong and length > (longest := _longest_name(_existing(path.parent)) - _ADDED):
+        report.append(Mistake("", f"a name of {length} bytes", f"at most {longest}", str(path)))
 
 
 def _existing(folder: Path) -> Path:
@@ -153,34 +147,32 @@ def is_locked(path: Path) -> bool:
 
 
 def _acquire(path: Path) -> int:
+    """Create and lock a file; a handle of it."""
     while True:
         path.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
-        except FileNotFoundError:
-            continue  # the folder was removed in between
-        except OSError as error:
-            if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
-                raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
-            raise
-        try:
-            if _held(handle, path):
-                return handle
-        except BaseException:
-            os.close(handle)
-            raise
-        os.close(handle)
+        with suppress(FileNotFoundError):  # the folder was removed in between
+            try:
+                handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
+            except OSError as error:
+                if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
+                    raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
+                raise
+            with ExitStack() as opened:
+                opened.callback(os.close, handle)
+                _lock(handle, path)
+                if os.stat(path).st_ino == os.fstat(handle).st_ino:
+                    opened.pop_all()
+                    return handle
 
 
-def _held(handle: int, path: Path) -> bool:
-    """Lock an open file; False if it has been removed in between."""
+def _lock(handle: int, path: Path) -> None:
+    """Lock an open file, as far as the file system has locks."""
     if not stat.S_ISREG(os.fstat(handle).st_mode):
         raise OSError(f"{path} is no file of ours (not a regular file); remove it")
-    if fcntl is None:
-        return True
     target = path.parent.with_suffix("")
     try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if fcntl is not None:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         holder = os.read(handle, 200).decode(errors="replace") or "another process"
         raise LockedError(f"{target} is being written by {holder}; wait until it has finished") from None
@@ -188,6 +180,3 @@ def _held(handle: int, path: Path) -> bool:
         if error.errno not in _NO_LOCKS:
             raise OSError(f"cannot lock {target} ({error.strerror}); choose another folder") from None
         _log.warning(f"{path.parent.parent}: a file system without locks; run {target.name} once at a time")
-    with suppress(FileNotFoundError):
-        return os.stat(path).st_ino == os.fstat(handle).st_ino
-    return False

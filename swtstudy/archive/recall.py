@@ -1,33 +1,43 @@
-"""The content of an archive: the grid of its points, what was asked of them, and their values."""
+"""The content of an archive: the grid of its points, what was asked of them, their values; is it sound?"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in, read_runs
+from swtstudy.archive.attributes import defined_in, read_definitions, read_figure, read_runs
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found, Run
+from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
-from swtstudy.points.shapes import shapes_needed
-from swtstudy.points.values import NamedValues, Value, read_value
+from swtstudy.points.rules import shapes_needed
+from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.units.contacts_at_rest import check_contacts
-from swtstudy.units.grid import PhysicalGrid
 from swtstudy.units.reading import completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
-from swtstudy.vocabulary.choices import NONE
+from swtstudy.vocabulary.arrays import BoolArray
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    SMALLEST_STORED_RTOL,
+    Mistake,
+    Report,
+    StudyError,
+    is_rtol,
+    literal,
+    plain_number,
+)
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS, SHIFT, Control, replaced_by
-from swtstudy.vocabulary.quantities import DISTANCE, NAMED, NONLOCAL, Request
-from swtstudy.vocabulary.variables import CONTACT, SOLVED, has_units, require
+from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
+from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
+from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units, require
 
 
 def grid_of(dataset: xr.Dataset) -> Grid:
@@ -42,27 +52,19 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     report, dims = Report(), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    known = defined_in(dataset.attrs)
+    known, along = defined_in(dataset.attrs), dict[str, str]()
     values: NamedValues = {}
-    for name, parameter in table.items():
-        if name not in dataset.coords or name in pairs or name == DISTANCE:
-            continue
-        if dataset[name].dims not in ((), (name,), (SAMPLE,)) or not {*dataset[name].dims} <= {*dims}:
-            report(name, f"dimensions {dataset[name].dims}", "an axis of s, or a single value")
+    for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
+        own = tuple(map(str, dataset[name].dims))
+        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
+            report(name, f"dimensions {own}", "an axis of s, or a single value")
             continue
         raw = np.atleast_1d(dataset[name].values).tolist()
-        values[name] = tuple(_values(parameter, raw, known.get(name, {}), report))
-    if SHIFT not in values and any(values.get("bulk_stress_amplitude", ())):
-        values[SHIFT] = (NONE,)  # archives from before there was a choice
-    along = {
-        name: str(dataset[name].dims[0]) for name in values if name in dataset.coords and dataset[name].dims
-    }
+        values[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
+        along |= dict.fromkeys([name] * len(own), "".join(own))
     for name in (name for name in dims if name not in along.values()):
         report(name, "a dimension without values of a parameter", ", ".join(table))
-    profiles = [value for value in values.get("profile", ()) if isinstance(value, str)]
-    _check_complete({*values, *dims, *pairs}, shapes_needed(profiles), report)
-    for twice in given_twice({*values, *dims}):
-        report.of(*twice)
+    _check_complete(values, {*values, *dims, *pairs}, report)
     control = Control.given({*values, *dims}).name
     if dataset.get("control", control) != control:
         report("control", literal(dataset.control.values.tolist()), literal(control))
@@ -72,15 +74,10 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     axes = {name: values[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, axes, samples)
-    return _of_contacts(completed(fixed, axes, samples, given))
-
-
-def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
-    """A grid of contacts that can be."""
-    report = Report()
-    named = any(isinstance(profile, str) for profile in grid.values("profile"))
-    for name in ("young_modulus", "poisson_ratio", "friction", *("radius",) * named):
-        if name not in grid.pairs and not grid.values(name):
+    grid = completed(fixed, axes, samples, given)
+    for name in ("young_modulus", "poisson_ratio", "friction", "radius"):
+        named = name != "radius" or any(isinstance(each, str) for each in grid.values("profile"))
+        if named and name not in grid.pairs and not grid.values(name):
             report(name, "nothing", grid.row(name).allowed)
     if wrong := wrong_mean_load([name for name in MEAN_LOADS if grid.values(name)]):
         report.of(MEAN_LOADS, *wrong)
@@ -90,13 +87,16 @@ def _of_contacts(grid: PhysicalGrid) -> PhysicalGrid:
     return grid
 
 
-def _check_complete(given: set[str], shape: Sequence[str], report: Report) -> None:
-    """Parameters without a value; an archive may leave out optional ones."""
+def _check_complete(values: NamedValues, given: set[str], report: Report) -> None:
+    """Parameters without a value, or two for one; an archive may leave out optional ones."""
     replaced = replaced_by(given)
+    shape = shapes_needed([value for value in values.get("profile", ()) if isinstance(value, str)])
     for name, parameter in PARAMETERS.items():
         needed = parameter.default is not None and not parameter.optional and name not in replaced
         if (needed or name in shape) and name not in given:
             report(name, "nothing", parameter.allowed)
+    for twice in given_twice(given):
+        report.of(*twice)
 
 
 def _values(
@@ -113,7 +113,7 @@ def _values(
 
 def request_of(dataset: xr.Dataset) -> Request:
     """The quantities that results have beside s; of real contacts distances are lengths."""
-    plain = without_units(dataset) if has_units(dataset) else dataset
+    plain = _plain(dataset)
     names = tuple(str(name) for name in plain.data_vars if name in NAMED)
     distances = []
     if DISTANCE in dataset.coords and any(name in plain for name in NONLOCAL):
@@ -125,7 +125,7 @@ def found_in(dataset: xr.Dataset) -> Found:
     """The values in an archive, by distinct point."""
     grid, asked = grid_of(dataset), request_of(dataset)
     points = Distinct.of(grid, asked)
-    plain = without_units(dataset) if has_units(dataset) else dataset
+    plain = _plain(dataset)
     at = np.zeros(len(points.rows), np.int64)
     at[points.index] = np.arange(grid.size)
 
@@ -144,6 +144,119 @@ def found_in(dataset: xr.Dataset) -> Found:
         lost = np.isnan(arrays["s_volume"]) & np.isfinite(arrays["s"])[:, None]
         arrays["distance"] = np.where(lost, np.nan, points.distances)
     runs = read_runs(dataset.attrs["runs"])
-    each = [run["seconds"] / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
+    each = [run.seconds / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
     arrays |= {"row": points.rows, "seconds": np.array([*each, 0.0])[arrays["run"]]}
-    return Found(arrays, tuple(map(Run.from_json, runs)))
+    return Found(arrays, runs)
+
+
+def _plain(dataset: xr.Dataset) -> xr.Dataset:
+    """The data variables by the names of results without units."""
+    return without_units(dataset) if has_units(dataset) else dataset
+
+
+#: What every archive must have: variables, and attributes that are texts or numbers.
+_VARIABLES = ("s", "s_error", "regime", "status", "run")
+_TEXTS = ("title", "source", "history", "versions", "study", "runs")
+
+
+def lacking(dataset: xr.Dataset) -> list[str]:
+    """Names of the variables and attributes that a Dataset lacks as an archive."""
+    names = [name for name in _VARIABLES if name not in dataset.data_vars]
+    names += [name for name in (*_TEXTS, "rtol", "control") if name not in {*dataset.attrs, *dataset.coords}]
+    flags = (name for name in ("regime", "status") if name in dataset)
+    return names + [f"flag_meanings of {n}" for n in flags if "flag_meanings" not in dataset[n].attrs]
+
+
+def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
+    """Everything that is wrong in an archive that lacks nothing."""
+    # Each of these can be checked only if what it relies on, the one before it, is sound.
+    found: list[tuple[str, str, str]] = []
+    for check in (_attributes, _shapes, _coordinates, _wrong_values):
+        found = found or [*check(dataset)]
+    return [Mistake(*parts, source) for parts in found]
+
+
+def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    attributes, real = dataset.attrs, has_units(dataset)
+    seconds = attributes.get("wall_time_seconds", 0.0)
+    wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
+    if not is_rtol(attributes["rtol"], SMALLEST_STORED_RTOL):
+        wrong["rtol"] = ALLOWED_RTOL
+    if not 0.0 <= plain_number(seconds) < np.inf:
+        wrong["wall_time_seconds"] = "a number of seconds"
+    for name, allowed in wrong.items():
+        yield f"attribute {name}", _words(attributes[name]), allowed
+    others = [str(name) for name in dataset.data_vars] if real else []
+    readers: dict[str, Callable[[object], object]] = {
+        "runs": read_runs,
+        "definitions": read_definitions,
+        "figure": partial(read_figure, others=others),
+        CONTACT: read_contact,
+    }
+    for name in (name for name in readers if name in attributes and name not in wrong):
+        try:
+            readers[name](attributes[name])
+        except ValueError as error:
+            yield f"attribute {name}", f"{_words(attributes[name])} ({error})", "JSON as swtstudy writes it"
+    plain = _plain(dataset)
+    known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
+    known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
+    known |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
+    every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
+    every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
+    for attribute, name, allowed in every:
+        found = plain[name].attrs.get(attribute, allowed)
+        if str(found) != allowed:
+            yield f"attribute {attribute} of {name}", _words(found), _words(allowed)
+
+
+def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    plain = _plain(dataset)
+    own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
+    for name, more in (own | request_of(dataset).variables).items():
+        if name not in plain:
+            yield name, "nothing", "a variable that an archive of this version has"
+            continue
+        if {*plain[name].dims} != {*dataset.s.dims, *more}:
+            besides = f" and {', '.join(more)}" * bool(more)
+            yield name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}"
+        if plain[name].dtype.kind not in "fiu":
+            yield name, f"values of type {plain[name].dtype}", "numbers"
+
+
+def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    try:
+        grid_of(dataset)
+    except StudyError as error:
+        yield from ((mistake.key, mistake.found, mistake.allowed) for mistake in error.mistakes)
+
+
+def _wrong_values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+    """Values that no run computes, such as from a damaged file."""
+    s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
+    computed = status == COMPUTED
+    unbounded = np.isin(regime, [REGIMES.index(name) for name in WITHOUT_S])
+    runs = len(read_runs(dataset.attrs["runs"]))
+    for name, wrong, allowed in (
+        ("status", ~np.isin(status, range(len(STATES))), f"0 to {len(STATES) - 1}"),
+        ("run", ~np.isin(run, range(-1, runs)), f"-1 to {runs - 1}"),
+        ("regime", ~np.isin(regime, range(len(REGIMES))), f"0 to {len(REGIMES) - 1}"),
+        ("s", computed & ~unbounded & ~(np.isfinite(s) & (s >= 0.0)), "a finite number, 0 or more"),
+        ("s", computed & unbounded & (s < 0.0), "0 or more"),
+        ("s_error", computed & (s_error < 0.0), "0 or more"),
+    ):
+        if wrong.any():
+            yield name, _first(dataset, name, wrong), allowed
+
+
+def _words(value: object) -> str:
+    return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)
+
+
+def _first(dataset: xr.Dataset, name: str, wrong: BoolArray) -> str:
+    """The first wrong value, where it is, and how many more there are."""
+    index = index_at(dataset.s, int(wrong.argmax()))
+    place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
+    where = f" at {place}" if place else ""
+    more = f" and {int(wrong.sum()) - 1} more" if wrong.sum() > 1 else ""
+    return f"{dataset[name].isel(index).item()}{where}{more}"

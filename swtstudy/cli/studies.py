@@ -58,7 +58,7 @@ def validate(studies: tuple[str, ...]) -> None:
     Says, too, which limits of the model points exceed, as far as their loads alone tell.
     """
     from swtstudy.archive.paths import archive_paths
-    from swtstudy.points.foreseen import foreseen
+    from swtstudy.points.labelled import foreseen_lines
     from swtstudy.study.definition import sound_studies
 
     report = Report()
@@ -71,7 +71,7 @@ def validate(studies: tuple[str, ...]) -> None:
         with report:
             archive_paths([source], "")
             click.echo(wrapped(words, line_length(), 2))
-            for line in foreseen(study.grid):
+            for line in foreseen_lines(study.grid):
                 click.echo(f"validity: {line}", err=True)
     report.refuse()
 

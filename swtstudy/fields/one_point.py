@@ -17,7 +17,7 @@ from swtstudy.points.canonical import NUMBERS
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.solver.load_cycle import LoadCycle
-from swtstudy.solver.margins import Margins
+from swtstudy.solver.margins import margins_of
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
@@ -103,7 +103,7 @@ def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
 
 def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
     """The force that friction does not carry, the normal force that pulls, or bodies that never touch."""
-    control, ratio = points.control, float(Margins.of(points).force_ratio[0])
+    control, ratio = points.control, float(margins_of(points)["force_ratio"][0])
     if not (control.tangential_force or control.normal_force):
         found = f"{literal(parameters['normal_amplitude'])}, at which the bodies never touch"
         return Mistake("normal_amplitude", found, "an indentation depth above 0 at some instant")

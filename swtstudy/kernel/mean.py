@@ -245,7 +245,8 @@ def sum_cells(M):
 def worst_cell(M, rtol):
     """The cell that most is lacking in, and the axis; -1 if the mean is accurate enough."""
     size, of_values = ENOUGH * rtol * M.average, M.error - CLAIMED * M.of_cells
-    if M.of_cells <= max(size - of_values, 0.5 * size, OF_LARGEST * M.largest):
+    least = OF_LARGEST * M.largest if M.kind == LINE else 0.0
+    if M.of_cells <= max(size - of_values, 0.5 * size, least):
         return -1, 0
     k, axis, most = 0, 0, 0.0
     for i in range(M.cells):

@@ -157,41 +157,29 @@ def _make_loads_canonical(table: Table) -> BoolArray:
     """Returns where x is mirrored."""
     from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
-    p, q = table["p"], table["q"]
-    normal, tangential, phase = (
-        table[name] for name in ("normal_amplitude", "tangential_amplitude", "phase")
-    )
     # A loop has neither phase nor frequencies.
     is_loop = table["load"] != code_of(HARMONIC, "load")
-    rests = (normal == 0.0) | is_loop
-    phase, p, q = without_what_stands_still(rests, phase, p, q)
-    _make_control_canonical(table, normal == 0.0, tangential == 0.0)
+    rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
+    phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
+    # A component that stands still is prescribed as the other one is, both that do as displacements.
+    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
+    table["control"] = control_code(
+        np.where(rests, ~stands & tangential, normal), np.where(stands, ~rests & normal, tangential)
+    )
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(phase + nudge, p, q)
-    table["p"], table["q"] = p, q
-    table["phase"] = _in_turns(folded - nudge)
-    of_bulk = table["bulk_stress_phase"]
+    table["p"], table["q"], table["phase"] = p, q, _in_turns(folded - nudge)
     moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
-    both_ways = (q % 2 == 0) | (normal == 0.0)
-    folded, mirrored = fold_bulk_phase(of_bulk + nudge, moves, mirrored, both_ways)
-    of_bulk[:] = np.where(moves, _in_turns(folded - nudge), 0.0)
+    both_ways = (q % 2 == 0) | rests
+    folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
+    table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return mirrored
 
 
 def _in_turns(angle: FloatArray) -> FloatArray:
     """An angle rounded in units of π."""
     return np.maximum(np.round(angle / np.pi, DIGITS), 0.0) * np.pi
-
-
-def _make_control_canonical(table: Table, normal_rests: BoolArray, tangential_rests: BoolArray) -> None:
-    """A component that stands still is prescribed as the other one is, both that do as displacements."""
-    control = table["control"]
-    normal, tangential = (control & 1) == 1, (control & 2) == 2
-    moves = ~normal_rests & normal, ~tangential_rests & tangential
-    control[:] = control_code(
-        np.where(normal_rests, moves[1], normal), np.where(tangential_rests, moves[0], tangential)
-    )
 
 
 @dataclass(frozen=True)
@@ -301,19 +289,17 @@ def points_from(table: Table, definitions: Definitions) -> Points:
 
 def describe_point(row: np.void, definitions: Definitions) -> str:
     """A canonical row in words, for messages: what matters for its profile and load."""
-    profile, course = (value_of(row[name], definitions, name) for name in ("profile", "load"))
+    profile, course, criterion = (
+        value_of(row[name], definitions, name) for name in ("profile", "load", "criterion")
+    )
     shape = family_of(profile).shape if isinstance(profile, str) else ()
     parts = [f"profile={profile}", *(f"{name}={row[name]:.6g}" for name in shape)]
-    if isinstance(course, Definition):
-        parts.append(f"load={course}")
-    else:
-        parts.append(f"frequency_ratio={row['p']}/{row['q']}")
-    criterion = value_of(row["criterion"], definitions, "criterion")
+    is_loop, control = isinstance(course, Definition), control_of(row["control"])
+    parts.append(f"load={course}" if is_loop else f"frequency_ratio={row['p']}/{row['q']}")
     if not PARAMETERS["criterion"].goes_without_saying(criterion):
         parts.append(f"criterion={criterion}")
-    control = control_of(row["control"])
-    values = {n: row[n] for n in NUMBERS if isinstance(course, str) or not n.endswith("phase")}
-    if values[STRAIN_SHARE] == 0.0:
-        del values[STRAIN_SHARE]  # the stick zone stays in place
-    said = {n: v for n, v in values.items() if not PARAMETERS[n].goes_without_saying(v)}
-    return ", ".join([*parts, *(f"{control.given_for(n)}={value:.6g}" for n, value in said.items())])
+    for name in (name for name in NUMBERS if not (is_loop and name.endswith("phase"))):
+        in_place = name == STRAIN_SHARE and row[name] == 0.0  # the stick zone is
+        if not in_place and not PARAMETERS[name].goes_without_saying(row[name]):
+            parts.append(f"{control.given_for(name)}={row[name]:.6g}")
+    return ", ".join(parts)

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from swtstudy.points.canonical import COST, SHARED_COLUMNS, Definitions, Distinct, Table, alike, points_from
-from swtstudy.points.found import Found, join
+from swtstudy.points.canonical import COST, SHARED_COLUMNS, Distinct, alike, points_from
+from swtstudy.points.found import Arrays, blank, stacked
 from swtstudy.solver.points import Points, Solution
-from swtstudy.vocabulary.arrays import BoolArray, IntArray
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
 from swtstudy.vocabulary.variables import COMPUTED, FAILED
@@ -34,33 +34,27 @@ class Chunk:
     ----------
     places
         Shape (n,): where the points are in the table of the run.
-    rows
-        What they are, shape (n,).
+    points
+        What they are.
     asked
         What is asked of them beside s; distances in a_H.
-    definitions
-        What the user has defined, by its code.
     """
 
-    places: IntArray
-    rows: Table
+    places: IntArray | IndexArray
+    points: Points
     asked: Request
-    definitions: Definitions
-
-    def __len__(self) -> int:
-        return len(self.places)
 
     def at(self, part: slice) -> Chunk:
         """The chunk of some of its points."""
-        return replace(self, places=self.places[part], rows=self.rows[part])
+        return Chunk(self.places[part], self.points[part], self.asked)
 
     def halves(self) -> tuple[Chunk, Chunk]:
         """Its two halves."""
-        half = len(self) // 2
+        half = len(self.places) // 2
         return self.at(slice(half)), self.at(slice(half, None))
 
 
-def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IntArray]:
+def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
     """Places of the wanted points of a table, cut into chunks, those of long cycles first.
 
     So no worker waits for another's.
@@ -82,18 +76,17 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
         own = places[own]
         own = own[np.argsort(-pieces[own], kind="stable")]
-        begin = 0
-        while begin < len(own):
-            end = begin + min(most, max(PIECES // int(pieces[own[begin]]), 1))
-            found.append(own[begin:end])
-            begin = end
+        while len(own):
+            count = min(most, max(PIECES // int(pieces[own[0]]), 1))
+            found.append(own[:count])
+            own = own[count:]
     return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
 
-def chunk_of(points: Distinct, places: IntArray, asked: Request = NOTHING) -> Chunk:
+def chunk_of(points: Distinct, places: IndexArray, asked: Request = NOTHING) -> Chunk:
     """The chunk of some points of a table, which have the same critical distances."""
     own = replace(asked, distances=tuple(points.distances[places[0]].tolist()))
-    return Chunk(places, points.rows[places], own, points.definitions)
+    return Chunk(places, points_from(points.rows[places], points.definitions), own)
 
 
 def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Iterator[Chunk]:
@@ -108,42 +101,42 @@ def solve_points(points: Points, rtol: float) -> Solution:
     return solve.solve_points(points, rtol)
 
 
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Found]:
+def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Arrays]:
     """Version of the solver, and the values of a chunk, even if points of it fail; runs in a worker."""
     from swtstudy.vocabulary.version import SOLVER_VERSION
 
     begin = time.perf_counter()
-    found = join(_isolated(chunk, rtol, solver))
-    found["seconds"][:] = (time.perf_counter() - begin) / len(chunk)
-    return SOLVER_VERSION, found
+    arrays = _isolated(chunk, rtol, solver)
+    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
+    return SOLVER_VERSION, arrays
 
 
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Iterable[Found]:
+def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Arrays:
     """Values of the points, in order; a point that fails is alone, with its message and what it has."""
-    found = Found.blank(chunk.rows, FAILED)
+    arrays = blank(len(chunk.places), FAILED)
     try:
-        fill(found, chunk, rtol, solver)
+        fill(arrays, chunk, rtol, solver)
     except Exception as error:
-        if len(chunk) > 1:
-            return [part for half in chunk.halves() for part in _isolated(half, rtol, solver)]
-        found["message"][:] = f"{type(error).__name__}: {error}"
-    return [found]
+        if len(chunk.places) > 1:
+            return stacked([_isolated(half, rtol, solver) for half in chunk.halves()])
+        arrays["message"][:] = f"{type(error).__name__}: {error}"
+    return arrays
 
 
-def fill(found: Found, chunk: Chunk, rtol: float, solver: Solver = solve_points) -> None:
+def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = solve_points) -> None:
     """Solve the points of a chunk, and find what else is asked of them; raises if one has no value."""
-    points, asked = points_from(chunk.rows, chunk.definitions), chunk.asked
+    points, asked = chunk.points, chunk.asked
     # The caller's np.seterr is not meant for the solver, in which NaN and inf are values.
     with np.errstate(all="ignore"):
         solution = solver(points, rtol)
-        found.arrays.update(vars(solution))
+        arrays.update(solution._asdict())
         lost = ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S]) & np.isnan(solution.s)
         if lost.any():
             raise ArithmeticError("the solver found no value")
         if asked.items:
             from swtstudy.solver.quantities import quantities_of
 
-            found.arrays.update(quantities_of(points, asked, solution))
+            arrays.update(quantities_of(points, asked, solution))
         if asked.distances:
-            found.arrays["distance"] = np.tile(asked.distances, (len(chunk), 1))
-    found["status"][:] = COMPUTED
+            arrays["distance"] = np.tile(asked.distances, (len(chunk.places), 1))
+    arrays["status"][:] = COMPUTED

@@ -1,19 +1,25 @@
-"""Values of points by name, from the solver, parts of a run or an archive, and the runs that made them."""
+"""Values of points as plain arrays by name, and the runs that made them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import ROW, Distinct, Table, group_rows
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IntArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.quantities import NONLOCAL, Request
 from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
+
+#: Arrays of shape (n, …) by name.
+Arrays = dict[str, NDArray[Any]]
+#: Names of arrays whose second axis is that of the critical distances.
+_OF_DISTANCE = {"distance", *(name for row in NONLOCAL.values() for name in row.variables)}
 
 
 @dataclass(frozen=True)
@@ -34,6 +40,8 @@ class Run:
         Date and time of its first result, ISO 8601.
     quantities
         What its points have beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
+    seconds
+        Time that it has taken to compute what an archive has of it.
     """
 
     solver_version: str
@@ -42,34 +50,29 @@ class Run:
     versions: str
     started: str = field(default="", compare=False)
     quantities: tuple[str, ...] = ()
+    seconds: float = field(default=0.0, compare=False)
 
     def to_json(self) -> dict[str, Any]:
         """The run as JSON has it; without quantities, if there are none."""
         return {name: value for name, value in asdict(self).items() if value != ()}
 
-    @classmethod
-    def from_json(cls, raw: Mapping[str, Any]) -> Run:
-        """The run from `to_json`."""
-        own = {name: raw[name] for name in cls.__dataclass_fields__ if name in raw}
-        return cls(**{**own, "quantities": tuple(raw.get("quantities", ()))})
 
-
-@dataclass(frozen=True)
+@dataclass
 class Found:
     """Values of n points.
 
     Attributes
     ----------
     arrays
-        By name, each of shape (n, …): ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the
-        solver finds; ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point
-        failed; ``seconds`` of computing; and quantities, those over critical distances with ``distance``,
-        shape (n, k), in a_H: NaN where nothing is known of it.
+        By name: ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the solver finds;
+        ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point failed;
+        ``seconds`` of computing; and quantities, those over critical distances with ``distance``, shape
+        (n, k), in a_H: NaN where nothing is known of it.
     runs
         The runs that made them.
     """
 
-    arrays: dict[str, NDArray[Any]]
+    arrays: Arrays
     runs: tuple[Run, ...] = ()
 
     def __len__(self) -> int:
@@ -79,13 +82,9 @@ class Found:
         return self.arrays[name]
 
     @classmethod
-    def blank(cls, rows: Table, status: int = MISSING, message: str = "") -> Found:
-        """Points without values, all in one state."""
-        n = len(rows)
-        arrays: dict[str, NDArray[Any]] = {name: np.full(n, np.nan) for name in SOLVED}
-        arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
-        arrays |= {"row": rows, "status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
-        return cls(arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)})
+    def blank(cls, rows: Table) -> Found:
+        """Points without values."""
+        return cls(blank(len(rows)) | {"row": rows})
 
     def take(self, index: Any) -> Found:
         """The points at an index of NumPy's, with the runs that made them."""
@@ -95,24 +94,12 @@ class Found:
         number[used] = np.arange(len(used))
         return Found(arrays | {"run": number[arrays["run"]]}, tuple(self.runs[k] for k in used))
 
-    def put(self, index: IntArray, part: Found) -> Found:
-        """Write other values in some places, in place; returned are these values with the runs of both."""
-        runs = tuple(dict.fromkeys((*self.runs, *part.runs)))
-        for name in {**self.arrays, **part.arrays}:
-            own, other = (each.wide(name, (self, part)) for each in (self, part))
-            own[index] = _renumbered(part, runs) if name == "run" else other
-            self.arrays[name] = own
-        return Found(self.arrays, runs)
-
-    def wide(self, name: str, several: Iterable[Found]) -> NDArray[Any]:
-        """An array, with NaN as wide as the widest of several; the array itself where it is that."""
-        shapes = [each.arrays[name].shape[1:] for each in several if name in each.arrays]
-        tail = tuple(map(max, *shapes)) if len(shapes) > 1 else shapes[0]
-        own = self.arrays.get(name, np.full((len(self), *(0,) * len(tail)) if tail else len(self), np.nan))
-        if own.shape[1:] == tail:
-            return own
-        more = [(0, most - size) for most, size in zip(tail, own.shape[1:], strict=True)]
-        return np.pad(own, [(0, 0), *more], constant_values=np.nan)
+    def put(self, index: IndexArray | IntArray, arrays: Arrays) -> None:
+        """Write values in some places."""
+        for name, values in arrays.items():
+            if name not in self.arrays:
+                self.arrays[name] = np.full((len(self), *values.shape[1:]), np.nan)
+            self.arrays[name][index] = values
 
     def of_runs(self, values: Iterable[Any], without: Any) -> NDArray[Any]:
         """A value of each run at every point of it, and what stands where there is no run; shape (n,)."""
@@ -121,32 +108,45 @@ class Found:
     def usable(self, rtol: float, solver_version: str, retry_failed: bool = False) -> BoolArray:
         """Which values can be used for a study with this accuracy and solver, shape (n,)."""
         good = (run.rtol <= rtol and run.solver_version == solver_version for run in self.runs)
-        worst = COMPUTED if retry_failed else FAILED
-        return self.of_runs(good, False) & (self["status"] <= worst)
+        return self.of_runs(good, False) & (self["status"] <= (COMPUTED if retry_failed else FAILED))
 
     def lacking(self, asked: Request) -> BoolArray:
         """Which computed points do not have all quantities that are asked, shape (n,)."""
-        less = ({*asked.items} > {*run.quantities} & {*asked.items} for run in self.runs)
-        lacks = self.of_runs(less, False)
+        lacks = self.of_runs((not {*asked.items} <= {*run.quantities} for run in self.runs), False)
         if asked.distances:
             lacks |= np.isnan(self.arrays["distance"]).any(axis=1) if "distance" in self.arrays else True
         return lacks & (self["status"] == COMPUTED)
+
+
+def blank(n: int, status: int = MISSING, message: str = "") -> Arrays:
+    """Arrays of n points without values, all in one state."""
+    arrays: Arrays = {name: np.full(n, np.nan) for name in SOLVED}
+    arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
+    arrays |= {"status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
+    return arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)}
+
+
+def stacked(parts: Sequence[Arrays]) -> Arrays:
+    """Arrays one after another; NaN where one lacks a name, or is narrower than the widest."""
+
+    def padded(part: Arrays, name: str, tail: Any) -> NDArray[Any]:
+        values = part.get(name, np.full((len(part["status"]), *tail), np.nan))
+        more = [(0, most - size) for most, size in zip(tail, values.shape[1:], strict=True)]
+        return np.pad(values, [(0, 0), *more], constant_values=np.nan) if any(map(max, more)) else values
+
+    found = {}
+    for name in dict.fromkeys(name for part in parts for name in part):
+        tail = np.max([part[name].shape[1:] for part in parts if name in part], axis=0).astype(int)
+        found[name] = np.concatenate([padded(part, name, tail) for part in parts])
+    return found
 
 
 def join(parts: Iterable[Found]) -> Found:
     """Values of several, one after another; equal runs are one."""
     parts = list(parts) or [Found.blank(np.empty(0, ROW))]
     runs = tuple(dict.fromkeys(run for part in parts for run in part.runs))
-    arrays = {
-        name: np.concatenate([part.wide(name, parts) for part in parts])
-        for name in dict.fromkeys(name for part in parts for name in part.arrays)
-    }
-    return Found(arrays | {"run": np.concatenate([_renumbered(part, runs) for part in parts])}, runs)
-
-
-def _renumbered(part: Found, runs: tuple[Run, ...]) -> NDArray[np.int32]:
-    """Indices into runs among which those of a part are."""
-    return np.array([*map(runs.index, part.runs), -1], np.int32)[part["run"]]
+    numbers = [part.of_runs(map(runs.index, part.runs), -1).astype(np.int32) for part in parts]
+    return Found(stacked([part.arrays for part in parts]) | {"run": np.concatenate(numbers)}, runs)
 
 
 def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
@@ -167,36 +167,31 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
     return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
 
 
-def matching(points: Distinct, found: Found, candidates: BoolArray) -> Found:
-    """All that is found of each of some points: "missing" where that is nothing.
+def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
+    """All that is known of each of some points: "missing" where that is nothing.
 
     One row may stand for contacts of several sizes, each of which has critical distances of its own: what is
     about these is looked up by row and distance.
     """
-    at = look_up(points.rows, found, candidates)
-    known = np.flatnonzero(at >= 0)
-    of_distance = ["distance", *(name for row in NONLOCAL.values() for name in row.variables)]
-    plain = {name: values for name, values in found.arrays.items() if name not in of_distance}
-    result = Found.blank(points.rows).put(known, Found(plain, found.runs).take(at[known]))
-    if points.distances.size and "distance" in found.arrays:
-        i, k = np.nonzero(np.isfinite(found["distance"]) & candidates[:, None])
-        pairs = Found({name: found[name][i] for name in ("status", "run")}, found.runs)
-        pairs.arrays["row"] = _keyed(found["row"][i], found["distance"][i, k])
-        for name in (name for name in of_distance if name in found.arrays):
-            shape = len(points.rows), points.distances.shape[1], *found[name].shape[2:]
-            result.arrays[name] = np.full(shape, np.nan)
+    found, at = Found.blank(points.rows), look_up(points.rows, known, candidates)
+    found.runs, there = known.runs, np.flatnonzero(at >= 0)
+    own = {name: values for name, values in known.arrays.items() if name not in {*_OF_DISTANCE, "row"}}
+    found.put(there, {name: values[at[there]] for name, values in own.items()})
+    if points.distances.size and "distance" in known.arrays:
+        i, k = np.nonzero(np.isfinite(known["distance"]) & candidates[:, None])
+        pairs = Found({name: known[name][i] for name in ("status", "run")}, known.runs)
+        pairs.arrays["row"] = _with_distance(known["row"][i], known["distance"][i, k])
         for j, distance in enumerate(points.distances.T):
-            at = look_up(_keyed(points.rows, distance), pairs, np.ones(len(i), bool))
-            ok = np.flatnonzero(at >= 0)
-            for name in (name for name in of_distance if name in found.arrays):
-                result[name][ok, j] = found[name][i[at[ok]], k[at[ok]]]
-    return result
-
-
-def _keyed(rows: Table, distance: FloatArray) -> Table:
-    """Rows with a critical distance each."""
-    found = np.empty(len(rows), [*ROW.descr, ("distance", np.float64)])
-    for name in ROW.names or ():
-        found[name] = rows[name]
-    found["distance"] = distance
+            at = look_up(_with_distance(points.rows, distance), pairs, np.ones(len(i), bool))
+            there = np.flatnonzero(at >= 0)
+            for name in _OF_DISTANCE & known.arrays.keys():
+                if j == 0:
+                    shape = *points.distances.shape, *known[name].shape[2:]
+                    found.arrays[name] = np.full(shape, np.nan)
+                found[name][there, j] = known[name][i[at[there]], k[at[there]]]
     return found
+
+
+def _with_distance(rows: Table, distance: FloatArray) -> Table:
+    """Rows with a critical distance each."""
+    return append_fields(rows, "distance", distance, usemask=False)

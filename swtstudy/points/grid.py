@@ -69,13 +69,12 @@ class Grid:
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions."""
-        return (*((SAMPLE,) if self.samples else ()), *self.axes)
+        return (*(SAMPLE,) * bool(self.samples), *self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
-        sampled = next(iter(self.samples.values()), None)
-        return (*(() if sampled is None else (len(sampled),)), *map(len, self.axes.values()))
+        return (*map(len, [*self.samples.values()][:1]), *map(len, self.axes.values()))
 
     @property
     def size(self) -> int:
@@ -116,10 +115,8 @@ class Grid:
 
     def values(self, name: str) -> tuple[Value, ...]:
         """All values of a parameter on this grid, or along its sample; empty if it has none."""
-        along = self.axes.get(name) or self.samples.get(name)
-        if along is not None:
-            return along
-        return (self.fixed[name],) if name in self.fixed else ()
+        single = (self.fixed[name],) if name in self.fixed else ()
+        return self.axes.get(name) or self.samples.get(name) or single
 
     def dimension(self, name: str) -> str | None:
         """The dimension along which a parameter varies; None if it has a single value or none."""
@@ -129,13 +126,12 @@ class Grid:
 
     def canonical(self, places: IndexArray) -> tuple[Table, BoolArray]:
         """Canonical rows of the points at n places of the grid in C order; see `canonical_points`."""
-        columns = self.columns(places)
-        force = (self.control.normal_force, self.control.tangential_force)
-        columns["control"] = control_code(*map(np.array, force))
-        columns["profile"] = np.broadcast_to(columns["profile"], len(places))
+        columns, control = self.columns(places), self.control
+        code = control_code(np.array(control.normal_force), np.array(control.tangential_force))
+        columns |= {"control": code, "profile": np.broadcast_to(columns["profile"], len(places))}
         # What does not scale a loop does not matter for it.
-        name, loops = "bulk_stress_amplitude", [v for v in self.values("load") if isinstance(v, Definition)]
-        if idle := [loop.code for loop in loops if name not in loop.scaled_by]:
+        name = "bulk_stress_amplitude"
+        if idle := [loop.code for loop in self.loops if name not in loop.scaled_by]:
             columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
         return canonical_points(columns)
 
@@ -191,10 +187,7 @@ class Grid:
         """A number for each of `GIVEN_COLUMNS` at n places of the grid in C order, of shape (n,) or (1,)."""
         position = self._position(places)
         along = {name: self.dimension(self._source(name)) for name in GIVEN_COLUMNS}
-        return {
-            name: codes if (dim := along[name]) is None else codes[position[dim]]
-            for name, codes in self._codes.items()
-        }
+        return {n: codes[position[dim]] if (dim := along[n]) else codes for n, codes in self._codes.items()}
 
     def _position(self, places: IndexArray) -> dict[str, IndexArray]:
         along = np.unravel_index(places, self.shape) if self.dims else ()
@@ -217,12 +210,13 @@ class Grid:
 
 def _code(name: str, value: Value) -> float:
     """The number that stands for a value in a canonical row."""
-    if name == COST:
-        return value.cost if isinstance(value, Definition) else 0
-    if isinstance(value, str | Definition):
-        return code_of(value, name)
-    if isinstance(value, Fraction):
-        return float({"p": value.numerator, "q": value.denominator}.get(name, value))
+    match value:
+        case Definition():
+            return value.cost if name == COST else value.code
+        case str():
+            return 0 if name == COST else code_of(value, name)
+        case Fraction():
+            return float({"p": value.numerator, "q": value.denominator}.get(name, value))
     # A phase is rounded in units of π once it is folded, not here.
     return value if PARAMETERS[name].units == "rad" else canonical_number(value)
 
@@ -232,13 +226,12 @@ def complete(fixed: dict[str, Value], axes: NamedValues, samples: NamedValues | 
 
     These are those of Table 1, but for the amplitudes that scale loops, which are 1.
     """
-    filled, samples = dict(fixed), samples or {}
-    given = {*fixed, *axes, *samples}
+    samples, given = samples or {}, {*fixed, *axes, *(samples or {})}
     given |= replaced_by(given)
-    loads = axes.get("load") or samples.get("load") or (fixed.get("load"),)
-    scaling = amplitudes_of(loads)
-    for name, parameter in PARAMETERS.items():
-        if name not in given and parameter.default is not None:
-            default = LOOP_AMPLITUDE if name in scaling else parameter.default
-            filled[name] = read_value(parameter, default)
+    scaling = amplitudes_of(axes.get("load") or samples.get("load") or (fixed.get("load"),))
+    filled = fixed | {
+        name: read_value(row, LOOP_AMPLITUDE if name in scaling else row.default)
+        for name, row in PARAMETERS.items()
+        if name not in given and row.default is not None
+    }
     return Grid({name: filled[name] for name in PARAMETERS if name in filled}, dict(axes), dict(samples))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
@@ -16,8 +15,8 @@ from swtstudy.points.found import Found
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
-from swtstudy.vocabulary.choices import BENEATH, CRITERIA, SWT, is_plane, with_values_of
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray
+from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
@@ -29,6 +28,10 @@ _LONGEST_NAME = 24
 
 #: Points whose margins are found together: the working memory for one is some kB.
 _TOGETHER = 2000
+#: Larger grids are not looked at before they are solved: a point takes some 30 µs.
+MOST_FORESEEN = 100_000
+#: Ratio of a tangential force to μ F_N that is 1 to rounding.
+_ROUNDING = 1e-9
 
 
 def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHING) -> xr.Dataset:
@@ -57,16 +60,22 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
         for name, values in (grid.samples | grid.axes).items()
     }
     if grid.samples:
-        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), {"long_name": "number of the point"})
-        coordinates[SAMPLE][2]["parameters"] = " ".join(grid.samples)
+        words = {"long_name": "number of the point", "parameters": " ".join(grid.samples)}
+        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), words)
     for name, value in grid.fixed.items():
         says = name == SHIFT and "stick_zone" in grid.margins
         if says or not grid.row(name).goes_without_saying(value):
             coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
-    coordinates["control"] = control_coordinate(grid)
+    words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
+    coordinates["control"] = (), grid.control.name, words
     if asked.distances:
-        own = {DISTANCE: grid.row(DISTANCE), "direction": QUANTITY_AXES["direction"]}
-        coordinates |= {name: _coordinate_of_quantities(row, asked) for name, row in own.items()}
+        row, along = grid.row(DISTANCE), QUANTITY_AXES["direction"]
+        words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
+        words |= {"units": row.units, "symbol": row.symbol}
+        distances = np.array(asked.distances)
+        coordinates[DISTANCE] = (DISTANCE, distances, words) if asked.is_axis else ((), distances[0], words)
+        words = {"long_name": along.name, "comment": along.meaning}
+        coordinates["direction"] = "direction", np.array(DIRECTIONS, dtype=object), words
     of_quantities = asked.variables
     variables: dict[str, Any] = {}
     for name, values in arrays.items():
@@ -143,16 +152,6 @@ def _per_cycle(arrays: Mapping[str, object]) -> list[str]:
     return [n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in arrays]
 
 
-def _coordinate_of_quantities(row: Parameter, asked: Request) -> Any:
-    """The coordinate of a dimension of quantities: the critical distances, or directions."""
-    words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
-    if row.name == "direction":
-        return row.name, np.array(DIRECTIONS, dtype=object), words
-    words |= {"units": row.units, "symbol": row.symbol}
-    values = np.array(asked.distances)
-    return (DISTANCE, values, words) if asked.is_axis else ((), values[0], words)
-
-
 def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
     """Say of s and of what is made of it which criterion it is, unless it is the paper's."""
     criteria = list(dict.fromkeys(map(str, grid.values("criterion"))))
@@ -172,24 +171,6 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
         own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
 
 
-def zones(moved: FloatArray, grid: Grid) -> NDArray[np.int8]:
-    """Index into `ZONES` of each point of a grid, from where the stick zone is moved, (grid.size,)."""
-    plane = [is_plane(value) for value in grid.values("profile")]
-    dim = grid.dimension("profile")
-    if dim is None:
-        of_points: NDArray = np.full(grid.size, plane[0])
-    else:
-        place = np.unravel_index(np.arange(grid.size), grid.shape)[grid.dims.index(dim)]
-        of_points = np.array(plane)[place]
-    return np.where(moved == 1.0, np.where(of_points, 1, 2), 0).astype(np.int8)
-
-
-def control_coordinate(grid: Grid) -> xr.Variable:
-    """The scalar coordinate ``control``: what is prescribed on a grid."""
-    attributes = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
-    return xr.Variable((), grid.control.name, attributes)
-
-
 def _values(values: tuple[Value, ...]) -> NDArray:
     if any(isinstance(value, str | Definition) for value in values):
         return np.array([str(value) for value in values], dtype=object)
@@ -198,11 +179,8 @@ def _values(values: tuple[Value, ...]) -> NDArray:
 
 def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, str]:
     short = len(parameter.meaning) <= _LONGEST_NAME
-    attributes = {
-        "long_name": parameter.meaning if short else parameter.name.replace("_", " "),
-        "comment": parameter.meaning,
-        "symbol": parameter.symbol,
-    }
+    name = parameter.meaning if short else parameter.name.replace("_", " ")
+    attributes = {"long_name": name, "comment": parameter.meaning, "symbol": parameter.symbol}
     if parameter.kind != "name":
         attributes["units"] = parameter.units
     if isinstance(values[0], Fraction):
@@ -210,37 +188,55 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: Distinct, grid: Grid, foreseen: bool = False) -> dict[str, NDArray]:
+def margins(points: Distinct, grid: Grid, without_compiler: bool = False) -> dict[str, NDArray]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
-    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Those that are ``foreseen`` are
-    known without a compiler, to 1e-5.
+    ``bulk_shift`` as long as it is no larger than the width of the slip zone. Without a compiler they are
+    known to 1e-5.
     """
-    from swtstudy.solver.margins import Margins
+    from swtstudy.solver.margins import foreseen, margins_of
 
-    names = grid.margins
-    if not names:
-        return {}
-    of = Margins.foreseen if foreseen else Margins.of
-    every = np.full((len(fields(Margins)), len(points.rows)), np.nan)
-    for rows in alike(points.rows):
+    names, found = grid.margins, dict[str, NDArray]()
+    for rows in alike(points.rows) if names else ():
         for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
+            own = points_from(points.rows[some], points.definitions)
             with np.errstate(all="ignore"):
-                found_here = of(points_from(points.rows[some], points.definitions))
-            every[:, some] = list(vars(found_here).values())
-    radius, stick, shift, ratio, slide, moved = every[:, points.index]
-    width = radius - stick  # of the slip zone
+                made = foreseen(own) if without_compiler else margins_of(own)
+            made["stick_zone"] = made["moved"] * (1.0 if is_plane(own.profile) else 2.0)
+            for name, values in made.items():
+                found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
+    if not found:
+        return {}
+    found = {name: values[points.index] for name, values in found.items()}
+    radius, shift = found["contact_radius"], found["bulk_shift"]
+    width = radius - found["stick_radius"]  # of the slip zone
     if "bulk_shift" in names:
         shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
-        found = {
-            "stick_zone": zones(moved, grid),
+        told: dict[str, NDArray] = {
+            "stick_zone": found["stick_zone"].astype(np.int8),
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
-            "prescribed_force_ratio": ratio,
+            "prescribed_force_ratio": found["force_ratio"],
         }
     if "radius_ratio" in names:
-        found["radius_ratio"] = radius * grid.curvatures
+        told["radius_ratio"] = radius * grid.curvatures
     if "slide_ratio" in names:
-        found["slide_ratio"] = slide * grid.slip_scales / radius
-    return {name: found[name] for name in names}
+        told["slide_ratio"] = found["slide"] * grid.slip_scales / radius
+    return {name: told[name] for name in names}
+
+
+def foreseen_lines(grid: Grid) -> tuple[str, ...]:
+    """The lines on validity that results of a grid will have whatever their s; none of a very large grid.
+
+    They tell tangential forces above μ F_N, contacts too large for half-spaces, and bulk strains that shift
+    the stick zone: limits of the model that loads alone tell, before a point is solved.
+    """
+    if grid.size > MOST_FORESEEN or not grid.margins:
+        return ()
+    found = margins(Distinct.of(grid), grid, without_compiler=True)
+    lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + _ROUNDING
+    states = [REGIMES.index(name) for name in ("no_equilibrium", "stick")]
+    arrays = {name: np.full(grid.size, np.nan) for name in SOLVED}
+    arrays["regime"] = np.where(lost, *states).astype(np.int8)
+    return tuple(str(label(grid, arrays | found).attrs.get("validity", "")).splitlines())

@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Literal
 
+from swtstudy.points import rules
 from swtstudy.points.canonical import canonical_number
 from swtstudy.points.grid import Grid, complete
-from swtstudy.points.rules import (
-    AMPLITUDES,
-    check_amplitudes,
-    check_criteria,
-    check_forces,
-    check_largest,
-    check_loops,
-    check_sizes,
-)
-from swtstudy.points.shapes import check_shapes, check_shapes_given
 from swtstudy.points.values import (
     DEGREES,
     NOTHING,
@@ -108,19 +101,16 @@ def read_grid(
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     given = {*fixed, *axes, *samples}
-    check_amplitudes(given, good, report)
-    check_shapes_given(fixed, {**axes, **samples}, good, report)
-    check_forces(given, good, report)
-    check_criteria(given, good, report)
+    rules.check_amplitudes(given, good, report)
+    rules.check_shapes_given(fixed, {**axes, **samples}, good, report)
+    rules.check_forces(given, good, report)
+    rules.check_criteria(given, good, report)
     if report or len(good_samples) < len(samples):
         return None, report
     grid = complete(good_fixed, good_axes, good_samples)
-    check_sizes(grid, given, report)
-    check_loops(grid, report)
-    values = {name: grid.values(grid.control.given_for(name)) for name in AMPLITUDES}
-    largest = {name: max(map(as_number, each), default=0.0) for name, each in values.items()}
-    check_largest(grid, largest, report)
-    check_shapes(grid, report)
+    rules.check_sizes(grid, given, report)
+    rules.check_loops(grid, report)
+    rules.check_shapes(grid, report)
     return (None if report else grid), report
 
 
@@ -134,60 +124,51 @@ def read_values(
     rows: Mapping[str, Parameter] = PARAMETERS,
 ) -> tuple[dict[str, Value], NamedValues]:
     """Return the fixed values and axes that are sound one by one; see `read_grid`."""
-    good_fixed: dict[str, Value] = {}
-    good_axes: NamedValues = {}
-    for name in (*fixed, *axes):
-        if name in CONTACT_AXES and name not in rows and name not in others:
-            report.of(
-                name, "a parameter of real contacts", "this in a study with [units], or swtstudy.physical"
-            )
-        elif name not in rows and name not in others:
-            report.of(name, f"unknown parameter {literal(name)}", nearest(name, [*rows, *others]))
-    for one, other, words in (
-        (fixed, axes, "both a fixed value and an axis"),
-        (fixed, samples, "both a fixed value and sampled"),
-        (axes, samples, "both an axis and sampled"),
-    ):
+    for name in (name for name in (*fixed, *axes) if name not in rows and name not in others):
+        found, allowed = f"unknown parameter {literal(name)}", nearest(name, [*rows, *others])
+        if name in CONTACT_AXES:
+            found = "a parameter of real contacts"
+            allowed = "this in a study with [units], or swtstudy.physical"
+        report.of(name, found, allowed)
+    several = (fixed, "a fixed value"), (axes, "an axis"), (samples, "sampled")
+    for (one, first), (other, second) in itertools.combinations(several, 2):
         for name in sorted(one.keys() & other.keys()):
-            report.of(name, words, "one of the two")
+            report.of(name, f"both {first} and {second}", "one of the two")
     for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
         if name in rows and rows[name].units == "rad":
             warn_of_degrees(report.key(name), raw)
-    for name, single in fixed.items():
-        value = _read(rows[name], single, report.key(name), report, known) if name in rows else None
-        if value is not None:
-            good_fixed[name] = value
-    for name, raw in () if _too_many(axes, report, rows) else axes.items():
-        if name in rows and raw is not None:
+    known_axes = {name: raw for name, raw in axes.items() if name in rows and raw is not None}
+    read = {
+        name: _read(rows[name], raw, report.key(name), report, known)
+        for name, raw in fixed.items()
+        if name in rows
+    }
+    good_axes: NamedValues = {}
+    if not _too_many(known_axes, axes, report):
+        for name, raw in known_axes.items():
             good_axes[name] = _read_axis(rows[name], raw, report.key(name), report, known)
     for twice in given_twice((*fixed, *axes, *samples)):
         report.of(*twice)
-    return good_fixed, good_axes
+    return {name: value for name, value in read.items() if value is not None}, good_axes
 
 
 def warn_of_degrees(key: str, raw: object) -> None:
     """Warn of an angle that is probably meant in degrees."""
     several = (raw.start, raw.stop) if isinstance(raw, Range) else raw
     for each in several if isinstance(several, list | tuple) else (several,):
-        try:
+        with suppress(ValueError, TypeError, OverflowError):  # reported where it is read
             number = float(read_angle(each))
-        except (ValueError, TypeError, OverflowError):
-            continue  # reported where it is read
-        # Who writes a unit, or a multiple of π, means it.
-        said = isinstance(each, str) and any(word in each for word in ("pi", "π", "rad", *DEGREES))
-        if abs(number) > MANY_TURNS and not said:
-            words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
-            warnings.warn(words, stacklevel=2)
-            return
+            # Who writes a unit, or a multiple of π, means it.
+            said = isinstance(each, str) and any(word in each for word in ("pi", "π", "rad", *DEGREES))
+            if abs(number) > MANY_TURNS and not said:
+                words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
+                warnings.warn(words, stacklevel=2)
+                return
 
 
-def _too_many(axes: GivenAxes, report: Report, rows: Mapping[str, Parameter]) -> bool:
+def _too_many(known: Mapping[str, Sequence[object] | Range], axes: Iterable[str], report: Report) -> bool:
     """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
-    sizes = [
-        raw.num + len(raw.also) if isinstance(raw, Range) else len(raw)
-        for name, raw in axes.items()
-        if name in rows and raw is not None
-    ]
+    sizes = [raw.num + len(raw.also) if isinstance(raw, Range) else len(raw) for raw in known.values()]
     if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
         return False
     found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
@@ -215,10 +196,12 @@ def given_twice(names: Iterable[str]) -> Iterator[tuple[tuple[str, str], str, st
 
 
 def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -> Value | None:
+    names = known.get(row.name, NOTHING)
     try:
-        return read_value(row, raw, known.get(row.name, NOTHING))
+        return read_value(row, raw, names)
     except ValueError as error:
-        allowed = _allowed(row, raw, known)
+        of_name = row.kind == "name" and isinstance(raw, str)
+        allowed = nearest(str(raw), [*row.names, *names]) if of_name else row.allowed
         # As TOML gives what is meant for an axis.
         if isinstance(raw, list | dict) and key == f"fixed.{row.name}":
             allowed += "; several values under [axes]"
@@ -226,27 +209,20 @@ def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -
         return None
 
 
-def _allowed(row: Parameter, raw: object, known: Known) -> str:
-    if row.kind == "name" and isinstance(raw, str):
-        return nearest(raw, [*row.names, *known.get(row.name, ())])
-    return row.allowed
-
-
 def _read_axis(
     row: Parameter, raw: Sequence[object] | Range, key: str, report: Report, known: Known
 ) -> tuple[Value, ...]:
+    also = raw.also if isinstance(raw, Range) else ()
     elements = _expand(raw, key, report, row.units) if isinstance(raw, Range) else list(raw)
+    keys = [f"{key}[{k}]" for k in range(len(elements))] + [f"{key}.also[{k}]" for k in range(len(also))]
     if not elements and not isinstance(raw, Range):
         report(key, "an empty axis", "at least one value")
-    count, also = len(elements), raw.also if isinstance(raw, Range) else ()
-    elements.extend(also)
-    if len(elements) > LONGEST_AXIS:
-        report(key, f"{len(elements)} values", f"at most {LONGEST_AXIS} values")
+    if len(keys) > LONGEST_AXIS:
+        report(key, f"{len(keys)} values", f"at most {LONGEST_AXIS} values")
         return ()
     values: list[Value] = []
     seen: dict[float | str | Fraction, str] = {}
-    for index, element in enumerate(elements):
-        own_key = f"{key}[{index}]" if index < count else f"{key}.also[{index - count}]"
+    for own_key, element in zip(keys, [*elements, *also], strict=True):
         value = _read(row, element, own_key, report, known)
         if value is None:
             continue
@@ -286,12 +262,11 @@ def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
     if axis.spacing == "linear":
         return [start + index * step for index in range(axis.num - 1)] + [stop]
     first, last = float(start), float(stop)
-    if first <= 0.0 or last <= 0.0:
-        ends_found = f"from {literal(axis.start)} to {literal(axis.stop)}"
-        report(key, f"equal ratios {ends_found}", "two positive ends")
+    if min(first, last) <= 0.0:
+        found = f"equal ratios from {literal(axis.start)} to {literal(axis.stop)}"
+        report(key, found, "two positive ends")
         return []
     parts = [index / (axis.num - 1) for index in range(1, axis.num - 1)]
-    ratio = last / first
-    if sys.float_info.min < ratio < math.inf:
-        return [start, *(first * ratio**part for part in parts), stop]
+    if sys.float_info.min < last / first < math.inf:
+        return [start, *(first * (last / first) ** part for part in parts), stop]
     return [start, *(first ** (1.0 - part) * last**part for part in parts), stop]

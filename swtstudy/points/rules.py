@@ -1,19 +1,35 @@
-"""Rules on what can be combined: criteria, plane contacts, loops of the load and what is prescribed."""
+"""Rules on what can be combined: criteria, plane contacts, loops of the load, and shapes of profiles."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import amplitudes_of, values_taken
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, is_plane
+from swtstudy.points.values import amplitudes_of, as_number, values_taken
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal
+from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
+from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
 
 if TYPE_CHECKING:
     from swtstudy.loads.loop import Loop
+    from swtstudy.vocabulary.arrays import FloatArray, Shape
+
+#: What scales the columns of a loop.
+AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
+#: Largest load of a loop over the mean one: at 1e12 of them s has an error of 1 %.
+LARGEST_LOAD = 1e9
+#: Shapes of one profile; each is looked at, a million in 0.1 s.
+MOST_SHAPES = 50_000_000
+#: Shapes that are looked at together: the working memory for one is some 100 bytes, and some 7 kB where the
+#: depth has to be found from a force.
+_SLAB, _TOGETHER = 500_000, 5_000
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -68,12 +84,6 @@ def check_forces(given: Iterable[str], good: Mapping[str, Sequence[Any]], report
     report.of(instead or wanted, f"{found} with the profile {', '.join(plane)}", allowed)
 
 
-#: What scales the columns of a loop.
-AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
-#: Largest load of a loop over the mean one: at 1e12 of them s has an error of 1 %.
-LARGEST_LOAD = 1e9
-
-
 def check_amplitudes(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
     """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations.
 
@@ -103,61 +113,157 @@ def check_loops(grid: Grid, report: Report) -> None:
     Nor does a bulk stress oscillate with a loop that has no course of it. And a normal load that stays far
     from 0 is the load itself, where its deviation from the mean is asked for.
     """
-    _check_bulk_stress(grid, report)
-    if not any(grid.values(grid.control.given_for("normal_amplitude"))):
-        return
-    for load in grid.loops:
-        if load.is_absolute and load.mean_normal is None:
-            low, high = load.normal_ends
-            found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
-            allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
-            allowed += " (absolute = true, LoadPath.absolute)"
-            report.of("load", found, allowed)
-    loops = grid.loops if grid.control.mixed else ()
-    moving = [literal(load.name) for load in loops if not load.is_steady]
-    if moving:
-        found = f"{', '.join(moving)} with a normal load that is not constant, and {grid.control.name}"
-        report.of("load", found, "two displacements or two forces")
-    elif smooth := [literal(load.name) for load in loops if not hasattr(load, "vertices")]:
-        found = f"harmonics, {', '.join(smooth)}, and {grid.control.name}"
-        report.of("load", found, "two displacements or two forces; or vertices")
-
-
-def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
-    """Loads in units of their own, where nothing has units: only amplitudes over the mean load fit them."""
-    sized = [load for load in grid.loops if load.mean_normal is not None]
-    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
-        found = f"{literal(load.name)} with a mean normal load of {load.mean_normal:g}, without units"
-        allowed = (
-            f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{load.mean_normal:g} or the like"
-        )
-        report.of("load", found, allowed)
-
-
-def sizes_of(load: Loop) -> dict[str, float]:
-    """Largest size of the values of a loop, by the amplitude that multiplies them."""
-    bulk = load.bulk_ends or (0.0, 0.0)
-    ends = zip(AMPLITUDES, (load.normal_ends, load.tangential_ends, bulk), strict=True)
-    return {name: max(map(abs, each)) for name, each in ends}
-
-
-def check_largest(grid: Grid, amplitudes: Mapping[str, float], report: Report) -> None:
-    """Loads so large that rounding is left of the mean one, with these largest non-dimensional amplitudes."""
-    for load in grid.loops:
-        for name, largest in sizes_of(load).items():
-            size = amplitudes.get(name, 0.0) * largest
-            if not size <= LARGEST_LOAD:
-                found = (
-                    f"{literal(load.name)} with a {name.rpartition('_')[0].replace('_', ' ')} of {size:.3g}"
-                )
-                report.of("load", found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
-
-
-def _check_bulk_stress(grid: Grid, report: Report) -> None:
-    name = "bulk_stress_amplitude"
-    loops = [load for load in grid.values("load") if isinstance(load, Definition)]
+    name, loops, control = "bulk_stress_amplitude", grid.loops, grid.control
     oscillating = [value for value in grid.values(name) if value != 0.0]
     if loops and oscillating and not any(name in load.scaled_by for load in loops):
         found = f"{literal(oscillating[0])} with a loop of two columns, {literal(loops[0].name)}"
         allowed = "0, or a loop with the bulk stress as its third column; bulk_stress_mean goes with all"
         report.of(name, found, allowed)
+    if not any(grid.values(control.given_for("normal_amplitude"))):
+        return
+    for load in (load for load in loops if load.is_absolute and load.mean_normal is None):
+        low, high = load.normal_ends
+        found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
+        allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
+        report.of("load", found, f"{allowed} (absolute = true, LoadPath.absolute)")
+    names = [literal(load.name) for load in loops if control.mixed and not load.is_steady]
+    smooth = [literal(load.name) for load in loops if control.mixed and not hasattr(load, "vertices")]
+    if names:
+        found = f"{', '.join(names)} with a normal load that is not constant, and {control.name}"
+        report.of("load", found, "two displacements or two forces")
+    elif smooth:
+        found = f"harmonics, {', '.join(smooth)}, and {control.name}"
+        report.of("load", found, "two displacements or two forces; or vertices")
+
+
+def sizes_of(load: Loop) -> dict[str, float]:
+    """Largest size of the values of a loop, by the amplitude that multiplies them."""
+    ends = load.normal_ends, load.tangential_ends, load.bulk_ends or (0.0, 0.0)
+    return {name: max(map(abs, each)) for name, each in zip(AMPLITUDES, ends, strict=True)}
+
+
+def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
+    """Loads so large that rounding is left of the mean one, and those in units where nothing has units.
+
+    Only amplitudes over the mean load fit the latter.
+    """
+    sized = [load for load in grid.loops if load.mean_normal is not None]
+    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
+        mean = f"{load.mean_normal:g}"
+        found = f"{literal(load.name)} with a mean normal load of {mean}, without units"
+        allowed = f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{mean} or the like"
+        report.of("load", found, allowed)
+    for load, name in itertools.product(grid.loops, AMPLITUDES):
+        amplitudes = map(as_number, grid.values(grid.control.given_for(name)))
+        size, words = sizes_of(load)[name] * max(amplitudes, default=0.0), name.rpartition("_")[0]
+        if not size <= LARGEST_LOAD:
+            found = f"{literal(load.name)} with a {words.replace('_', ' ')} of {size:.3g}"
+            report.of("load", found, f"at most {LARGEST_LOAD:g}, {PARAMETERS[name].scale}")
+
+
+def check_shapes_given(
+    fixed: Mapping[str, object],
+    along: Mapping[str, object],
+    good: Mapping[str, Sequence[Any]],
+    report: Report,
+    rows: Mapping[str, Parameter] = PARAMETERS,
+) -> None:
+    """Every profile needs its shape parameters; one that no profile has would change nothing."""
+    given, read = {*fixed, *along}, good.get("profile", ())
+    profiles = list(dict.fromkeys(map(str, read if "profile" in given else values_taken("profile", {}))))
+    # A profile that could not be read may be the one that has the others.
+    raw = along.get("profile", read)
+    sound = isinstance(raw, Sequence) and len(raw) == len(read) and bool(profiles)
+    needed = shapes_needed(profiles)
+    for name in needed:
+        if name not in given:
+            owners = ", ".join(profile for profile in profiles if name in family_of(profile).shape)
+            report.of(name, "nothing", f"{rows[name].allowed} ({owners} needs it)")
+    for name in SHAPE_COLUMNS:
+        if name in needed or not sound or name not in given:
+            continue
+        found = literal(fixed[name]) if name in fixed else "an axis"
+        allowed = f"only with the profile {' or '.join(families_with(name))}"
+        report.of(name, f"{found}, which no profile here has ({', '.join(profiles)})", allowed)
+
+
+def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
+    """The shape parameters that at least one of the profiles has."""
+    return tuple(n for n in SHAPE_COLUMNS if any(n in family_of(p).shape for p in profiles))
+
+
+def check_shapes(grid: Grid, report: Report) -> None:
+    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
+    from swtstudy.profiles.at_rest import check_shape
+
+    profiles: dict[Any, None] = dict.fromkeys(grid.values("profile"))
+    for profile in profiles:
+        names, shapes = family_of(profile).shape, _shapes_of(grid, profile)
+        if shapes.size > MOST_SHAPES:
+            report.of(names, f"{shapes.size} shapes of the {profile}", f"at most {MOST_SHAPES}")
+            continue
+        refused, first = _refused(grid, profile, shapes)
+        if first is not None:
+            shape, depth = first
+            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items()) or str(profile)
+            report.of(
+                names or "profile", found + more_like_it(refused), check_shape(profile, shape, depth) or ""
+            )
+
+
+def largest_reach(grid: Grid) -> float:
+    """By how many amplitudes the normal load rises at most."""
+    from swtstudy.loads.loop import Loop
+
+    return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
+
+
+def _shapes_of(grid: Grid, profile: object) -> Grid:
+    """The grid of the shapes of a profile; with the normal amplitude where both are sampled."""
+    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
+    sampled = {name: grid.samples[name] for name in names if name in grid.samples}
+    if sampled and amplitude in grid.samples:
+        sampled[amplitude] = grid.samples[amplitude]
+    if "profile" in grid.samples:
+        own = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
+        sampled = {name: tuple(values[row] for row in own) for name, values in sampled.items()}
+    axes = {name: values for name, values in grid.axes.items() if name in names}
+    return Grid({name: value for name, value in grid.fixed.items() if name in names}, axes, sampled)
+
+
+def _refused(grid: Grid, profile: Any, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
+    """Number of shapes that are not admissible; the first of these, and its largest depth."""
+    from swtstudy.profiles.at_rest import compact_shapes
+
+    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
+    refused, first = 0, None
+    # The largest contact of a shape is the hardest to keep compact.
+    largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
+    for start in range(0, shapes.size if names or isinstance(profile, Definition) else 0, _SLAB):
+        places = np.arange(start, min(start + _SLAB, shapes.size))
+        columns = shapes.columns(places)
+        shape = {name: np.broadcast_to(columns[name], len(places)) for name in names}
+        own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
+        normal = np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), len(places))
+        depth = largest_depths(grid, profile, shape, normal)
+        wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(profile, shape, depth)))
+        if wrong.size and first is None:
+            first = {name: float(values[wrong[0]]) for name, values in shape.items()}, float(depth[wrong[0]])
+        refused += wrong.size
+    return refused, first
+
+
+def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
+    """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
+    from swtstudy.profiles.at_rest import compact_shapes, largest_depth
+
+    if not grid.control.normal_force:
+        return normal
+    # The depth at a force is known for shapes that carry the force at δ0.
+    depth = np.ones_like(normal)
+    sound = np.flatnonzero(compact_shapes(profile, shape, depth))
+    some = {name: values[sound] for name, values in shape.items()}
+    for rows in np.array_split(np.arange(len(sound)), len(sound) // _TOGETHER + 1):
+        own = {name: values[rows] for name, values in some.items()}
+        depth[sound[rows]] = largest_depth(profile, own, normal[rows])
+    return depth

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from swtstudy.points.values import index_at
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
-from swtstudy.vocabulary.variables import has_units, require
+from swtstudy.vocabulary.variables import COMPUTED, ZONES, has_units, require
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
 
 #: Strain–life constants are known for lives between these.
@@ -27,25 +26,20 @@ BESIDE_TIP = 10.0 * INNERMOST
 #: larger Q (results/stick_zone_shift.md).
 BULK_SHIFT_ERRORS = {0.1: (0.054, 0.057), 0.5: (0.21, 0.24), 1.0: (0.32, 0.38)}
 #: Where the stick zone is in s, as flags of ``stick_zone``.
-IN_PLACE, APPROXIMATE = 0, 2
+IN_PLACE, _, APPROXIMATE = range(len(ZONES))
 #: Rounding of a ratio that is 1.
 _ROUNDING = 1e-9
 
 
-@dataclass(frozen=True)
-class Limit:
+class Limit(NamedTuple):
     """Up to which value of a data variable the model holds.
 
     Attributes
     ----------
-    variable
-        Its name.
-    largest
-        The limit.
-    words
-        What is beyond it.
-    value
-        What the variable is, in words.
+    variable, largest
+        Its name, and the limit.
+    words, value
+        What is beyond the limit, and what the variable is.
     short, of
         What the limit is, and what the variable is a share of, in a word or two.
     consequence
@@ -61,6 +55,19 @@ class Limit:
     consequence: str = ""
 
 
+_MISSING = ", ".join(f"{100 * max(both):.0f} % at {ratio:g}" for ratio, both in BULK_SHIFT_ERRORS.items())
+_STRESS, _SHIFT = "largest von Mises stress over the yield strength", "shift over the width of the slip zone"
+_TOO_LARGE = "shift of the stick zone by bulk strain too large to be left out"
+_TOO_LOW = f"s is too low at the edge in tension, it should be up to {_MISSING} higher for Q ≥ 0.2 μP"
+_TOO_WIDE, _TOO_LONG = "contact too large for half-spaces", "slide too long for a contact that stays in place"
+LIMITS = (
+    Limit("yield_ratio", 1.0, "beyond first yield", _STRESS, "first yield", "of the strength"),
+    Limit("radius_ratio", 0.1, _TOO_WIDE, "contact radius over R", "half-spaces", "of R"),
+    Limit("slide_ratio", 0.1, _TOO_LONG, "slide over contact radius", "slide", "of the contact radius"),
+    Limit("bulk_shift_ratio", 0.1, _TOO_LARGE, _SHIFT, "stick-zone shift", "of the slip zone", _TOO_LOW),
+)
+
+
 class Excess(NamedTuple):
     """One way in which points are outside of the model.
 
@@ -74,44 +81,6 @@ class Excess(NamedTuple):
 
     short: str
     line: str
-
-
-_MISSING = ", ".join(f"{100 * max(both):.0f} % at {ratio:g}" for ratio, both in BULK_SHIFT_ERRORS.items())
-LIMITS = (
-    Limit(
-        "yield_ratio",
-        1.0,
-        "beyond first yield",
-        "largest von Mises stress over the yield strength",
-        "first yield",
-        "of the strength",
-    ),
-    Limit(
-        "radius_ratio",
-        0.1,
-        "contact too large for half-spaces",
-        "contact radius over R",
-        "half-spaces",
-        "of R",
-    ),
-    Limit(
-        "slide_ratio",
-        0.1,
-        "slide too long for a contact that stays in place",
-        "slide over contact radius",
-        "slide",
-        "of the contact radius",
-    ),
-    Limit(
-        "bulk_shift_ratio",
-        0.1,
-        "shift of the stick zone by bulk strain too large to be left out",
-        "shift over the width of the slip zone",
-        "stick-zone shift",
-        "of the slip zone",
-        f"s is too low at the edge in tension, it should be up to {_MISSING} higher for Q ≥ 0.2 μP",
-    ),
-)
 
 
 def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]:
@@ -152,12 +121,14 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
     require(dataset, "s", "regime")
     if not dataset.s.size:
         return [], []
-    found = [*_without_s(dataset), *_beside_tip(dataset), *_off_line(dataset), *_lives(dataset)]
-    found += [*_unknown_shift(dataset), *_at_face_edge(dataset)]
+    found = [
+        Excess(f"{words}{_where(out)}", f"{words}{_where(out)}{more}")
+        for out, words, more in _exceptions(dataset)
+        if out.any()
+    ]
+    found += _lives(dataset)
     within: list[str] = []
     for limit in LIMITS:
-        if limit.variable not in dataset:
-            continue
         values = _over_points(dataset, _limited(dataset, limit))
         out = values > limit.largest
         if not np.isfinite(values).any() and not out.any():
@@ -166,68 +137,81 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
         line = f"{limit.value} up to {worst}, limit {limit.largest:g}"
         if out.any():
             place = _place(dataset, values)
-            line += f",{place}" if place else ""
-            line = f"{limit.words}{_where(out)}: {'; '.join(filter(None, (line, limit.consequence)))}"
-            found.append(Excess(f"{limit.short}{_where(out)} ({worst} {limit.of})", line))
+            line = "; ".join(filter(None, (line + f",{place}" * bool(place), limit.consequence)))
+            short = f"{limit.short}{_where(out)} ({worst} {limit.of})"
+            found.append(Excess(short, f"{limit.words}{_where(out)}: {line}"))
         else:
             within.append(line)
-    found += _mixed_zones(dataset)
-    return found, [*within, *_approximate_zones(dataset), *_unknown_yield(dataset)]
+    if "stick_zone" in dataset:
+        zone = _over_points(dataset, dataset.stick_zone)
+        moved, left = zone != IN_PLACE, (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
+        if moved.any() and left.any():
+            words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
+            found.append(Excess(words, words))
+        if (some := zone == APPROXIMATE).any():
+            words = "the rise of the stress at the edge in tension is right within 4 %"
+            within.append(f"stick zone moved approximately{_where(some)}: {words}")
+    if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
+        unit = unit_words(dataset.peak_pressure.attrs.get("units", ""))
+        words = f"peak_pressure up to {_number(dataset.peak_pressure.max())}{unit}"
+        within.append(f"{words}; whether that yields is unknown without a yield_strength")
+    return found, within
+
+
+def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
+    """Which points are something, that in words, and what more there is to say of it."""
+    state, s, surface = dataset.regime.values, _values(dataset, "s"), _values(dataset, "s_surface")
+    computed = _values(dataset, "status", COMPUTED) == COMPUTED
+    lost = computed & (state == REGIMES.index("no_equilibrium"))
+    yield lost, "no equilibrium", _lacking(dataset, lost)
+    infinite = computed & (state == REGIMES.index("not_finite"))
+    yield infinite, "s is not finite", ": swt grows without bound towards an edge"
+    at_tip = (_values(dataset, "exponent") < 2.0) & (np.abs(_values(dataset, "critical_x")) < BESIDE_TIP)
+    nearer = f": s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
+    yield at_tip, "swt rises up to the tip", nearer
+    out = np.asarray(_above_line(dataset).values)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        factor = np.where(out, surface / s, 0.0)
+    times = f"s_surface is up to {_number(factor.max())} times as large"
+    times = times if np.isfinite(factor.max()) else "s is 0, and s_surface is not,"
+    yield out, "s is not the largest value", f": {times}{_place(dataset, factor)}"
+    if "bulk_shift_ratio" in dataset:
+        unknown = np.isnan(_values(dataset, "bulk_shift_ratio")) & (state == REGIMES.index("partial_slip"))
+        words = "shift of the stick zone by bulk strain unknown"
+        yield unknown, words, ": known of the paraboloid and the cylinder alone"
+    if "s_surface" in dataset:
+        edge = np.isfinite(s) & np.isnan(surface)
+        words = "critical point at the singular edge of the face"
+        yield edge, words, ": off the line y = 0 swt may have no bound there"
+
+
+def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
+    """Say which force is too large at points in no equilibrium."""
+    ratio = np.where(lost, _values(dataset, "prescribed_force_ratio", 0.0), 0.0)
+    worst, name = ratio.max(), "tangential_force_amplitude"
+    if not worst > 1.0 + _ROUNDING:
+        return ": the normal force pulls at some instant, or the bodies never touch"
+    place = _place(dataset, ratio, besides=(name, "body"))
+    if not np.isfinite(worst):
+        return f": there is a tangential force while the normal force is 0 or pulls{place}"
+    harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
+    still = all(not np.any(dataset[each].values) for each in NORMAL_AMPLITUDES if each in dataset.coords)
+    if not (harmonic and still and name in dataset.coords):
+        return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
+    force = float(_values(dataset, name).flat[int(ratio.argmax())])
+    if not has_units(dataset):
+        return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
+    # Of a contact without names of units the numbers have none.
+    unit = unit_words(dataset[name].attrs.get("units", ""))
+    return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
 
 
 def _limited(dataset: xr.Dataset, limit: Limit) -> xr.DataArray:
-    """Values that a limit is for: no shift of the stick zone that s has."""
-    values = dataset[limit.variable]
+    """Values that a limit is for: no shift of the stick zone that s has; NaN where there are none."""
+    values = dataset.get(limit.variable, xr.full_like(dataset.s, np.nan, float))
     if limit.variable != "bulk_shift_ratio" or "stick_zone" not in dataset:
         return values
     return values.where(dataset.stick_zone == IN_PLACE)
-
-
-def _mixed_zones(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Say that the stick zone is moved at some points and in place at others, where it should move."""
-    if "stick_zone" not in dataset:
-        return
-    moved = _over_points(dataset, dataset.stick_zone) != IN_PLACE
-    left = ~moved & (_over_points(dataset, dataset.bulk_shift_ratio) > 0.0)
-    if moved.any() and left.any():
-        words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
-        yield Excess(words, words)
-
-
-def _approximate_zones(dataset: xr.Dataset) -> Iterator[str]:
-    """Say where the stick zone is moved approximately."""
-    if "stick_zone" in dataset:
-        some = _over_points(dataset, dataset.stick_zone) == APPROXIMATE
-        if some.any():
-            words = "the rise of the stress at the edge in tension is right within 4 %"
-            yield f"stick zone moved approximately{_where(some)}: {words}"
-
-
-def _unknown_yield(dataset: xr.Dataset) -> Iterator[str]:
-    """Say that yield is not known without a strength."""
-    if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
-        largest, unit = float(dataset.peak_pressure.max()), dataset.peak_pressure.attrs.get("units", "")
-        words = "whether that yields is unknown without a yield_strength"
-        yield f"peak_pressure up to {_number(largest)} {unit}; {words}".replace(" ;", ";")
-
-
-def _unknown_shift(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Say where the shift of the stick zone by the bulk stress, which s leaves out, is not known."""
-    if "bulk_shift_ratio" in dataset:
-        slips = dataset.regime.values == REGIMES.index("partial_slip")
-        lost = slips & np.isnan(_over_points(dataset, dataset.bulk_shift_ratio))
-        if lost.any():
-            words = f"shift of the stick zone by bulk strain unknown{_where(lost)}"
-            yield Excess(words, f"{words}: known of the paraboloid and the cylinder alone")
-
-
-def _at_face_edge(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Say where the circle through the critical point is the singular edge of a face."""
-    if "s_surface" in dataset:
-        out = np.isfinite(dataset.s.values) & np.isnan(dataset.s_surface.values)
-        if out.any():
-            words = f"critical point at the singular edge of the face{_where(out)}"
-            yield Excess(words, f"{words}: off the line y = 0 swt may have no bound there")
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
@@ -246,9 +230,7 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
         True and False over the dimensions of the values; its ``long_name`` says of which limits.
     """
     found = xr.zeros_like(values, bool).drop_attrs()
-    limits = {
-        limit.short: _limited(dataset, limit) > limit.largest for limit in LIMITS if limit.variable in dataset
-    }
+    limits = {limit.short: _limited(dataset, limit) > limit.largest for limit in LIMITS}
     if values.name != "s_surface":
         limits["the line y = 0"] = _above_line(dataset)
     if _is_life(dataset, str(values.name)):
@@ -259,74 +241,11 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
 
 
-def _without_s(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Points in no equilibrium, with how much is lacking, and those at which s is not finite."""
-    state = dataset.regime.values
-    computed = dataset.status.values == 0 if "status" in dataset else np.ones(state.shape, bool)
-    lost = computed & (state == REGIMES.index("no_equilibrium"))
-    if lost.any():
-        words = f"no equilibrium{_where(lost)}"
-        yield Excess(words, f"{words}{_lacking(dataset, lost)}")
-    infinite = computed & (state == REGIMES.index("not_finite"))
-    if infinite.any():
-        words = f"s is not finite{_where(infinite)}"
-        yield Excess(words, f"{words}: swt grows without bound towards an edge")
-
-
-def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
-    """Say which force is too large at points in no equilibrium."""
-    ratio = np.zeros(lost.shape)
-    if "prescribed_force_ratio" in dataset:
-        ratio = np.where(lost, _over_points(dataset, dataset.prescribed_force_ratio), 0.0)
-    worst = ratio.max()
-    if not worst > 1.0 + _ROUNDING:
-        return ": the normal force pulls at some instant, or the bodies never touch"
-    place = _place(dataset, ratio, besides=("tangential_force_amplitude", "body"))
-    if not np.isfinite(worst):
-        return f": there is a tangential force while the normal force is 0 or pulls{place}"
-    name = "tangential_force_amplitude"
-    harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
-    still = all(not np.any(dataset[each].values) for each in NORMAL_AMPLITUDES if each in dataset.coords)
-    if not (harmonic and still and name in dataset.coords):
-        return f": the tangential force is up to {_number(worst)} times μ F_N{place}"
-    index = np.unravel_index(int(ratio.argmax()), ratio.shape)
-    force = float(_over_points(dataset, dataset[name])[index])
-    if not has_units(dataset):
-        return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
-    # Of a contact without names of units the numbers have none.
-    unit = unit_words(dataset[name].attrs.get("units", ""))
-    return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
-
-
 def _above_line(dataset: xr.Dataset) -> xr.DataArray:
     """Points with a maximum off the line y = 0, so that s, and all that is made of it, is too low."""
     if "s_surface" not in dataset or "s_error" not in dataset:
         return xr.zeros_like(dataset.s, bool)
     return dataset.s_surface > dataset.s + dataset.s_error
-
-
-def _off_line(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Points at which s is not the largest value."""
-    out = _above_line(dataset).values
-    if out.any():
-        with np.errstate(divide="ignore", invalid="ignore"):
-            factor = np.where(out, dataset.s_surface.values / dataset.s.values, 0.0)
-        worst = factor.max()
-        times = f"s_surface is up to {_number(worst)} times as large"
-        found = times if np.isfinite(worst) else "s is 0, and s_surface is not,"
-        words = f"s is not the largest value{_where(out)}"
-        yield Excess(words, f"{words}: {found}{_place(dataset, factor)}")
-
-
-def _beside_tip(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Points at which swt rises up to a sharp tip."""
-    if "exponent" in dataset.coords and "critical_x" in dataset:
-        is_sharp = _over_points(dataset, dataset.exponent) < 2.0
-        out = is_sharp & (np.abs(_over_points(dataset, dataset.critical_x)) < BESIDE_TIP)
-        if out.any():
-            nearer = f"s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
-            words = f"swt rises up to the tip{_where(out)}"
-            yield Excess(words, f"{words}: {nearer}")
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
@@ -342,13 +261,10 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
         if out.any():
             beyond[name] = np.asarray(out.any(axis=-1))
             ends = dict.fromkeys((float(lives[out].min()), float(lives[out].max())))
-            found = " to ".join(numbers_words(ends, 3))
-            where = _where(beyond[name])
-            lines.append(f"{name} extrapolated{where}: {found}, while the constants are known for {_KNOWN}")
-    if lines:
-        where = _where(np.logical_or.reduce([*beyond.values()]))
-        short = f"{', '.join(beyond)} extrapolated{where} (beyond {_KNOWN})"
-        yield from (Excess(short * (k == 0), line) for k, line in enumerate(lines))
+            found = f"{_where(beyond[name])}: {' to '.join(numbers_words(ends, 3))}"
+            lines.append(f"{name} extrapolated{found}, while the constants are known for {_KNOWN}")
+    short = f"{', '.join(beyond)} extrapolated{_where(np.any([*beyond.values()], axis=0))} (beyond {_KNOWN})"
+    yield from (Excess(short * (k == 0), line) for k, line in enumerate(lines))
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
@@ -367,12 +283,18 @@ def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> FloatArray:
     return np.asarray(values.broadcast_like(dataset.s).transpose(*dataset.s.dims).values, float)
 
 
+def _values(dataset: xr.Dataset, name: str, otherwise: float = np.nan) -> FloatArray:
+    """Values of a variable in the shape of s, or one where results do not have it."""
+    if name in dataset.variables:
+        return _over_points(dataset, dataset[name])
+    return np.full(dataset.s.shape, float(otherwise))
+
+
 def _where(out: BoolArray) -> str:
     """Say at how many of how many points; nothing of a single one."""
     if out.size == 1:
         return ""
-    words = "all" if out.all() else f"{int(out.sum())} of"
-    return f" at {words} {out.size} points"
+    return f" at {'all' if out.all() else f'{int(out.sum())} of'} {out.size} points"
 
 
 def _place(dataset: xr.Dataset, values: FloatArray, besides: tuple[str, ...] = ()) -> str:
@@ -385,17 +307,15 @@ def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -
     """Where one of the flattened points lies, such as "friction = 0.5, normal_force = 100 N"."""
     words = []
     for dim, number in index_at(dataset.s, flat).items():
-        if dim in besides:
-            continue
-        if dim not in dataset.coords:
+        if dim in dataset.coords and dim not in besides:
+            value: Any = dataset[dim].values[number]
+            attributes = dataset[dim].attrs
+            named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
+            words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
+        elif dim not in besides:
             words.append(f"{dim} = {number}")
-            continue
-        value: Any = dataset[dim].values[number]
-        attributes = dataset[dim].attrs
-        named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
-        words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
     return ", ".join(words)
 
 
-def _number(value: float) -> str:
+def _number(value: Any) -> str:
     return number_words(float(value), 3)

@@ -201,11 +201,11 @@ def as_number(value: Value) -> float:
 def _read_name(parameter: str, raw: object, known: Mapping[str, Definition]) -> str | Definition:
     if isinstance(raw, Definition) and raw.parameter == parameter:
         return raw
-    if isinstance(raw, str) and raw in PARAMETERS[parameter].names:
-        return raw
-    if isinstance(raw, str) and raw in known:
-        return known[raw]
-    raise ValueError(f"no such {parameter}" if isinstance(raw, str) else "not a name")
+    if not isinstance(raw, str):
+        raise ValueError("not a name")
+    if raw not in PARAMETERS[parameter].names and raw not in known:
+        raise ValueError(f"no such {parameter}")
+    return known.get(raw, raw) if raw not in PARAMETERS[parameter].names else raw
 
 
 def read_exact(raw: object) -> Fraction | float:
@@ -287,13 +287,11 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = AXIS_TOLERA
     if isinstance(value, str | Definition):
         names = [str(each) for each in axis]
         return names.index(str(value)) if str(value) in names else None
-    if not len(axis):
-        return None  # its values are wrong, which is reported
     known, asked = np.array(axis, float), float(value)
     distance, scale = np.abs(known - asked), np.maximum(np.abs(known), abs(asked))
-    allowed = np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
-    nearest = int(distance.argmin())
-    return nearest if distance[nearest] <= allowed[nearest] else None
+    near = distance <= np.where((known == 0.0) | (asked == 0.0), _ROUNDING, tolerance * scale)
+    # An axis is empty if its values are wrong, which is reported.
+    return int(np.where(near, distance, np.inf).argmin()) if near.any() else None
 
 
 def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from swtstudy.points.chunk import Solver
-from swtstudy.points.found import Found, Run, join
-from swtstudy.runner.engine import Pool, WorkerError, solve
+from swtstudy.points.found import Arrays, Found, Run, stacked
+from swtstudy.runner.engine import WorkerError, solve
 from swtstudy.runner.work import Work, assess
+from swtstudy.runner.workers import Workers
 from swtstudy.study.definition import Study, require_study
-from swtstudy.vocabulary.arrays import IntArray
+from swtstudy.vocabulary.arrays import IndexArray, IntArray
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _log = logging.getLogger(__name__)
+
+#: Receives the study, the path and the content of an archive as soon as it is written.
+Finished = Callable[[Study, Path, "xr.Dataset"], None]
 
 #: Seconds after which results are saved, and the share of a long run that this may be instead: so much is
 #: lost with the process, and a run of any length leaves some hundred files.
@@ -60,77 +64,93 @@ class Job:
         with ExitStack() as held:
             held.enter_context(locked(self._folder))
             clear_unfinished(self._folder)
-            self._begin = time.perf_counter()
+            self._begin = self._saved = time.perf_counter()
             self.work = assess(study, path, retry_failed)
-            self._known = self._finished()
-            self._what = self._told()
+            self._what, self._complete = _told(self.work), not self.work.todo.any()
+            self._unsaved: list[tuple[IntArray | IndexArray, Arrays]] = []
             self.close = held.pop_all().close
 
-    def _finished(self) -> xr.Dataset | None:
-        """The archive, if it is that of exactly this study and nothing is left to do."""
+    def compute(self, workers: Workers, solver: Solver) -> None:
+        """Compute what is missing, saved in parts as it comes."""
+        from swtstudy.archive.attributes import versions
+
+        work, rtol = self.work, self.study.rtol
+        now = datetime.now(UTC).isoformat(timespec="seconds")
+        run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), now, work.asked.items)
+        work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
+
+        def deliver(places: IntArray | IndexArray, arrays: Arrays) -> None:
+            arrays["run"][:] = work.found.runs.index(run)
+            self._unsaved.append((places, arrays))
+            now = time.perf_counter()
+            if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
+                self._save()
+            shown.add(len(places))
+
+        todo = int(work.todo.sum())
+        with self.reporting(), Progress(todo, self.path.stem, delay=0.0) as shown:
+            try:
+                solve(work.chunks(), rtol, solver, deliver, workers)
+            except OSError:  # such as a full disk
+                raise
+            except BaseException:
+                self._save()
+                raise
+            self._save()
+
+    def _save(self) -> None:
+        """Save the results of chunks as a part; only then they count."""
+        from swtstudy.archive.parts import save_part
+
+        if self._unsaved:
+            places, arrays = (
+                np.concatenate([p for p, _ in self._unsaved]),
+                stacked([a for _, a in self._unsaved]),
+            )
+            part = Found(arrays | {"row": self.work.points.rows[places]}, self.work.found.runs)
+            save_part(self._folder, part.take(slice(None)))
+            self.work.found.put(places, arrays)
+            self._unsaved, self._saved = [], time.perf_counter()
+
+    def finish(self, finished: Finished) -> None:
+        """Write the archive, which replaces the parts, and release it; what is not in it is kept."""
+        with self.reporting():
+            dataset = self._known() or self._written()
+        self.close()
+        finished(self.study, self.path, dataset)
+
+    def _known(self) -> xr.Dataset | None:
+        """The archive, if it is that of exactly this study and nothing had to be done."""
+        from swtstudy.archive.netcdf import read_archive
         from swtstudy.archive.parts import clear_parts, read_parts
 
-        if self.work.todo.any() or not self.path.exists() or len(read_parts(self._folder)):
+        if not (self._complete and self.path.exists()) or len(read_parts(self._folder)):
             return None
-        from swtstudy.archive.netcdf import read_archive
-
         archive = read_archive(self.path)
         if archive.attrs["study"] != self.study.text:
             return None
         clear_parts(self._folder)  # parts that could not be read
         return archive
 
-    def _told(self) -> str:
-        """Say in the log what is known; what the run does, for the history."""
-        work, count = self.work, len(self.work.found)
-        todo, more = int(work.todo.sum()), int(work.incomplete.sum())
-        if work.outdated:
-            _log.warning(
-                "%d points come from another version of the solver and are recomputed", work.outdated
-            )
-        if work.coarse:
-            _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
-        if more:
-            _log.info("%d points are computed, but lack quantities that the study asks", more)
-        if 0 < todo < count:
-            _log.info("%d of %d distinct points are already computed", count - todo, count)
-        words = f"{todo} of {count} distinct points computed"
-        return f"{words}, {more} of them for quantities that they lacked" if more else words
-
-    def compute(self, pool: Pool, solver: Solver) -> None:
-        """Compute what is missing, saved in parts as it comes."""
-        if not self.work.todo.any():
-            return
-        from swtstudy.archive.attributes import versions
-
-        now, study = datetime.now(UTC).isoformat(timespec="seconds"), self.study
-        run = Run(SOLVER_VERSION, study.rtol, study.text, versions(), now, self.work.asked.items)
-        with self.reporting(), _Saving(self, run) as saving:
-            solve(self.work.chunks(), study.rtol, solver, saving.add, pool)
-
-    def finish(self) -> xr.Dataset:
-        """Write the archive, which replaces the parts, and return it; what is not in it is kept."""
+    def _written(self) -> xr.Dataset:
         from swtstudy.archive.archive import build, history_line
         from swtstudy.archive.netcdf import read_archive, save
         from swtstudy.archive.parts import clear_parts, keeping, kept_folder
 
-        if self._known is not None:
-            return self._known
         work, kept = self.work, kept_folder(self.path)
-        with self.reporting():
-            before = [read_archive(self.path).attrs["history"]] if self.path.exists() else []
-            history = "\n".join([history_line(self._what), *before])
-            seconds = time.perf_counter() - self._begin
-            dataset = build(self.study, work.points, work.found.take(slice(None)), history, seconds)
-            try:
-                with keeping(kept, work.others):
-                    save(dataset, self.path, beside=self._folder)
-            except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
-                raise OSError(f"cannot write the archive ({error})") from error
-            clear_parts(self._folder)
-            if len(work.others):
-                _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
-            return read_archive(self.path)
+        before = [read_archive(self.path).attrs["history"]] if self.path.exists() else []
+        history = "\n".join([history_line(self._what), *before])
+        seconds = time.perf_counter() - self._begin
+        dataset = build(self.study, work.points, work.found.take(slice(None)), history, seconds)
+        try:
+            with keeping(kept, work.others):
+                save(dataset, self.path, beside=self._folder)
+        except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
+            raise OSError(f"cannot write the archive ({error})") from error
+        clear_parts(self._folder)
+        if len(work.others):
+            _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
+        return read_archive(self.path)
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
@@ -154,41 +174,17 @@ def _saved(work: Work, path: Path) -> str:
     return f"{count - work.todo.sum()} of {count} distinct points are saved beside {path}"
 
 
-class _Saving:
-    """Saves the results of a run as parts, inside a with block; only then they count."""
-
-    def __init__(self, job: Job, run: Run) -> None:
-        self._work, self._folder, self._run = job.work, job._folder, run
-        self._progress = Progress(int(job.work.todo.sum()), job.path.stem, delay=0.0)
-        self._unsaved: list[tuple[IntArray, Found]] = []
-        self._begin = self._saved = time.monotonic()
-
-    def __enter__(self) -> _Saving:
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        self._progress.close()
-        if kind is None or not issubclass(kind, OSError):
-            self._save()
-
-    def add(self, places: IntArray, version: str, found: Found) -> None:
-        """Take what a worker has found of the points in some places."""
-        if version != SOLVER_VERSION:
-            words = f"a worker has version {version} of the solver"
-            raise WorkerError(f"{words}, this machine {SOLVER_VERSION}")
-        found["run"][:] = 0
-        self._unsaved.append((places, Found(found.arrays, (self._run,))))
-        now = time.monotonic()
-        if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
-            self._save()
-        self._progress.add(len(places))
-
-    def _save(self) -> None:
-        from swtstudy.archive.parts import save_part
-
-        if self._unsaved:
-            places, parts = zip(*self._unsaved, strict=True)
-            part = join(parts)
-            save_part(self._folder, part)
-            self._work.found = self._work.found.put(np.concatenate(places), part)
-            self._unsaved, self._saved = [], time.monotonic()
+def _told(work: Work) -> str:
+    """Say in the log what is known; what the run does, for the history."""
+    count, todo, more = len(work.found), int(work.todo.sum()), int(work.incomplete.sum())
+    if work.outdated:
+        _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
+    if work.coarse:
+        _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
+    if more:
+        _log.info("%d points are computed, but lack quantities that the study asks", more)
+    if 0 < todo < count:
+        _log.info("%d of %d distinct points are already computed", count - todo, count)
+    return f"{todo} of {count} distinct points computed" + (
+        f", {more} of them for quantities that they lacked" if more else ""
+    )

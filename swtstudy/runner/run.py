@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import AbstractContextManager, ExitStack
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.paths import archive_paths
 from swtstudy.points.chunk import Solver, solve_points
-from swtstudy.runner.engine import ThreadPool
-from swtstudy.runner.job import Job, Stopped
+from swtstudy.runner.job import Finished, Job, Stopped
+from swtstudy.runner.workers import workers_of
 from swtstudy.study.definition import Study, read_studies
 from swtstudy.study.shipped import shipped_folder
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
@@ -24,9 +24,6 @@ if TYPE_CHECKING:
     from swtstudy.figures.sheet import Width
 
 __all__ = ["Stopped", "run", "run_and_draw", "run_several", "run_suite"]
-
-#: Receives the study, the path and the content of an archive as soon as it is written.
-Finished = Callable[[Study, Path, "xr.Dataset"], None]
 
 
 def run(
@@ -89,15 +86,9 @@ def run(
     In each of these cases everything computed so far is saved.
     """
     found: list[xr.Dataset] = []
-    run_several(
-        [(study, Path(path))],
-        lambda study, path, dataset: found.append(dataset),
-        workers=workers,
-        processes=processes,
-        client=client,
-        retry_failed=retry_failed,
-        solver=solver,
-    )
+    given: dict[str, Any] = {"workers": workers, "processes": processes, "client": client}
+    given |= {"retry_failed": retry_failed, "solver": solver}
+    run_several([(study, Path(path))], lambda study, path, dataset: found.append(dataset), **given)
     return found[0]
 
 
@@ -133,16 +124,13 @@ def run_suite(
     StudyError
         A ValueError with every mistake in every study, before anything is computed.
     """
-    folder = shipped_folder() if folder is None else folder
-    studies = read_studies([str(folder)])
+    studies = read_studies([str(shipped_folder() if folder is None else folder)])
     targets = archive_paths(studies, results)
     found: dict[str, xr.Dataset] = {}
-
-    def done(study: Study, path: Path, dataset: xr.Dataset) -> None:
-        found[path.stem] = dataset
-
     pairs = [(study, targets[path]) for path, study in studies.items()]
-    run_and_draw(pairs, formats, done, width, **options)
+    run_and_draw(
+        pairs, formats, lambda _, path, dataset: found.update({path.stem: dataset}), width, **options
+    )
     return found
 
 
@@ -210,48 +198,21 @@ def run_several(
         raise StudyError([Mistake("workers", literal(workers), "a number of workers, from 1 on")])
     with ExitStack() as held:
         background = held.enter_context(ThreadPoolExecutor(1))
-        pool = held.enter_context(_pool(workers, processes, client))
+        pool = held.enter_context(workers_of(workers, processes, client))
         before: Job | None = None
-        for study, path in studies:
-            try:
+        try:
+            for study, path in studies:
                 job = Job(study, path, retry_failed)
-            except BaseException:
-                if before is not None:
-                    _finish(before, finished)
-                raise
-            held.callback(job.close)
-            writing = None if before is None else background.submit(_finish, before, finished)
-            try:
-                job.compute(pool, solver)
-            finally:
-                _wait(writing, before)
-            before = job
-        if before is not None:
-            _finish(before, finished)
-
-
-def _pool(workers: int, processes: bool, client: Client | None) -> AbstractContextManager[Any]:
-    """The workers of a run."""
-    if client is not None:
-        from swtstudy.runner.cluster import ClusterPool
-
-        return ClusterPool(client)
-    if processes:
-        from swtstudy.runner.workers import LocalPool
-
-        return LocalPool(workers)
-    return ThreadPool(workers)
-
-
-def _finish(job: Job, finished: Finished) -> None:
-    """Write the archive of a job, and release it."""
-    dataset = job.finish()
-    job.close()
-    finished(job.study, job.path, dataset)
-
-
-def _wait(writing: Future[None] | None, job: Job | None) -> None:
-    """Wait for an archive that is being written; its error counts."""
-    if writing is not None and job is not None:
-        with job.reporting():
-            writing.result()
+                held.callback(job.close)
+                writing = before and (before, background.submit(before.finish, finished))
+                before = None
+                try:
+                    job.compute(pool, solver)
+                finally:
+                    if writing:
+                        with writing[0].reporting():
+                            writing[1].result()
+                before = job
+        finally:
+            if before is not None:
+                before.finish(finished)

@@ -13,7 +13,7 @@ from swtstudy.points.canonical import Distinct, group_rows
 from swtstudy.points.chunk import Chunk, Solver, chunk_of, chunks, cut, solve_chunk
 from swtstudy.points.found import Found, look_up, matching
 from swtstudy.study.definition import Study
-from swtstudy.vocabulary.arrays import BoolArray
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.quantities import Request
 from swtstudy.vocabulary.variables import MISSING
 from swtstudy.vocabulary.version import SOLVER_VERSION
@@ -71,13 +71,10 @@ def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     points = Distinct.of(study.grid, study.asked)
     known = known_points(path)
     found = matching(points, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
-    there = known["status"] != MISSING
-    lost = points.rows[(found["status"] == MISSING) & bool(len(known))]
-    own = known.usable(np.inf, SOLVER_VERSION)
-    coarse = look_up(lost, known, own & ~known.usable(study.rtol, SOLVER_VERSION)) >= 0
-    outdated = look_up(lost, known, there & ~own) >= 0
-    others = not_in(points, study.asked, known)
-    return Work(points, study.asked, found, others, int(outdated.sum()), int(coarse.sum()))
+    lost, own = points.rows[found["status"] == MISSING], known.usable(np.inf, SOLVER_VERSION)
+    candidates = (known["status"] != MISSING) & ~own, own & ~known.usable(study.rtol, SOLVER_VERSION)
+    outdated, coarse = (int((look_up(lost, known, some) >= 0).sum()) for some in candidates)
+    return Work(points, study.asked, found, not_in(points, study.asked, known), outdated, coarse)
 
 
 def not_in(points: Distinct, asked: Request, known: Found) -> Found:
@@ -107,36 +104,29 @@ def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
     """
     lean, growth = _thinned(work.points)
     todo = cut(lean, work.todo, work.asked)
+
+    def timed(places: IndexArray) -> float:
+        """Time for each of some points."""
+        return float(solve_chunk(chunk_of(lean, places, work.asked), rtol, solver)[1]["seconds"][0])
+
     if not todo:
         return 0.0, 0
-    last = chunk_of(lean, todo[-1], work.asked)
-    solve_chunk(last.at(slice(1)), rtol, solver)  # imports, and compiles
-    ends = np.linspace(0, len(todo), min(_TIMED, len(todo)) + 1).astype(int)
-    begin, seconds = time.perf_counter(), 0.0
-    timed = counted = left = 0
-    # The middle one first, then its neighbours: if time is up, those that are timed stand for all.
-    order = np.argsort(np.abs(np.arange(len(ends) - 1) - (len(ends) - 1) // 2), kind="stable")
-    for number in order.tolist():
-        own = todo[ends[number] : ends[number + 1]]
-        count = sum(map(len, own))
+    timed(todo[-1][:1])  # imports, and compiles
+    groups = np.array_split(np.arange(len(todo)), min(_TIMED, len(todo)))
+    begin, seconds, count, counted = time.perf_counter(), 0.0, 0, 0
+    # The middle ones first: if time is up, those that are timed stand for all.
+    for group in sorted(groups, key=lambda each: abs(int(each[0]) - len(todo) // 2)):
+        places = todo[group[len(group) // 2]]
         spent = time.perf_counter() - begin
-        if timed and spent > _BUDGET:
-            left += count
-            continue
-        middle = chunk_of(lean, own[len(own) // 2], work.asked)
-        one = _seconds(middle.at(slice(1)), rtol, solver)
-        timed += 1
-        if len(middle) > 1 and len(middle) * one < (_BUDGET - spent) / len(order):
-            one = _seconds(middle, rtol, solver) / len(middle)
-            timed += len(middle) - 1
-        seconds += growth.get(int(middle.rows["load"][0]), 1.0) * one * count
-        counted += count
-    return seconds * (1.0 + left / counted), timed
-
-
-def _seconds(chunk: Chunk, rtol: float, solver: Solver) -> float:
-    """Time that a chunk takes."""
-    return float(solve_chunk(chunk, rtol, solver)[1]["seconds"].sum())
+        if count and spent > _BUDGET:
+            break
+        one, own = timed(places[:1]), 1
+        if len(places) * one < (_BUDGET - spent) / len(groups):
+            one, own = timed(places), len(places)
+        points = sum(len(todo[k]) for k in group)
+        seconds += growth.get(int(lean.rows["load"][places[0]]), 1.0) * one * points
+        count, counted = count + own, counted + points
+    return seconds * sum(map(len, todo)) / counted, count
 
 
 def _thinned(points: Distinct) -> tuple[Distinct, Mapping[int, float]]:

@@ -8,8 +8,6 @@ how many they are.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from swtstudy.kernel.batch import count_batch
@@ -29,35 +27,21 @@ WIDTHS, LEAST_DEPTH = 1e-3 * 1.5 ** np.arange(25), 0.05
 POWER = 4.0
 
 
-@dataclass(frozen=True)
-class FewCycles:
-    """Strain cycles in a round of n points, of shape (n, places, cycles) by `COUNTED_SIZES`.
+def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
+    """Strain cycles in a round of n points with their solution, of shape (n, places, cycles).
 
-    Attributes
-    ----------
-    share
-        SWT of a cycle over the largest SWT, descending at each place; NaN where there are no more.
-    number
-        How many cycles have it.
+    Sizes are those of `COUNTED_SIZES`. ``share`` is SWT of a cycle over the largest SWT, descending at each
+    place, and ``number`` how many cycles have it; NaN where there are no more, or no critical plane. Where
+    there is a plane but no critical point, s is that far from the contact.
     """
-
-    share: FloatArray
-    number: FloatArray
-
-    @classmethod
-    def of(cls, points: Points, solution: Solution) -> FewCycles:
-        """Find the strain cycles of n points with their solution; NaN where there is no critical plane.
-
-        Where there is a plane but no critical point, s is that far from the contact.
-        """
-        share, number = np.full((2, len(points), *COUNTED_SIZES.values()), np.nan)
-        double_angle = np.radians(2.0 * solution.critical_angle)
-        found = count_batch(solution.critical_x, double_angle, **arguments_of(points))
-        for point, places in enumerate(found):
-            for place, cycles in enumerate(places):
-                shares, numbers = few(cycles, share.shape[-1])
-                share[point, place, : shares.size], number[point, place, : shares.size] = shares, numbers
-        return cls(share, number)
+    share, number = np.full((2, len(points), *COUNTED_SIZES.values()), np.nan)
+    double_angle = np.radians(2.0 * solution.critical_angle)
+    found = count_batch(solution.critical_x, double_angle, **arguments_of(points))
+    for point, places in enumerate(found):
+        for place, cycles in enumerate(places):
+            shares, numbers = few(cycles, share.shape[-1])
+            share[point, place, : shares.size], number[point, place, : shares.size] = shares, numbers
+    return {"share": share, "number": number}
 
 
 def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
@@ -86,7 +70,7 @@ def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
             break
     groups = np.split(shares[equal:], begins[1 : most - 1]) if rest.size else []
     means = [float((group**POWER).mean() ** (1.0 / POWER)) for group in groups]
-    return np.array([shares[0], *means]), np.array([float(equal), *(float(len(group)) for group in groups)])
+    return np.array([shares[0], *means]), np.array([equal, *map(len, groups)], float)
 
 
 def _begins(ascending: FloatArray, width: float) -> list[int]:

@@ -101,10 +101,8 @@ class LoadCycle:
     def centre(self, place: FloatArray) -> FloatArray:
         """Centres x/a_H of stick zones of sizes s, (n,): off the axis where a bulk stress moves them."""
         cycle = self.memory[0]
-        if not self.moved:
-            return np.zeros(len(place))
         own = self.profile, cycle.shift, cycle.largest, self.largest
-        return np.array([centre_of(*own, float(s)) for s in place])
+        return np.array([centre_of(*own, float(s)) if self.moved else 0.0 for s in place])
 
     @property
     def oscillations(self) -> int:
@@ -140,15 +138,7 @@ class LoadCycle:
         load = self.load
         times = cycle.time[: cycle.stretches]
         if x is not None:
-            side = -1.0 if x < 0.0 else 1.0
-            own = (
-                float(self.place(np.array(abs(x)))),
-                self.largest,
-                side,
-                self.ask.poisson_ratio,
-                self.ask.friction,
-            )
-            write_parts(history, cycle, growth, self.profile, tables, load, *own)
+            write_parts(history, cycle, growth, self.profile, tables, load, *self._at(x))
             times = history.time[: history.parts]
         share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps + 1))
         own_times = (times[:, :1] + np.diff(times) * share).ravel()

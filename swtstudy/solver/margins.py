@@ -13,14 +13,13 @@ equal tractions.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
 from swtstudy.profiles.at_rest import AtRest
 from swtstudy.solver.points import Points
-from swtstudy.vocabulary.arrays import BoolArray, Columns, FloatArray, IndexArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 
 #: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
@@ -32,59 +31,44 @@ PLACES = 4001
 PROPORTIONAL, ROUNDING = 1e-9, 1e-6
 
 
-@dataclass(frozen=True)
-class Margins(Columns):
-    """Margins of n points, each of shape (n,).
+#: Margins by name; see `margins_of`.
+Margins = dict[str, FloatArray]
+_COMPILED = ("contact_radius", "stick_radius", "force_ratio", "slide", "moved")
 
-    Attributes
-    ----------
-    largest_radius
-        Largest contact radius of the cycle in a_H, half the width in plane contacts.
-    stick_radius
-        Radius of the permanent stick zone in a_H; NaN where there is none.
-    bulk_shift
-        By how much the bulk strain would move the stick zone, in a_H, see `bulk_shift`; however large it is.
-    force_ratio
-        Largest |F_x|/(μ F_N) that is prescribed: there is no equilibrium where it is above 1; NaN where
-        the tangential force is not prescribed.
-    slide
-        By how much the tangential displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus
-        that limit if the depth is constant. 0 without gross slip; NaN where the bodies part or the
-        tangential force is prescribed.
-    moved
-        1 where the bulk stress moves the stick zone in s, else 0.
+
+def margins_of(points: Points) -> Margins:
+    """Margins of n points of one profile family and control.
+
+    Returns
+    -------
+    dict
+        Arrays of shape (n,). ``contact_radius``: the largest of the cycle in a_H, half the width in plane
+        contacts. ``stick_radius``: that of the permanent stick zone in a_H; NaN where there is none.
+        ``force_ratio``: the largest F_x/(μ F_N) that is prescribed: there is no equilibrium where it is above
+        1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
+        displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus that limit if the depth is
+        constant; 0 without gross slip, NaN where the bodies part or the tangential force is prescribed.
+        ``moved``: 1 where the bulk stress moves the stick zone in s, else 0. ``bulk_shift``: by how much the
+        bulk strain would move it, in a_H, however large that is.
     """
+    # Compiled: whoever only reads a study does without.
+    from swtstudy.kernel.batch import margins_batch
+    from swtstudy.solver.solve import arguments_of
 
-    largest_radius: FloatArray
-    stick_radius: FloatArray
-    bulk_shift: FloatArray
-    force_ratio: FloatArray
-    slide: FloatArray
-    moved: FloatArray
+    found = margins_batch(**arguments_of(points))
+    return {name: found[name].astype(float) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}
 
-    @classmethod
-    def of(cls, points: Points) -> Margins:
-        """Margins of points of one profile family and control."""
-        # Compiled: whoever only reads a study does without.
-        from swtstudy.kernel.batch import margins_batch
-        from swtstudy.solver.solve import arguments_of
 
-        found = margins_batch(**arguments_of(points))
-        radius, stick, ratio, slide = (
-            found[name].copy() for name in ("contact_radius", "stick_radius", "force_ratio", "slide")
-        )
-        return cls(radius, stick, bulk_shift(points), ratio, slide, found["moved"].astype(float))
-
-    @classmethod
-    def foreseen(cls, points: Points) -> Margins:
-        """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
-        found = cls(*np.full((len(fields(cls)), len(points)), np.nan))
-        for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
-            alike = np.flatnonzero((points.p == p) & (points.q == q))
-            parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
-            for rows in np.array_split(alike, parts):
-                found[rows] = _seen(points[rows])
-        return found
+def foreseen(points: Points) -> Margins:
+    """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
+    found = {name: np.full(len(points), np.nan) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}
+    for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
+        alike = np.flatnonzero((points.p == p) & (points.q == q))
+        parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
+        for rows in np.array_split(alike, parts):
+            for name, values in _seen(points[rows], found["bulk_shift"][rows]).items():
+                found[name][rows] = values
+    return found
 
 
 def _motion(points: Points) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
@@ -93,21 +77,19 @@ def _motion(points: Points) -> tuple[FloatArray, FloatArray, FloatArray, bool]:
     The points have one frequency ratio, or one loop; of a polygon the vertices are all that matters.
     """
     path: Any = points.path
-    p, q = int(points.p[0]), int(points.q[0])
-    if path is None:
-        own = (q, points.phase), (p, np.zeros(1)), (p, points.bulk_stress_phase)
-        rows = tuple([(order, 1.0, phase[:, None])] for order, phase in own)
-    elif hasattr(path, "vertices"):
+    if hasattr(path, "vertices"):
         columns = path.vertices.T[:, None]
         return columns[0], columns[1], columns[2] if len(columns) > 2 else 0.0 * columns[0], False
+    if path is None:
+        p, q, still = int(points.p[0]), int(points.q[0]), np.zeros(1)
+        own = (q, points.phase), (p, still), (p, points.bulk_stress_phase)
+        rows: Any = [[(order, 1.0, phase[:, None])] for order, phase in own]
     else:
-        rows = tuple(path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk"))
+        rows = [path.harmonics.get(key, ()) for key in ("normal", "tangential", "bulk")]
     fastest = max([1, *(order for row in rows for order, _, _ in row)])
     turn = 2.0 * np.pi / (SAMPLES * fastest) * np.arange(SAMPLES * fastest)[None]
-    normal, tangential, bulk = (
-        sum((size * np.sin(order * turn + phase) for order, size, phase in row), np.zeros((1, turn.size)))
-        for row in rows
-    )
+    zero = np.zeros((1, turn.size))
+    normal, tangential, bulk = (sum((a * np.sin(k * turn + φ) for k, a, φ in row), zero) for row in rows)
     return normal, tangential, bulk, True
 
 
@@ -122,7 +104,7 @@ def _largest(values: FloatArray, smooth: bool) -> FloatArray:
     return np.asarray((values + rise).max(axis=1))
 
 
-def _seen(points: Points) -> Margins:
+def _seen(points: Points, shift: FloatArray) -> Margins:
     """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
     normal, tangential, bulk, smooth = _motion(points)
     follows = _follows(points, normal, tangential, bulk)
@@ -130,30 +112,24 @@ def _seen(points: Points) -> Margins:
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
     largest = _largest(normal, smooth)
     control, plane = points.control, is_plane(points.profile)
-    if control.mixed and not plane:
-        for rows in _of_one_shape(points):
-            own = float(largest[rows].max())
-            scale = _other_coordinate(points[rows[:1]], own)
-            normal[rows], largest[rows] = (
-                np.where(values > 0.0, np.interp(np.maximum(values, 0.0), *scale), values)
-                for values in (normal[rows], largest[rows])
-            )
-    highest, lowest = _largest(tangential - normal, smooth), -_largest(-tangential - normal, smooth)
-    stick = 0.5 * (lowest - highest)
+    for rows in _of_one_shape(points) if control.mixed and not plane else ():
+        scale = _other_coordinate(points[rows[:1]], float(largest[rows].max()))
+        for values in (normal, largest):
+            own = np.interp(np.maximum(values[rows], 0.0), *scale)
+            values[rows] = np.where(values[rows] > 0.0, own, values[rows])
+    stick = -0.5 * (_largest(-tangential - normal, smooth) + _largest(tangential - normal, smooth))
     ends = np.maximum(np.stack([stick, largest], axis=1), 0.0)
-    at_rest = AtRest(points.profile, points.shape)
-    radius = _radii(at_rest, ends, control.tangential_force and not plane)
-    stick_radius = np.where(stick >= 0.0, radius[:, 0], np.nan)
-    shift, unknown = bulk_shift(points), np.full(len(points), np.nan)
-    width = (radius[:, 1] - stick_radius) * (1.0 + ROUNDING)
-    moved = (follows & (shift * np.abs(points.bulk_strain_share) <= width)).astype(float)
+    radius = _radii(AtRest(points.profile, points.shape), ends, control.tangential_force and not plane)
+    found = {"contact_radius": radius[:, 1], "stick_radius": np.where(stick >= 0.0, radius[:, 0], np.nan)}
+    width = (radius[:, 1] - found["stick_radius"]) * (1.0 + ROUNDING)
+    found["moved"] = follows & (shift * np.abs(points.bulk_strain_share) <= width)
     if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
-        return Margins(radius[:, 1], stick_radius, shift, unknown, slide, moved)
+        return found | {"slide": slide}
     size, load = np.abs(tangential), np.maximum(normal, 0.0)
     with np.errstate(divide="ignore"):
         ratio = np.divide(size, load, out=np.zeros_like(load), where=size > 0.0)
-    return Margins(radius[:, 1], stick_radius, shift, _largest(ratio, smooth), unknown, moved)
+    return found | {"force_ratio": _largest(ratio, smooth)}
 
 
 def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray) -> BoolArray:
@@ -178,11 +154,9 @@ def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArra
 
 def _of_one_shape(points: Points) -> Iterator[IndexArray]:
     """Rows of points whose profiles have one shape."""
-    if not points.shape:
-        yield np.arange(len(points))
-        return
-    shapes = np.stack(list(points.shape.values()), axis=1)
-    for number in range((which := np.unique(shapes, axis=0, return_inverse=True)[1].reshape(-1)).max() + 1):
+    shapes = np.stack([np.zeros(len(points)), *points.shape.values()], axis=1)
+    which = np.unique(shapes, axis=0, return_inverse=True)[1].reshape(-1)
+    for number in range(which.max() + 1):
         yield np.flatnonzero(which == number)
 
 

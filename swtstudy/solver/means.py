@@ -18,7 +18,6 @@ paraboloid: beside that the pressure is infinite like a logarithm, and so slow i
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -42,6 +41,8 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Kinds of means, and the kernel's.
 KINDS = {"volume": SPHERE, "point": POINT, "line": LINE}
+#: What follows the name of a kind: the mean, its error, and the place that it is about.
+ENDS = ("", "_error", "_x")
 #: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
 #: tolerance of what grew in stick.
 RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
@@ -72,34 +73,11 @@ def _of_disc() -> FloatArray:
 OF_DISC = _of_disc()
 
 
-@dataclass(frozen=True)
-class Means:
-    """swt over k critical distances at n points, over E* δ0/R as s, with absolute errors; NaN without s.
-
-    Attributes
-    ----------
-    volume, volume_error, volume_x
-        Shape (n, k): means over half spheres, or half discs in the plane; and the signed x of the places of
-        the surface line that they are about, NaN far from the contact.
-    point, point_error, point_x, line, line_error, line_x
-        Shape (n, k, 2): values at ℓ/2 and means over 0 … 2ℓ in both `DIRECTIONS`.
-    """
-
-    volume: FloatArray
-    volume_error: FloatArray
-    volume_x: FloatArray
-    point: FloatArray
-    point_error: FloatArray
-    point_x: FloatArray
-    line: FloatArray
-    line_error: FloatArray
-    line_x: FloatArray
-
-    @classmethod
-    def blank(cls, n: int, k: int) -> Means:
-        """Means of so many points without values."""
-        shapes = [(n, k)] * 3 + [(n, k, len(DIRECTIONS))] * 6
-        return cls(*(np.full(shape, np.nan) for shape in shapes))
+#: swt over k critical distances at n points, over E* δ0/R as s, NaN without s. ``volume``, shape (n, k), are
+#: means over half spheres, or half discs in the plane; ``point`` and ``line``, shape (n, k, 2), values at ℓ/2
+#: and means over 0 … 2ℓ in both `DIRECTIONS`. Each has its absolute error, such as ``volume_error``, and the
+#: signed x of the place of the surface line that it is about, such as ``volume_x``: NaN far from the contact.
+Means = dict[str, FloatArray]
 
 
 def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Means:
@@ -114,15 +92,19 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
     distance
         Shape (k,): ℓ > 0 in a_H.
     """
-    found = Means.blank(len(solution.s), len(distance))
+    shape = len(solution.s), len(distance), len(DIRECTIONS)
+    found = {
+        f"{kind}{end}": np.full(shape[:2] if kind == "volume" else shape, np.nan)
+        for kind in KINDS
+        for end in ENDS
+    }
     for row in np.flatnonzero(np.isfinite(solution.critical_x)):
         opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
         critical, s = float(solution.critical_x[row]), float(solution.s[row])
         for k, each in enumerate(distance):
             for kind, means in _largest(opened, critical, s, float(each)).items():
-                for name, own in zip((kind, f"{kind}_error", f"{kind}_x"), means.T, strict=True):
-                    values = getattr(found, name)
-                    values[row, k] = own if values.ndim == 3 else own[0]
+                for end, own in zip(ENDS, means.T, strict=True):
+                    found[f"{kind}{end}"][row, k] = own[0] if kind == "volume" else own
     return found
 
 

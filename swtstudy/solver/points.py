@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.vocabulary.arrays import Columns, FloatArray, IntArray, Shape
-from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 if TYPE_CHECKING:
@@ -87,8 +86,7 @@ class Points(Columns):
         return len(self.phase)
 
 
-@dataclass(frozen=True)
-class Solution(Columns):
+class Solution(NamedTuple):
     """The solution of a batch of points, each array of shape (n,).
 
     Attributes
@@ -115,10 +113,3 @@ class Solution(Columns):
     critical_angle: FloatArray
     regime: NDArray[np.int8]
     s_surface: FloatArray
-
-    @classmethod
-    def blank(cls, count: int) -> Solution:
-        """A solution of so many points without values."""
-        s, s_error, critical_x, critical_angle, s_surface = np.full((5, count), np.nan)
-        regime = np.full(count, REGIMES.index("not_finite"), np.int8)
-        return cls(s, s_error, critical_x, critical_angle, regime, s_surface)

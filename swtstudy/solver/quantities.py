@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from swtstudy.kernel.batch import cycle_batch
-from swtstudy.solver.counted import FewCycles
+from swtstudy.solver.counted import few_cycles
 from swtstudy.solver.means import KINDS, Means, worst_means
 from swtstudy.solver.points import Points, Solution
 from swtstudy.solver.solve import arguments_of
@@ -56,10 +56,10 @@ def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[st
         found[YIELD] = largest_von_mises(points)
     if asked.distances:
         means = _nonlocal(points, solution, asked.distances)
-        found |= {name: getattr(means, key) for row in NONLOCAL.values() for name, key in _fields(row)}
+        found |= {name: means[key] for row in NONLOCAL.values() for name, key in _fields(row)}
     if asked.counts:
-        cycles = FewCycles.of(points, solution)
-        found |= {name: getattr(cycles, row.function) for name, row in COUNTED.items()}
+        cycles = few_cycles(points, solution)
+        found |= {name: cycles[row.function] for name, row in COUNTED.items()}
     return found
 
 
@@ -74,6 +74,5 @@ def _nonlocal(points: Points, solution: Solution, distances: Sequence[float]) ->
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:
         for name, own in ((kind, solution.s), (f"{kind}_error", solution.s_error)):
-            means = getattr(made, name)
-            means[rows] = own[rows].reshape(-1, *(1,) * (means.ndim - 1))
+            made[name][rows] = own[rows].reshape(-1, *(1,) * (made[name].ndim - 1))
     return made

@@ -33,29 +33,26 @@ def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
         If a load cycle has more pieces than the solver has room for.
     """
     found = solve_batch(**arguments_of(points), rtol=rtol)
-    names = "s", "s_error", "critical_x", "critical_angle", "s_surface"
-    s, error, x, angle, surface = (found[name].copy() for name in names)
-    return Solution(s, error, x, angle, found["regime"].astype(np.int8), surface)
+    own = {name: found[name].copy() for name in Solution._fields}
+    return Solution(**own | {"regime": own["regime"].astype(np.int8)})
+
+
+#: Arguments of the kernel that have the names of columns of points, and those that have others.
+_SAME = (
+    *("profile", "poisson_ratio", "friction", "normal_amplitude", "tangential_amplitude", "phase", "shape"),
+    *("criterion", "walker_exponent", "normal_sensitivity"),
+)
+_RENAMED = {
+    **{f"bulk_{word}": f"bulk_stress_{word}" for word in ("amplitude", "mean", "phase")},
+    "pulled": "bulk_strain_share",
+}
 
 
 def arguments_of(points: Points) -> dict[str, Any]:
     """Points as arguments of `swtstudy.kernel.batch.chunks`."""
-    return {
-        "profile": points.profile,
-        "poisson_ratio": points.poisson_ratio,
-        "friction": points.friction,
-        "normal_amplitude": points.normal_amplitude,
-        "tangential_amplitude": points.tangential_amplitude,
-        "frequency_ratio": [Fraction(int(p), int(q)) for p, q in zip(points.p, points.q, strict=True)],
-        "phase": points.phase,
+    names = {name: name for name in _SAME} | _RENAMED
+    return {key: getattr(points, name) for key, name in names.items()} | {
+        "frequency_ratio": [*map(Fraction, points.p.tolist(), points.q.tolist())],
         "loops": None if points.path is None else [points.path] * len(points),
-        "shape": points.shape,
         "control": (points.control.normal_force, points.control.tangential_force),
-        "bulk_amplitude": points.bulk_stress_amplitude,
-        "bulk_mean": points.bulk_stress_mean,
-        "bulk_phase": points.bulk_stress_phase,
-        "pulled": points.bulk_strain_share,
-        "criterion": points.criterion,
-        "walker_exponent": points.walker_exponent,
-        "normal_sensitivity": points.normal_sensitivity,
     }

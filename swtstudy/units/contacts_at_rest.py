@@ -9,8 +9,7 @@ import numpy as np
 
 from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.rules import AMPLITUDES, sizes_of
-from swtstudy.points.shapes import largest_depths, largest_reach
+from swtstudy.points.rules import AMPLITUDES, largest_depths, largest_reach, sizes_of
 from swtstudy.points.values import Value, as_number, index_at
 from swtstudy.profiles.at_rest import check_shape, compact_shapes
 from swtstudy.units.grid import AT_REST_NAMES, PhysicalGrid

@@ -12,8 +12,13 @@ from typing import Any
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
-from swtstudy.points.rules import check_amplitudes, check_criteria, check_forces, check_loops
-from swtstudy.points.shapes import check_shapes_given
+from swtstudy.points.rules import (
+    check_amplitudes,
+    check_criteria,
+    check_forces,
+    check_loops,
+    check_shapes_given,
+)
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, read_value, values_taken
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.contacts_at_rest import check_contacts, check_distances

@@ -41,9 +41,8 @@ class Quantity:
         What it is exactly, in one line.
     function
         Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
-        `swtstudy.solver.von_mises`, or of the attribute of
-        `swtstudy.solver.means.Means` or `swtstudy.solver.counted.FewCycles`, that
-        has it.
+        `swtstudy.solver.von_mises`, or its key in
+        `swtstudy.solver.means.Means` or in what `swtstudy.solver.counted.few_cycles` finds.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims

@@ -15,7 +15,7 @@ import xarray as xr
 from click.testing import CliRunner
 
 from swtstudy import Study, open_results, run
-from swtstudy.archive.netcdf import load_file, write_check_sums
+from swtstudy.archive.netcdf import load_file, write_check_sum
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.cli import main
 
@@ -60,18 +60,16 @@ def test_a_flipped_bit_is_noticed(tmp_path, name, value, single):
     content = path.read_bytes()
     for changed in flipped(content, value.encode() if isinstance(value, str) else struct.pack("<d", value)):
         path.write_bytes(changed)
-        with pytest.raises(ArchiveError, match=f"^{path}: ") as caught:
+        with pytest.raises(ArchiveError, match=f"^{path}: (a damaged file|not a readable)"):
             open_results(path)
-        named = f"damaged file: wrong check sum of {name}" in str(caught.value)
-        assert isinstance(value, str) or named
 
 
-def test_damaged_values_are_named(tmp_path):
+def test_damage_anywhere_is_noticed_or_changes_nothing(tmp_path):
     text = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = {start = 0.1, stop = 1, num = 300}\n'
     path = tmp_path / "small.nc"
     dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
     content = path.read_bytes()
-    damaged = set()
+    damaged = 0
     for position in range(0, len(content), 797):
         changed = bytearray(content)
         changed[position] ^= 0xFF
@@ -79,9 +77,8 @@ def test_damaged_values_are_named(tmp_path):
         try:
             xr.testing.assert_identical(open_results(path), dataset)
         except ArchiveError as error:
-            damaged.update(re.findall(r"damaged file: wrong check sum of (\w+)", str(error)))
-    assert damaged
-    assert damaged <= {*dataset.variables}
+            damaged += bool(re.search("a damaged file: wrong check sum|not a readable", str(error)))
+    assert damaged > 10
 
 
 def index_of(content: bytes) -> list[int]:
@@ -111,7 +108,7 @@ def test_a_flip_in_the_index_of_the_chunks_opens_with_no_other_value(tmp_path):
         try:
             xr.testing.assert_identical(open_results(path), dataset)
         except ArchiveError as error:
-            refused += bool(re.search("wrong check sum of|not a readable", str(error)))
+            refused += bool(re.search("wrong check sum|not a readable", str(error)))
     assert refused > 10
 
 
@@ -127,24 +124,24 @@ def test_a_flip_in_the_index_of_the_chunks_opens_with_no_other_value(tmp_path):
         lambda ds: ds.drop_vars("critical_angle"),
     ],
 )
-def test_every_variable_and_axis_has_a_check_sum(tmp_path, change):
+def test_every_variable_and_axis_is_in_the_check_sum(tmp_path, change):
     path = tmp_path / "small.nc"
     text = 'title = "t"\nrtol = 1e-2\n[axes]\nphase = [0.11, 1.3, 2]\n'
     run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
     with xr.open_dataset(path) as opened:
         dataset = opened.load()
     dataset["s_error"][1] = np.nan
-    write_check_sums_of(dataset, dataset, path)
+    write_check_sum_of(dataset, dataset, path)
     xr.testing.assert_identical(load_file(path), dataset)
-    write_check_sums_of(dataset, change(dataset), path)
-    with pytest.raises(ArchiveError, match="a damaged file: wrong check sum of"):
+    write_check_sum_of(dataset, change(dataset), path)
+    with pytest.raises(ArchiveError, match="a damaged file: wrong check sum"):
         load_file(path)
 
 
-def write_check_sums_of(dataset: xr.Dataset, saved: xr.Dataset, path: Path) -> None:
+def write_check_sum_of(dataset: xr.Dataset, saved: xr.Dataset, path: Path) -> None:
     """A file of one Dataset with the check sums of another."""
     saved.to_netcdf(path)
-    write_check_sums(path, dataset)
+    write_check_sum(path, dataset)
 
 
 def test_what_xarray_makes_of_results_can_be_saved_and_opened(small, tmp_path):

@@ -110,7 +110,7 @@ def test_a_damaged_audit_is_named(tmp_path):
     content = path.read_bytes()
     assert b"paraboloid" in content
     path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
-    with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum of profile"):
+    with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum"):
         open_audit(path)
 
 

@@ -117,7 +117,7 @@ DEEP = 5000 * "[" + 5000 * "]"
     ("text", "attribute", "value", "words"),
     [
         (LOOP.format(SQUARE), "definitions", None, "attribute definitions: .*finite numbers"),
-        (LOOP.format(SQUARE), "definitions", DEEP, "attribute definitions: .*nested too deeply"),
+        (LOOP.format(SQUARE), "definitions", DEEP, "attribute definitions: .*recursion limit exceeded"),
         (REAL, "contact", DEEP, "attribute contact: .*not a contact: Invalid JSON"),
         (REAL, "contact", '{"units": 1}', "attribute contact: .*not a contact"),
         (REAL, "contact", "similar", "attribute contact: .*not a contact"),

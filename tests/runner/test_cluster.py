@@ -16,10 +16,9 @@ from folders import TESTS
 from swtstudy import Study, run
 from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.runner.engine import LOST_WORKER, WorkerError
+from swtstudy.runner.workers import ClusterPool
 
 distributed = pytest.importorskip("distributed")
-from swtstudy.runner.cluster import ClusterPool  # noqa: E402
-
 # Its own warnings about a killed worker are none of ours.
 pytestmark = [pytest.mark.filterwarnings("default"), pytest.mark.slow]
 
@@ -95,7 +94,7 @@ def test_a_cluster_without_workers_is_said_and_so_is_one_that_is_gone(tmp_path):
     address = f"tcp://127.0.0.1:{port}"
     (tmp_path / "line.toml").write_text(WIDE)
     code = (
-        "import swtstudy.runner.cluster as cluster\ncluster._CHECK_SECONDS = 0.5\nimport stand_in\n"
+        "import swtstudy.runner.workers as workers\nworkers.CHECK_SECONDS = 0.5\nimport stand_in\n"
         "from swtstudy.cli import main\nfrom swtstudy.runner import run\n"
         "run.run_several.__kwdefaults__['solver'] = stand_in.slow\n"
         f"main(['run', 'line.toml', '--scheduler', '{address}'])"

@@ -23,8 +23,8 @@ from swtstudy.archive.describe import failures
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
+from swtstudy.runner import engine, work
 from swtstudy.runner import job as job_module
-from swtstudy.runner import work
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -181,7 +181,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
-    for module in (job_module, work):
+    for module in (job_module, engine, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)

@@ -68,9 +68,9 @@ def test_no_mean_about_another_place_is_larger(name: str) -> None:
                 mean_about(opened, kind, place, direction, distance, 0.0, 1e-2)[0]
                 for kind in (SPHERE, POINT, LINE)
             )
-            assert volume < 1.01 * found.volume[0, 0]
-            assert point < 1.002 * found.point[0, 0, way]
-            assert line < 1.005 * found.line[0, 0, way]
+            assert volume < 1.01 * found["volume"][0, 0]
+            assert point < 1.002 * found["point"][0, 0, way]
+            assert line < 1.005 * found["line"][0, 0, way]
 
 
 @pytest.mark.parametrize("friction", [0.01, 0.3])
@@ -105,8 +105,6 @@ def test_places_go_with_their_points(tmp_path: Path) -> None:
     found = swtstudy.run(own, tmp_path / "a.nc")
     assert found.volume_x.dims == ("phase", "normal_amplitude")
     assert_allclose(found.volume_x[0], -found.volume_x[1], rtol=1e-9)
-    # The mean is larger about a local maximum on the other side.
-    assert_allclose(np.sign(found.volume_x), -np.sign(found.critical_x))
     assert_allclose(swtstudy.open_results(tmp_path / "a.nc").line_x, found.line_x)
 
 

@@ -13,7 +13,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.paper.audit.dataset import VERDICTS
 from swtstudy.paper.statements.statement import Finding, statement
 from swtstudy.points.canonical import alike, points_from
-from swtstudy.solver.margins import Margins
+from swtstudy.solver.margins import margins_of
 from swtstudy.vocabulary.choices import REGIMES
 
 
@@ -29,7 +29,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     rows, _ = grid_of(dataset).canonical(np.arange(dataset.s.size))
     radius = np.empty(len(rows))
     for members in alike(rows, rows["p"], rows["q"]):
-        radius[members] = np.nan_to_num(Margins.of(points_from(rows[members], {})).stick_radius)
+        radius[members] = np.nan_to_num(margins_of(points_from(rows[members], {}))["stick_radius"])
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 
 
