@@ -8,16 +8,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
-from swtstudy.loads.smooth_path import HIGHEST_ORDER
-from swtstudy.study.columns import FileTable, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
-from swtstudy.study.keys import Allowed, key, sound_keys, with_keys
+from swtstudy.study.keys import SignalTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -34,38 +33,6 @@ FEWEST_CYCLES = 3
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
 #: What a column is, with units.
 KINDS = {"normal": "force", "tangential": "force", "bulk": "stress"}
-
-
-class SignalTable(FileTable):
-    """The form of a signal in a file, and its cycles."""
-
-    absolute: Annotated[bool, Allowed("true or false")] = key(
-        "Whether the normal column is the load itself: its mean is the mean load of the study.", False
-    )
-    time: Annotated[str | None, Allowed("the header of the column of the time")] = key(
-        "Header of the file's column of the time; without it samples are even.", None, min_length=1
-    )
-    recorded_cycles: Annotated[int | None, Allowed("a whole number of cycles, 1 or more")] = key(
-        "Number of cycles that the file holds: they are folded into their mean.", None, ge=1
-    )
-    period: Annotated[float | None, Allowed("a positive number")] = key(
-        "Length of a cycle instead of their number, in the unit of the time, or in samples.",
-        None,
-        gt=0.0,
-        allow_inf_nan=False,
-    )
-    frequency: Annotated[float | None, Allowed("a positive number")] = key(
-        "Cycles per unit of the time, such as Hz, instead of the period.", None, gt=0.0, allow_inf_nan=False
-    )
-    harmonics: Annotated[int | None, Allowed(f"a whole number, 1 to {HIGHEST_ORDER}")] = key(
-        "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
-        None,
-        ge=1,
-        le=HIGHEST_ORDER,
-    )
-    despike: Annotated[bool, Allowed("true or false")] = key(
-        "Whether samples that stand out from all other cycles take the median of the cycles.", False
-    )
 
 
 @dataclass(frozen=True, eq=False)
