@@ -56,7 +56,7 @@ from swtstudy.vocabulary.mistakes import (
     literal,
 )
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, SHIFT
 from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, YIELD, Request, read_quantities
 from swtstudy.vocabulary.wording import html_table
 
@@ -365,7 +365,9 @@ class PhysicalContact:
             report("rtol", literal(rtol), ALLOWED_RTOL)
         distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
         names = read_quantities(names, "quantities", report)
-        materials = _of_both("constants", constants, FatigueConstants, report)
+        materials = ()
+        if constants is not None:
+            materials = _of_both("constants", constants, FatigueConstants, report)
         strengths = _stresses_of_both("yield_strength", strength, report) or grid.yield_strengths
         grid = replace(grid, materials=materials, yield_strengths=strengths)
         with report:
@@ -616,9 +618,7 @@ def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
 
 
 def _of_both(name: str, given: Any, kind: type[Any], report: Report) -> tuple[Any, ...]:
-    """Constants of each body of those of both, or of a pair, none if not given; mistakes are added."""
-    if given is None:
-        return ()
+    """Constants of each body of those of both, or of a pair; mistakes are added."""
     pair = (given, given) if isinstance(given, kind) else given
     if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
         return pair[0], pair[1]
@@ -745,7 +745,8 @@ def physical(
     [0.52, 0.58]
     """
     report, wrong, about = Report(), Report(), ContactDetails()
-    parameters = {name: value for name, value in parameters.items() if value is not None}
+    unsaid = {name for name in (*CONTACT_AXES, *OF_BODIES) if parameters.get(name) is None}
+    parameters = {name: value for name, value in parameters.items() if name not in unsaid}
     for name in _ASKED:
         if name in parameters:
             report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
@@ -757,8 +758,10 @@ def physical(
     properties: dict[str, Any] = {
         "yield_strengths": _stresses_of_both("yield_strength", yield_strength, report),
         "findley_limits": _stresses_of_both("findley_limit", findley_limit, report),
-        "shear_materials": _of_both("shear_constants", shear_constants, ShearConstants, report),
     }
+    if shear_constants is not None:
+        shear = _of_both("shear_constants", shear_constants, ShearConstants, report)
+        properties["shear_materials"] = shear
     with report:
         carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)

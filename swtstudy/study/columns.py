@@ -224,7 +224,8 @@ def read_table(
     except csv.Error as error:
         raise _refused(source, str(error), _READABLE) from None
     (line, headers), *rows = rows
-    _check_headers(headers, names, known, form, source, line)
+    if wrong := _wrong_headers(headers, names, known, form):
+        raise _refused(source, *wrong, f"line {line}")
     if above:
         _tell(source, f"the header is found in line {line}: what is above it is skipped")
     needed = [headers.index(form.header(name)) for name in names]
@@ -363,20 +364,20 @@ def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple
     return f"the columns {', '.join(headers)}", allowed
 
 
-def _check_headers(
-    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable, source: str, line: int
-) -> None:
-    """Refuse too many columns, and a column that is there, or is used, twice."""
+def _wrong_headers(
+    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable
+) -> tuple[str, str] | None:
+    """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
     if len(headers) > MOST_COLUMNS:
-        raise _refused(source, f"more than {MOST_COLUMNS} columns", "fewer", f"line {line}")
+        return f"more than {MOST_COLUMNS} columns", "fewer"
     lower = [header.lower() for header in headers]
     for other in map(form.header, names):
         if len(alike := [name for name in names if form.header(name) == other]) > 1:
-            found = f"the column {literal(other)} as {' and '.join(alike)}"
-            raise _refused(source, found, "a column of its own for each", f"line {line}")
+            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
     for name in map(form.header, (*names, *known)):
         if lower.count(name.lower()) > 1:
-            raise _refused(source, f"the column {name} twice", "each column once", f"line {line}")
+            return f"the column {name} twice", "each column once"
+    return None
 
 
 def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -> list[str]:

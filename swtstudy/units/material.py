@@ -17,7 +17,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.units.rows import KNOWN, OF_BODIES, Units, read_units, wrong_size
+from swtstudy.units.rows import KNOWN, OF_BODIES, UNIT_KINDS, Units, read_units, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
@@ -111,8 +111,10 @@ def read_given(
     report
         Called with key, found and allowed of each mistake.
     """
-    # Wrong units are reported: meanwhile others stand for them.
-    units = read_units(labels, report) or Units("the unit of length", "that of force", "that of stress")
+    units = read_units(labels, report)
+    if units is None:  # reported: meanwhile the labels stand for units
+        given = {kind: labels.get(kind) for kind in UNIT_KINDS}
+        units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
     sound = {name: [_sound(each) for each in two_of(fixed[name])] for name in OF_BODIES if name in fixed}
