@@ -296,7 +296,9 @@ def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
             names, sheet = book.sheetnames, form.sheet if form.sheet is not None else 1
             if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
                 raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
-            rows = [*book[sheet if isinstance(sheet, str) else names[sheet - 1]].values]
+            cells = book[sheet if isinstance(sheet, str) else names[sheet - 1]]
+            cells.reset_dimensions()  # some programs write wrong ones
+            rows = [*cells.values]
     except ImportError:
         allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
         raise _refused(source, "an Excel workbook", allowed) from None

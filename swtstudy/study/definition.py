@@ -258,7 +258,7 @@ def _contacts(
 
 
 def _asked_of(contacts: ContactDetails, asked: Request, raw: Mapping[str, Any], report: Report) -> Request:
-    """What is asked of contacts: with strengths stresses, too, and with constants strain cycles."""
+    """The request with stresses for contacts with strengths, and strain cycles for those with constants."""
     if contacts.yield_strengths:
         asked = replace(asked, names=tuple(dict.fromkeys((*asked.names, YIELD))))
     counts = bool(contacts.materials or contacts.shear_materials)

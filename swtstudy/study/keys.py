@@ -342,7 +342,7 @@ class Parts(StudyTable):
 
 
 #: How many keys lead to what is left out of a part of a study where one of its keys is wrong.
-_LEVELS = {"axes": 2, "loads": 2, "profiles": 2, "blocks": 2, "sample": 3}
+_LEVELS = {"axes": 2, "loads": 2, "profiles": 2, "sample": 3}
 
 
 def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake]]:
@@ -351,6 +351,9 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
     left = deepcopy(dict(raw)) if table is None else {}
+    if isinstance(blocks := left.get("blocks"), list):  # the loads of wrong ones are still known
+        loads = [each for each in blocks if isinstance(each, dict) and isinstance(each.get("load"), str)]
+        left["blocks"] = [{"load": each["load"], "rounds": each.get("rounds", 1)} for each in loads]
     while table is None:
         try:
             table = StudyTable.model_validate({name: plain(value) for name, value in left.items()})
@@ -359,7 +362,6 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
                 detail["loc"][: _LEVELS.get(str(detail["loc"][0]), 1)] for detail in error.errors()
             }:
                 _drop(left, *place)
-            left["blocks"] = _without_gaps(left.get("blocks", []))
     found = {name: getattr(table, name) for name in StudyTable.model_fields}
     for part in ("axes", "loads", "profiles"):
         names = raw.get(part)
@@ -367,21 +369,15 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
     return Parts.model_construct(**found), mistakes
 
 
-def _drop(left: Any, first: Any, *others: Any) -> None:
-    """Take the entry at a place out of tables; in a list it becomes None."""
-    inner = left.get(first) if isinstance(left, dict) else left[first]
-    if others and isinstance(inner, dict | list):
+def _drop(left: dict[Any, Any], first: Any, *others: Any) -> None:
+    """Take the entry at a place out of tables."""
+    inner = left.get(first)
+    if others and isinstance(inner, dict):
         _drop(inner, *others)
     elif first == "title":
         left["title"] = "-"
-    elif isinstance(left, list):
-        left[first] = None
     else:
         left.pop(first, None)
-
-
-def _without_gaps(blocks: Any) -> Any:
-    return [each for each in blocks if each is not None] if isinstance(blocks, list) else blocks
 
 
 def read_keys(

@@ -117,7 +117,7 @@ def _strain(contact: Contact, body: int) -> float:
 
 
 def _of(name: str) -> Callable[[Contact, int], float]:
-    """What a contact at rest has, of both bodies."""
+    """A property of a contact at rest as a scale, the same for both bodies."""
     return lambda contact, _: getattr(contact, name)
 
 
