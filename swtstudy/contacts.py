@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,12 +17,10 @@ from swtstudy.points.values import as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.at_rest import Contact, Moduli
-from swtstudy.units.contacts_at_rest import check_distances
 from swtstudy.units.grid import ContactDetails, PhysicalGrid, mean_of_bulk
 from swtstudy.units.life import (
     ROUNDS,
     UNCOUNTED,
-    Block,
     FatigueConstants,
     ShearConstants,
     checked_blocks,
@@ -30,10 +28,12 @@ from swtstudy.units.life import (
 )
 from swtstudy.units.material import warn_of_units
 from swtstudy.units.measured import Measured, headline, words_of
-from swtstudy.units.reading import completed, read_contacts
+from swtstudy.units.reading import check_distances, completed, read_contacts
+from swtstudy.units.results import KINDS, NAMES, variables
 from swtstudy.units.rows import (
     LABELS,
     NAMES_KEY,
+    OF_BODIES,
     ONE_OF,
     SIMILAR,
     SIMILAR_KEY,
@@ -43,7 +43,6 @@ from swtstudy.units.rows import (
     rows,
     wrong_size,
 )
-from swtstudy.units.variables import KINDS, NAMES, variables
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import FINDLEY, SWT, family_of, is_plane, is_profile
 from swtstudy.vocabulary.definition import Definition
@@ -55,10 +54,9 @@ from swtstudy.vocabulary.mistakes import (
     StudyError,
     is_rtol,
     literal,
-    plain_number,
 )
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, SHIFT
 from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, YIELD, Request, read_quantities
 from swtstudy.vocabulary.wording import html_table
 
@@ -353,41 +351,34 @@ class PhysicalContact:
             A ValueError with every mistake.
         """
         grid, asked = self._with_request(
-            rtol, quantities, critical_distance, constants, yield_strength, blocks
+            rtol, critical_distance, constants, yield_strength, quantities, blocks
         )
         return solve_grid(grid, float(rtol), asked)
 
     def _with_request(
-        self,
-        rtol: object,
-        quantities: Sequence[str],
-        critical_distance: object,
-        constants: object,
-        yield_strength: object,
-        blocks: Mapping[str, float] | None = None,
+        self, rtol: Any, distance: Any, constants: Any, strength: Any, names: Any = (), blocks: Any = None
     ) -> tuple[PhysicalGrid, Request]:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
-        report = Report()
-        fixed, axes = spanned({} if critical_distance is None else {DISTANCE: critical_distance}, report)
+        report, grid = Report(), self.grid
+        fixed, axes = spanned({} if distance is None else {DISTANCE: distance}, report)
         if not is_rtol(rtol):
             report("rtol", literal(rtol), ALLOWED_RTOL)
-        distances = read_distances(fixed, axes, report, self.grid.row(DISTANCE))
-        names = read_quantities(quantities, "quantities", report)
-        materials: tuple[FatigueConstants, ...] = ()
+        distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
+        names = read_quantities(names, "quantities", report)
+        materials = ()
         if constants is not None:
             materials = _of_both("constants", constants, FatigueConstants, report)
-        strengths = _stresses_of_both("yield_strength", yield_strength, report) or self.grid.yield_strengths
-        sequence: tuple[Block, ...] = ()
+        strengths = _stresses_of_both("yield_strength", strength, report) or grid.yield_strengths
+        grid = replace(grid, materials=materials, yield_strengths=strengths)
         with report:
-            sequence = checked_blocks(blocks, self.grid.values("load")) if blocks else ()
-        if constants is not None and {*self.grid.values("criterion")} == {FINDLEY}:
+            grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
+        if constants is not None and {*grid.values("criterion")} == {FINDLEY}:
             report("constants", f"constants with the criterion {FINDLEY} alone", "none: it has no life")
-        if blocks and constants is None and not self.grid.shear_materials:
+        if blocks and constants is None and not grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
-        check_distances(self.grid, distances[0], report)
+        check_distances(grid, distances[0], report)
         report.refuse()
         names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
-        grid = replace(self.grid, materials=materials, yield_strengths=strengths, blocks=sequence)
         warn_of_units(grid, self.moduli.young)
         return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))
 
@@ -431,7 +422,7 @@ class PhysicalContact:
         from swtstudy.results.optimise import check_asked, optimum_in
 
         self._one  # noqa: B018 – one contact only, or an error
-        grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)
+        grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
         made = (each.name for each in variables(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
         if minimise not in known and (lacking := _lacking(grid, minimise, asked)):
@@ -538,11 +529,7 @@ class PhysicalContact:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
 
-        own = self._measured(body)
-        places = _places(own.contact, x=x, y=y, z=z)
-        with self._in_equilibrium(body):
-            field = stress_field(**places, time=time, **self.parameters(body))
-        return own.with_units(field)
+        return self._field(partial(stress_field, time=time), body, {}, x=x, y=y, z=z)
 
     def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
@@ -551,11 +538,23 @@ class PhysicalContact:
         """
         from swtstudy.fields.stress import swt_field
 
-        own = self._measured(body)
-        places = _places(own.contact, x=x, y=y, z=z)
+        names = {"s_local": KINDS[self._measured(body).criterion].name}
+        return self._field(swt_field, body, names, x=x, y=y, z=z)
+
+    def _field(
+        self, field: Callable[..., xr.Dataset], body: int | str, names: Mapping[str, str], **places: Any
+    ) -> xr.Dataset:
+        """A field at places that are lengths, with units; some variables by other names."""
+        from swtstudy.fields.one_point import read_places
+
+        own, length = self._measured(body), self._one.length_scale
+        read_places(**places, allowed="finite positions, which are lengths")  # as they are given
+        in_a_h = {
+            name: v / length if hasattr(v, "dims") else np.divide(v, length) for name, v in places.items()
+        }
         with self._in_equilibrium(body):
-            field = swt_field(**places, **self.parameters(body))
-        return own.with_units(field, {"s_local": KINDS[own.criterion].name})
+            found = field(**in_a_h, **self.parameters(body))
+        return own.with_units(found, names)
 
     def inspect_point(self, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
@@ -593,20 +592,6 @@ def _labelled(
     return xr.DataArray(values, like.coords, like.dims, name, attributes)
 
 
-def _places(contact: Contact, **given: Any) -> dict[str, Any]:
-    """Places in lengths as those in a_H that the mechanics is asked for."""
-    import xarray as xr
-
-    from swtstudy.fields.one_point import read_places
-
-    read_places(**given, allowed="finite positions, which are lengths")  # as they are given
-    numbers = {
-        name: value if isinstance(value, xr.DataArray | float | int) else np.asarray(value)
-        for name, value in given.items()
-    }
-    return {name: value / contact.length_scale for name, value in numbers.items()}
-
-
 def _labels(measured: Measured) -> dict[str, Label]:
     """By name of a variable what its numbers are in the units of a contact."""
     from swtstudy.figures.quantity_words import Label
@@ -632,26 +617,26 @@ def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
     return [words for words, lacks in needs.items() if minimise in NAMES and lacks]
 
 
-def _of_both(name: str, constants: object, kind: type[Any], report: Report) -> tuple[Any, ...]:
-    """Constants of each body of those of both, or of a pair; what is wrong with them is added."""
-    pair: Any = (constants, constants) if isinstance(constants, kind) else constants
+def _of_both(name: str, given: Any, kind: type[Any], report: Report) -> tuple[Any, ...]:
+    """Constants of each body of those of both, or of a pair; mistakes are added."""
+    pair = (given, given) if isinstance(given, kind) else given
     if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
         return pair[0], pair[1]
     allowed = f"a {kind.__name__}, or a pair of them for bodies of different materials"
-    report(name, literal(constants), allowed)
+    report(name, literal(given), allowed)
     return ()
 
 
-def _stresses_of_both(name: str, stress: object, report: Report) -> tuple[float, ...]:
-    """A property of both bodies that is a stress, none if not given; what is wrong with it is added."""
+def _stresses_of_both(name: str, stress: Any, report: Report) -> tuple[float, ...]:
+    """A property of both bodies that is a stress, none if not given; mistakes are added."""
     if stress is None:
         return ()
-    pair: Any = (stress, stress) if np.ndim(stress) == 0 else tuple(stress)  # type: ignore[arg-type]
+    pair = (stress, stress) if np.ndim(stress) == 0 else tuple(stress)
     wrong = [each for value in pair for each in wrong_size(name, value, "a positive stress")]
     if len(pair) != 2:
         wrong = [Mistake(name, literal(stress), "one, or a pair, one for each body")]
     report += dict.fromkeys(wrong)
-    return () if wrong else (plain_number(pair[0]), plain_number(pair[1]))
+    return () if wrong else (float(pair[0]), float(pair[1]))
 
 
 def _defined(values: Iterable[object]) -> dict[str, dict[str, Definition]]:
@@ -686,14 +671,7 @@ _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 @with_parameters(row for name, row in rows(Units()).items() if name != DISTANCE)
 def physical(
     *,
-    young_modulus: Any = None,
-    poisson_ratio: Any = None,
-    radius: Any = None,
-    depth: Any = None,
-    normal_force: Any = None,
     similar: Any = SIMILAR,
-    bulk_stress_ratio: Any = None,
-    contact_length: Any = None,
     bulk_stress_body: Any = 1,
     bodies: Any = None,
     yield_strength: Any = None,
@@ -708,18 +686,8 @@ def physical(
 
     Parameters
     ----------
-    young_modulus, poisson_ratio
-        Of both bodies: one value for two equal bodies, or a pair. These and radius must be given.
-    radius
-        R of the relative curvature, 1/R = 1/R1 + 1/R2. The power law is f = rⁿ/(n Rⁿ⁻¹), with the slope 1 at
-        r = R. Not for a profile that is a `TabulatedProfile`: its radii and heights are lengths, the heights
-        those of both bodies together.
-    depth, normal_force
-        One of them: the mean indentation depth δ0, or the normal force at that depth.
     similar
         Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
-    bulk_stress_ratio
-        Least over largest bulk stress, below 1, in the place of bulk_stress_mean.
     bulk_stress_body
         1 or 2: the body that carries the bulk stress; the other one has none.
     bodies
@@ -732,11 +700,14 @@ def physical(
     shear_constants
         `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
         Unless given they are estimated from the constants that ``solve`` is given.
-    contact_length
-        Length of a plane contact across its section: its loads are forces then. Without it they are forces
-        per length. Plane contacts take forces alone, and a constant normal load unless told otherwise.
     **parameters
-        The names below. Those with a scale are lengths:
+        The names below. young_modulus and poisson_ratio are one value for two equal bodies, or a pair; these,
+        radius, and either depth or normal_force must be given. The power law is f = rⁿ/(n Rⁿ⁻¹), with the
+        slope 1 at r = R. There is no radius for a profile that is a `TabulatedProfile`: its radii and heights
+        are lengths, the heights those of both bodies together. With contact_length the loads of a plane
+        contact are forces, without it forces per length; plane contacts take forces alone, and a constant
+        normal load unless told otherwise. bulk_stress_ratio is in the place of bulk_stress_mean.
+        Parameters with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
@@ -773,28 +744,24 @@ def physical(
     >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """
-    of_bodies = {"young_modulus": young_modulus, "poisson_ratio": poisson_ratio}
-    sizes = {"radius": radius, "depth": depth, "normal_force": normal_force}
-    sizes |= {"bulk_stress_ratio": bulk_stress_ratio, "contact_length": contact_length}
-    parameters = {name: value for name, value in sizes.items() if value is not None} | parameters
-    report = Report()
+    report, wrong, about = Report(), Report(), ContactDetails()
+    unsaid = {name for name in (*CONTACT_AXES, *OF_BODIES) if parameters.get(name) is None}
+    parameters = {name: value for name, value in parameters.items() if name not in unsaid}
     for name in _ASKED:
         if name in parameters:
             report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
-    wrong = Report()
-    fixed, axes = spanned({n: value for n, value in parameters.items() if n not in _ASKED}, wrong)
-    for name, value in of_bodies.items():
-        if value is not None:
-            fixed[name] = list(value) if dimensions_of(value) == 1 else value
-    shear: tuple[ShearConstants, ...] = ()
-    if shear_constants is not None:
-        shear = _of_both("shear_constants", shear_constants, ShearConstants, report)
+    own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *OF_BODIES)}
+    fixed, axes = spanned(own, wrong)
+    for name in (name for name in OF_BODIES if name in parameters):
+        value = parameters[name]
+        fixed[name] = list(value) if dimensions_of(value) == 1 else value
     properties: dict[str, Any] = {
         "yield_strengths": _stresses_of_both("yield_strength", yield_strength, report),
         "findley_limits": _stresses_of_both("findley_limit", findley_limit, report),
-        "shear_materials": shear,
     }
-    about = ContactDetails()
+    if shear_constants is not None:
+        shear = _of_both("shear_constants", shear_constants, ShearConstants, report)
+        properties["shear_materials"] = shear
     with report:
         carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)

@@ -4,7 +4,7 @@ import json
 from typing import Any
 
 from build_steps.markdown import table
-from swtstudy.study.columns import FileTable
+from swtstudy.study.keys import FileTable
 from swtstudy.study.schema import study_schema
 
 _HEAD = ("key", "meaning", "value", "default")

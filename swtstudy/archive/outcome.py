@@ -13,8 +13,7 @@ from swtstudy.points.validity import outside_words, point_words
 from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import measures, sequence_words
-from swtstudy.units.variables import KINDS, LIVES, PERCENTS
+from swtstudy.units.results import KINDS, LIVES, PERCENTS, measures, sequence_words
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import CONTACT, has_units

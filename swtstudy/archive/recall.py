@@ -17,8 +17,7 @@ from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
 from swtstudy.points.rules import shapes_needed
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
-from swtstudy.units.contacts_at_rest import check_contacts
-from swtstudy.units.reading import completed, read_contact
+from swtstudy.units.reading import check_contacts, completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.arrays import BoolArray

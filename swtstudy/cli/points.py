@@ -200,11 +200,12 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
     """A point, or a profile where its shape alone is given."""
     from swtstudy.figures.inspection import inspect
     from swtstudy.figures.profile import draw_profile
+    from swtstudy.study.keys import ProfileTable
     from swtstudy.study.loops_and_profiles import profile_from
 
     path = Path(str(values.get("profile")))
     if path.suffix == ".csv":
-        table = {"file": path.name, "smoothing": smoothing}
+        table = ProfileTable(file=path.name, smoothing=smoothing)
         values = {**values, "profile": profile_from(path.stem, table, path.parent)}
     return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
 
@@ -219,7 +220,7 @@ def _of_study(
 ) -> Figure:
     """The one contact of a study, in its units if it has them, or a profile of it alone."""
     from swtstudy.contacts import PhysicalContact
-    from swtstudy.study.one_point import one_of_study
+    from swtstudy.study.definition import one_of_study
     from swtstudy.units.grid import PhysicalGrid
 
     of_shape = _of_shape(values)

@@ -12,14 +12,13 @@ import xarray as xr
 
 from swtstudy.fields.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
 from swtstudy.points.values import read_exact
-from swtstudy.study.columns import FileTable, UserTable, read_table
-from swtstudy.study.contacts import read_given
+from swtstudy.study.columns import UserTable, read_table
 from swtstudy.study.definition import tables_of
-from swtstudy.study.keys import sound_keys, with_keys
+from swtstudy.study.keys import FileTable, sound_keys, with_keys
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.life import ShearConstants
-from swtstudy.units.material import two_of
-from swtstudy.units.rows import OF_BODIES, Units
+from swtstudy.units.material import read_given, two_of
+from swtstudy.units.rows import OF_BODIES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
@@ -158,11 +157,14 @@ def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, 
     raw, source = tables_of(study), str(study)
     report = Report(source)
     fixed: Mapping[str, Any] = raw["fixed"] if isinstance(raw.get("fixed"), dict) else {}
-    details, _ = read_given(raw, fixed, Path(study).parent, report)
+    labels, material = (raw[key] if isinstance(raw.get(key), dict) else None for key in ("units", "material"))
+    details = ContactDetails()
+    if labels is None:
+        report("units", "nothing", "a table with length, force and stress")
+    else:
+        details, _ = read_given(labels, material, fixed, Path(study).parent, report)
     if body not in (1, 2):
         raise StudyError([Mistake("body", literal(body), "1 or 2")])
-    if details is None:
-        report("units", "nothing", "a table with length, force and stress")
     own: dict[str, float] = {}
     for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
         value = two_of(fixed.get(name))[body - 1]
@@ -173,7 +175,7 @@ def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, 
         if value is None and name in OF_BODIES:
             report(f"fixed.{name}", "nothing", "a number, or one for each body")
     report.refuse()
-    return details or ContactDetails(Units()), own
+    return details, own
 
 
 def cycle_shares(

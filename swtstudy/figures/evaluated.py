@@ -104,7 +104,14 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
             axes.plot(ends, ends * factor, label=label, **look)
             if factor > 1:
                 axes.plot(ends, ends / factor, **look)
-        axes.plot(fitted.observed, fitted.predicted, linestyle="none", marker="o", label="tests")
+        survived = fitted.runout.values == 1
+        for some, words, marker in (
+            (~survived, "tests with a crack" if survived.any() else "tests", {"marker": "o"}),
+            (survived, "run-outs: no crack so far", {"marker": ">", "fillstyle": "none"}),
+        ):
+            if some.any():
+                look = {"color": COLOURS[0], "linestyle": "none", "label": words, **marker}
+                axes.plot(fitted.observed[some], fitted.predicted[some], **look)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set_xlabel("observed rounds")
         axes.set_ylabel("predicted rounds")

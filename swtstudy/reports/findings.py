@@ -28,8 +28,7 @@ from swtstudy.reports.values import (
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.results import measures
-from swtstudy.units.variables import LIVES
+from swtstudy.units.results import LIVES, measures
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS

@@ -25,8 +25,7 @@ from swtstudy.reports.findings import along, extreme_points, levers, measured, m
 from swtstudy.reports.parts import Section, embedded, figure, of_point, section, table
 from swtstudy.reports.values import place_html, share, symbol_html, symbol_of, value_text, with_unit
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import measures
-from swtstudy.units.variables import KINDS
+from swtstudy.units.results import KINDS, measures
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units

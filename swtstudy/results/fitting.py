@@ -19,11 +19,12 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.solving import solve_grid
-from swtstudy.study.columns import FileTable, number
+from swtstudy.study.columns import number
 from swtstudy.study.definition import Study, study_from, tables_of
+from swtstudy.study.keys import FileTable
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.variables import LIVES
+from swtstudy.units.results import LIVES
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.mistakes import (
     Mistake,

@@ -11,7 +11,7 @@ import xarray as xr
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
-from swtstudy.units.variables import LIVES
+from swtstudy.units.results import LIVES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 

@@ -16,7 +16,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.results.least import Least, least
 from swtstudy.results.objective import Box, Objective, read_box, worst
 from swtstudy.solving import solve_grid
-from swtstudy.units.variables import LIVES
+from swtstudy.units.results import LIVES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
-from swtstudy.study.design import saltelli
+from swtstudy.study.sample import saltelli
 from swtstudy.units.results import measures
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_SEED,

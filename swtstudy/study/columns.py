@@ -11,72 +11,35 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from swtstudy.study.keys import Allowed, Table, key
+from swtstudy.study.keys import SEPARATORS, FileTable
 from swtstudy.units.rows import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 #: More rows than this are no table that someone recorded for a study, nor are more columns.
 MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
-#: What may stand between cells; a blank stands for any number of them.
-SEPARATORS = (",", ";", "\t", "|", " ")
-#: Lines in which a header is searched: loggers write a block of settings above it.
+#: Rows in which a header is searched: loggers write a block of settings above it.
 WITHIN = 200
 #: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
 ENCODINGS = ("cp1252", "latin-1")
+_READABLE = "a CSV file that can be read"
+_AS_CSV = "the sheet saved as CSV UTF-8"
 #: First bytes of files that are no text, what they are, and the way to export them.
 _OF_MATLAB = 'writetable(table(time, normal, tangential), "record.csv") in MATLAB'
 FORMATS = (
-    (b"PK\x03\x04", "an Excel workbook", "the sheet saved as CSV UTF-8"),
     (b"\xd0\xcf\x11\xe0", "an Excel workbook before 2007", "saved as .xlsx, or the sheet as CSV UTF-8"),
     (b"MATLAB", "a MATLAB file", _OF_MATLAB),
     (b"\x89HDF", "an HDF5 file, as of MATLAB", _OF_MATLAB),
     (b"TDSm", "a LabVIEW TDMS file", "nptdms.TdmsFile(path).as_dataframe().to_csv(...) in Python"),
 )
 
-
-class FileTable(Table):
-    """The form of a table in a file."""
-
-    columns: Annotated[
-        dict[str, str], Allowed('a table of headers, such as { normal = "Fn [N]" }', whole=True)
-    ] = key("Headers of the file's columns, where they are not the names that they have here.", {})
-    separator: Annotated[
-        Literal[",", ";", "\t", "|", " "] | None, Allowed(f"one of {', '.join(map(repr, SEPARATORS))}")
-    ] = key("Between cells; a blank for any number of blanks. Found from the header unless given.", None)
-    decimal: Annotated[Literal[".", ","] | None, Allowed("one of '.', ','")] = key(
-        "The decimal sign in numbers. Found from the first rows unless given.", None
-    )
-    encoding: Annotated[str | None, Allowed('the name of an encoding, such as "cp1252"')] = key(
-        'Encoding of the text, UTF-8 unless given; "cp1252" or "latin-1" for older programs.', None
-    )
-    scale: Annotated[
-        dict[str, float], Allowed("a table of numbers, such as { normal = 1000 }", whole=True)
-    ] = key("Factors of columns, such as { normal = 1000 } for kN, or -1 for the other sign.", {})
-    skip_rows: Annotated[int, Allowed("a whole number of lines, 0 or more")] = key(
-        "Lines above the header. Found unless given, and told.", 0, ge=0
-    )
-    units_row: Annotated[bool | None, Allowed("true or false")] = key(
-        "Whether a row of units follows the header. Found unless given, and told.", None
-    )
-    sheet: Annotated[
-        str | int | None, Allowed("the name of a sheet, or its number from 1 on", whole=True)
-    ] = key("Sheet of a workbook; the first one unless given.", None)
-
-    def header(self, name: str) -> str:
-        """The header of a column."""
-        return _plain(self.columns.get(name, name))
-
-
-PLAIN = FileTable()
+#: Number of the line of a row, and its cells.
+Row = tuple[int, list[str]]
 
 
 class UserTable(NamedTuple):
@@ -89,7 +52,7 @@ class UserTable(NamedTuple):
     units
         The cells of its row of units; empty without one.
     cells
-        Its cells as texts, by the number of the column, indexed by the number of the line.
+        The lines of its rows, and their cells as texts.
     form
         How it is written, with what was found out.
     source
@@ -100,7 +63,7 @@ class UserTable(NamedTuple):
 
     headers: list[str]
     units: list[str]
-    cells: pd.DataFrame
+    cells: list[Row]
     form: FileTable
     source: str
     line: int
@@ -111,7 +74,8 @@ class UserTable(NamedTuple):
 
     def texts(self, name: str) -> list[str]:
         """The cells of a column."""
-        return self.cells[self.headers.index(self.form.header(name))].tolist()
+        column = self.headers.index(self.form.header(name))
+        return [cells[column] for _, cells in self.cells]
 
     def numbers(self, names: Sequence[str]) -> FloatArray:
         """Columns of numbers, scaled, shape (rows, k)."""
@@ -128,7 +92,7 @@ class UserTable(NamedTuple):
                 hint = "; a comma in numbers is decimal = ','"
             elif wrong[0] == 0:
                 hint = "; lines above the header are skip_rows, a row of units is units_row = true"
-            place = f"line {self.cells.index[wrong[0]]}, {self.form.header(name)}"
+            place = f"line {self.cells[wrong[0]][0]}, {self.form.header(name)}"
             found = literal(text) if text else "nothing"
             raise _refused(self.source, found, f"a finite number{hint}", place)
         return values
@@ -207,19 +171,19 @@ def read_columns(
             found, allowed = f"the column {literal(alike[0])}", f"{name}, if that is meant, or another name"
             raise _refused(table.source, found, allowed, f"line {table.line}")
     names = [*names, *filter(table.has, optional)]
-    for name, kind in (kinds or {}).items():
-        if name not in names or name in form.scale or not labels:
-            continue
-        unit, label, units = table.unit(name, kind), str(labels.get(kind)), KNOWN[kind]
+    for name in (name for name in kinds or () if labels and name in names and name not in form.scale):
+        kind = kinds[name]  # type: ignore[index]
+        unit, label, units = table.unit(name, kind), str(labels.get(kind)), KNOWN[kind]  # type: ignore[union-attr]
         if unit and label in units and units[unit] != units[label]:
             found = f"{literal(form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
             allowed = f"scale = {{ {name} = {units[unit] / units[label]:g} }}"
             raise _refused(table.source, found, f"{allowed}; {name} = 1 if the unit in the file is wrong")
-    empty = (table.cells[[table.headers.index(form.header(name)) for name in names]] == "").any(axis=1)
-    if gaps and empty.any() and not empty.all():
-        more = f" and {empty.sum() - 1} more" if empty.sum() > 1 else ""
-        _tell(table.source, f"line {empty.idxmax()}{more} left out: a value is missing")
-        table = table._replace(cells=table.cells[~empty])
+    columns = [table.headers.index(form.header(name)) for name in names]
+    empty = [line for line, cells in table.cells if not all(cells[k] for k in columns)] if gaps else []
+    if empty and len(empty) < len(table.cells):
+        more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
+        _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
+        table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
     return table.numbers(names)
 
 
@@ -251,27 +215,39 @@ def read_table(
         data = read_file(path, LARGEST_TABLE)
     except OSError as error:
         raise _refused(source, reason_of(error), _READABLE) from None
-    content = _workbook(data, form, source) if data.startswith(b"PK") else _text(data, form, source)
-    form, ((line, headers), *below) = _header(content, names, known, form, source)
-    needed = [headers.index(form.header(name)) for name in names]
-    units: list[str] = []
-    if below and form.units_row is not False:
-        # One of units has no number, and numbers are beneath.
-        first, *others = ([cells[k] for k in needed if k < len(cells)] for _, cells in below)
-        numbers = others and all(map(_is_number, others[0])) and not any(map(_is_number, below[0][1]))
-        units = below[0][1] if form.units_row or (any(first) and numbers) else []
-    if units and form.units_row is None:
-        _tell(source, f"line {below[0][0]} is read as units: {', '.join(filter(None, units))}")
-    cells = _cells(content, below[0][0] if units else line, len(headers), form, most, source)
-    if form.separator == form.decimal == ",":
+    content = _sheet(data, form, source) if data.startswith(b"PK\x03\x04") else _text(data, form, source)
+    separator, above = _found_header(content, names, known, form, source)
+    if separator == form.decimal == ",":
         raise StudyError([Mistake("separator, decimal", "both ','", "two different signs")])
+    try:
+        rows = list(islice(_rows(content, separator, form.skip_rows), above, above + most + 3))
+    except csv.Error as error:
+        raise _refused(source, str(error), _READABLE) from None
+    (line, headers), *rows = rows
+    if wrong := _wrong_headers(headers, names, known, form):
+        raise _refused(source, *wrong, f"line {line}")
+    if above:
+        _tell(source, f"the header is found in line {line}: what is above it is skipped")
+    needed = [headers.index(form.header(name)) for name in names]
+    units = _row_of_units(rows, needed, form)
+    if units and form.units_row is None:
+        _tell(source, f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
+    cells = rows[bool(units) :]
+    if len(cells) > most:
+        raise _refused(source, f"more than {most} rows", f"at most {most}")
+    for place, own in cells:
+        if len(own) - (own[-1] == "") > len(headers):
+            allowed = "as many as columns: a comma between cells, a point in numbers; "
+            allowed += "or say separator and decimal"
+            raise _refused(source, f"{len(own)} cells under {len(headers)} columns", allowed, f"line {place}")
+        own += [""] * (len(headers) - len(own))
     if form.decimal is None:
         # A comma if numbers have commas, and none has a point.
-        texts = cells[needed or [*range(len(headers))]].head(WITHIN).to_numpy().ravel().tolist()
+        texts = [own[k] for _, own in cells[:WITHIN] for k in needed or range(len(headers))]
         commas, points = (
             any(re.match(rf"[+-]?\d*{sign}\d", text) for text in texts) for sign in (",", r"\.")
         )
-        comma = commas and not points and form.separator != ","
+        comma = commas and not points and separator != ","
         form = form.model_copy(update={"decimal": "," if comma else "."})
         if comma:
             _tell(source, "numbers with a comma are read with decimal = ','")
@@ -307,100 +283,75 @@ def _text(data: bytes, form: FileTable, source: str) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def _workbook(data: bytes, form: FileTable, source: str) -> pd.DataFrame:
-    """The cells of a sheet as texts."""
-    import pandas as pd
-
+def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
+    """The rows of a sheet of a workbook."""
     if b"xl/" not in data:
         raise _refused(source, "a zip archive", "a table in a text file, or an Excel workbook")
     try:
+        from openpyxl import load_workbook
+
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of styles and the like that are not read
-            book = pd.ExcelFile(io.BytesIO(data), engine="openpyxl")
-            names = list(map(str, book.sheet_names))
-            sheet = form.sheet if form.sheet is not None else 1
+            book = load_workbook(io.BytesIO(data), read_only=True, data_only=True)
+            names, sheet = book.sheetnames, form.sheet if form.sheet is not None else 1
             if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
                 raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
-            cells = book.parse(sheet if isinstance(sheet, str) else sheet - 1, header=None, dtype=object)
+            cells = book[sheet if isinstance(sheet, str) else names[sheet - 1]]
+            cells.reset_dimensions()  # some programs write wrong ones
+            rows = [*cells.values]
     except ImportError:
-        allowed = f"pip install openpyxl, which reads it; or {FORMATS[0][2]}"
+        allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
         raise _refused(source, "an Excel workbook", allowed) from None
     except StudyError:
         raise
     except Exception as error:  # a damaged workbook fails anywhere in openpyxl
-        raise _refused(source, f"a workbook that cannot be read ({error})", FORMATS[0][2]) from None
-    texts = cells.map(lambda cell: "" if pd.isna(cell) else str(cell).strip())
-    texts.index = texts.index + 1
-    return texts
+        raise _refused(source, f"a workbook that cannot be read ({error})", _AS_CSV) from None
+    return [(line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)]
 
 
-def _rows(content: str | pd.DataFrame, separator: str, skipped: int) -> Iterator[tuple[int, list[str]]]:
-    """Rows that are not empty: the number of the last line of each, and its cells."""
+def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
+    """Rows that are not empty: the number of the last line of each, and its cells in one line each."""
     if isinstance(content, str):
         lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
         if separator == " ":
             lines = (" ".join(line.split()) for line in lines)
         reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-        rows: Iterator[tuple[int, list[str]]] = ((reader.line_num + skipped, cells) for cells in reader)
+        rows: Iterator[Row] = ((reader.line_num + skipped, cells) for cells in reader)
     else:
-        rows = ((number, cells) for number, *cells in content.iloc[skipped:].itertuples())
-    return ((number, [*map(_plain, cells)]) for number, cells in rows if any(map(str.strip, cells)))
+        rows = islice(content, skipped, None)
+    stripped = ((line, [" ".join(cell.split()) for cell in cells]) for line, cells in rows)
+    return ((line, cells) for line, cells in stripped if any(cells))
 
 
-def _plain(cell: str) -> str:
-    """A cell in one line, as a header may be given."""
-    return " ".join(cell.split())
-
-
-def _is_number(cell: str) -> bool:
-    return any(math.isfinite(number(cell, sign)) for sign in ".,")
-
-
-def _header(
-    content: str | pd.DataFrame, names: Sequence[str], known: Collection[str], form: FileTable, source: str
-) -> tuple[FileTable, list[tuple[int, list[str]]]]:
-    """The form with its separator, the row of the header and at most two rows beneath it."""
+def _found_header(
+    content: str | list[Row], names: Sequence[str], known: Collection[str], form: FileTable, source: str
+) -> tuple[str, int]:
+    """The separator, and the number of rows above the header."""
     wanted, others = {*map(form.header, names)}, {*map(form.header, known)}
     first: dict[str, list[str]] = {}
-    found: dict[str, list[tuple[int, list[str]]]] = {}
+    found: dict[str, tuple[int, int]] = {}
     for separator in SEPARATORS:
-        rows: list[tuple[int, list[str]]] = []
+        rows: list[Row] = []
         try:
             rows.extend(islice(_rows(content, separator, form.skip_rows), WITHIN))
         except csv.Error as error:  # a stray quote makes the rest one cell
             if not rows and separator == SEPARATORS[0]:
                 raise _refused(source, str(error), _READABLE) from None
         first[separator] = rows[0][1] if rows else []
-        place = next((k for k, (_, cells) in enumerate(rows) if wanted <= {*cells}), None)
-        if place is not None:
-            found[separator] = rows[place:]
+        for above, (_, cells) in enumerate(rows):
+            if wanted <= {*cells}:
+                found[separator] = above, len((wanted | others) & {*cells})
+                break
     likely = max(first, key=lambda each: (each != " ") * len(first[each]))
     if found:
-        likely = max(found, key=lambda each: len((wanted | others) & {*found[each][0][1]}))
-    separator = form.separator or likely
-    if separator not in found:
-        wrong = _missing(first[separator], names, form)
-        if likely in found or len(first[likely]) >= len(names) > len(first[separator]):
-            wrong = f"cells parted by {likely!r}, while separator is {separator!r}", f"separator = {likely!r}"
-        raise _refused(source, *wrong, f"line {form.skip_rows + 1}")
-    rows = found[separator][:3]
-    line, headers = rows[0]
-    if len(headers) > MOST_COLUMNS:
-        raise _refused(source, f"more than {MOST_COLUMNS} columns", "fewer", f"line {line}")
-    for other in map(form.header, names):
-        if len(alike := [name for name in names if form.header(name) == other]) > 1:
-            found_twice = f"the column {literal(other)} as {' and '.join(alike)}"
-            raise _refused(source, found_twice, "a column of its own for each", f"line {line}")
-    lower = [header.lower() for header in headers]
-    for name in map(form.header, (*names, *known)):
-        if lower.count(name.lower()) > 1:
-            raise _refused(source, f"the column {name} twice", "each column once", f"line {line}")
-    for below, cells in rows[1:]:
-        if len(cells) - (cells[-1] == "") > len(headers):
-            raise _too_long(source, len(cells), len(headers), below)
-    if first[separator] != headers:
-        _tell(source, f"the header is found in line {line}: what is above it is skipped")
-    return form.model_copy(update={"separator": separator}), rows
+        likely = max(found, key=lambda each: found[each][1])
+    own: str = form.separator or likely
+    if own in found:
+        return own, found[own][0]
+    wrong = _missing(first[own], names, form)
+    if likely in found or len(first[likely]) >= len(names) > len(first[own]):
+        wrong = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
+    raise _refused(source, *wrong, f"line {form.skip_rows + 1}")
 
 
 def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:
@@ -415,48 +366,39 @@ def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple
     return f"the columns {', '.join(headers)}", allowed
 
 
-def _cells(
-    content: str | pd.DataFrame, line: int, width: int, form: FileTable, most: int, source: str
-) -> pd.DataFrame:
-    """The cells below a line as texts, by column from 0 on and by the number of their line."""
-    import pandas as pd
-
-    if isinstance(content, str):
-        stream = io.StringIO(content)
-        for _ in range(line):
-            stream.readline()
-        options: dict[str, Any] = {"header": None, "dtype": str, "keep_default_na": False}
-        options |= {"skip_blank_lines": False, "skipinitialspace": True, "index_col": False}
-        options["sep"] = r"\s+" if form.separator == " " else form.separator
-        try:
-            table = pd.read_csv(stream, names=range(width + 1), **options)
-        except (pd.errors.ParserError, ValueError) as error:
-            counts = re.search(r"Expected \d+ fields in line (\d+), saw (\d+)", str(error))
-            if counts:
-                raise _too_long(source, int(counts[2]), width, line + int(counts[1])) from None
-            raise _refused(source, str(error).rpartition("C error: ")[2].strip(), _READABLE) from None
-        table = table.fillna("").apply(lambda column: column.str.strip())
-        table.index = table.index + line + 1
-    else:
-        table = content.iloc[line:].reindex(columns=range(width + 1), fill_value="")
-    if len(table) > most + 1:
-        raise _refused(source, f"{len(table)} rows", f"at most {most}")
-    table = table[(table != "").any(axis=1)]
-    if (table[width] != "").any():
-        raise _too_long(source, width + 1, width, int((table[width] != "").idxmax()))
-    return table
+def _wrong_headers(
+    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable
+) -> tuple[str, str] | None:
+    """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
+    if len(headers) > MOST_COLUMNS:
+        return f"more than {MOST_COLUMNS} columns", "fewer"
+    lower = [header.lower() for header in headers]
+    for other in map(form.header, names):
+        if len(alike := [name for name in names if form.header(name) == other]) > 1:
+            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
+    for name in map(form.header, (*names, *known)):
+        if lower.count(name.lower()) > 1:
+            return f"the column {name} twice", "each column once"
+    return None
 
 
-_READABLE = "a CSV file that can be read"
+def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -> list[str]:
+    """The first row, if it is one of units: it has no number, and numbers are beneath."""
+    if not rows or form.units_row is False:
+        return []
+    if form.units_row:
+        return rows[0][1]
+    first, *below = ([cells[k] for k in needed if k < len(cells)] for _, cells in rows[:2])
+    numbers = below and all(map(_is_number, below[0])) and not any(map(_is_number, rows[0][1]))
+    return rows[0][1] if any(first) and numbers else []
+
+
+def _is_number(cell: str) -> bool:
+    return any(math.isfinite(number(cell, sign)) for sign in ".,")
 
 
 def _refused(source: str, found: str, allowed: str, place: str = "") -> StudyError:
     return StudyError([Mistake(place, found, allowed, source)])
-
-
-def _too_long(source: str, found: int, width: int, line: int) -> StudyError:
-    allowed = "as many as columns: a comma between cells, a point in numbers; or say separator and decimal"
-    return _refused(source, f"{found} cells under {width} columns", allowed, f"line {line}")
 
 
 def _tell(source: str, words: str) -> None:

@@ -9,30 +9,23 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.reading import Known, Range, read_distances, read_grid
-from swtstudy.study.contacts import every_name, kept_cycles, read_blocks, read_given, rows_of, told_of_lives
+from swtstudy.points.reading import GivenAxes, Range, read_distances, read_grid
 from swtstudy.study.figure import FigureLayout, check_figure
-from swtstudy.study.scatter import read_scatter, without_scatter
+from swtstudy.study.keys import Parts, read_study
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
-from swtstudy.vocabulary.definition import Definition
+from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, rows
+from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
-from swtstudy.vocabulary.mistakes import (
-    STORABLE,
-    Mistake,
-    Report,
-    StudyError,
-    literal,
-    meant,
-    nearest,
-    storable,
-)
-from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.quantities import DISTANCE, YIELD, Request, read_quantities
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, YIELD, Request, read_quantities
 
 if TYPE_CHECKING:
     from swtstudy.study.sample import Sample
+    from swtstudy.units.grid import ContactDetails
     from swtstudy.vocabulary.parameter import Parameter
 
 _READABLE = "a readable study file (TOML)"
@@ -148,41 +141,38 @@ class Study:
             raise StudyError([Mistake("", str(error), "TOML", source)]) from None
         study = study_from(raw, text, source, Path(folder))
         _unused(raw, study.grid, source).refuse()
-        for name in _idle(study.grid):
-            warnings.warn(
-                f"{source}: axes.{name} has no effect: what it is of does not oscillate", stacklevel=2
-            )
-        if isinstance(raw.get("units"), dict):
-            from swtstudy.units.contacts_at_rest import doubts_of_units
-
-            for line in doubts_of_units(study.grid):  # type: ignore[arg-type]
-                warnings.warn(f"{source}: {line}", stacklevel=2)
+        for line in _doubts(study.grid, "units" in raw):
+            warnings.warn(f"{source}: {line}", stacklevel=2)
         return study
 
 
 def _unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
     """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
+    from swtstudy.study.loops_and_profiles import kept_cycles
+
     report = Report(source)
     for parameter in ("load", "profile"):
-        used = {*map(str, grid.values(parameter))}
-        tables = raw.get(f"{parameter}s", {})
+        used, tables = {*map(str, grid.values(parameter))}, raw.get(f"{parameter}s", {})
         # Cycles that are kept one by one are loads of their own.
-        if used.isdisjoint(tables) and not any(
-            table.get("keep_cycles") is True and kept_cycles(name, used) for name, table in tables.items()
-        ):
-            for name in tables:
-                words = f"a {parameter} that is not used"
-                report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
+        kept = (kept_cycles(name, used) for name, table in tables.items() if table.get("keep_cycles"))
+        for name in tables if used.isdisjoint(tables) and not any(kept) else ():
+            words = f"a {parameter} that is not used"
+            report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report
 
 
-def _idle(grid: Grid) -> list[str]:
-    """Axes of phases and frequencies of what stands still, or of loops, which have their own."""
+def _doubts(grid: Grid, has_units: bool) -> Iterator[str]:
+    """Axes of phases and frequencies of what stands still, or of loops, which have their own; odd units."""
     harmonic = len(grid.loops) < len(grid.values("load"))
     moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
     pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
     idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
-    return [name for name, still in idle.items() if still and name in grid.axes]
+    for name in (name for name, still in idle.items() if still and name in grid.axes):
+        yield f"axes.{name} has no effect: what it is of does not oscillate"
+    if has_units:
+        from swtstudy.units.reading import doubts_of_units
+
+        yield from doubts_of_units(grid)  # type: ignore[arg-type]
 
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
@@ -195,148 +185,224 @@ def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
 
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
     """The study of the tables of a file; see `Study.from_text`."""
-    from swtstudy.study.tables import read_structure
+    from swtstudy.study.loops_and_profiles import read_blocks, read_definitions
 
     places: dict[str, str] = {}
     report = Report(source, lambda name: f"{places.get(name, 'fixed')}.{name}")
-    table, of_structure = read_structure(raw, source)
+    parts, of_structure = read_study(raw, source)
     report += of_structure
-    if not storable(str(raw.get("title", ""))):
-        report("title", literal(raw["title"]), STORABLE)
-    fixed, axes = _parts(raw)
-    known = _definitions(raw, folder, report)
-    blocks = read_blocks(raw, known.get("load", {}), report)
-    fixed, axes = with_loads(fixed, axes, [block.load for block in blocks])
-    contacts, distance = read_given(raw, fixed, folder, report)
+    known = read_definitions(raw, parts, folder, report)
+    blocks = read_blocks(raw, parts, known["load"], report)
+    fixed, axes = with_loads(parts.fixed, _axes_of(parts), [block.load for block in blocks])
+    contacts, distance = _contacts(raw, parts, fixed, folder, report)
     if distance is not None:
         if DISTANCE in {*fixed, *axes}:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
         places[DISTANCE] = "material"
-    if contacts is not None:
-        contacts = replace(contacts, blocks=blocks, scatter=read_scatter(raw, contacts, report))
-    elif isinstance(raw.get("sample"), dict):
-        read_scatter(raw, None, report)
-    raw = without_scatter(raw)
-    rows = rows_of(contacts.units if contacts else None)
-    sample, sampled = sample_of(raw, folder, known, report, rows)
+    own: Mapping[str, Parameter] = rows(contacts.units) if contacts else PARAMETERS
+    sample, scatter = None, None
+    sampled: list[str] = []
+    if parts.sample is not None:
+        from swtstudy.study.sample import read_sample
+
+        single = _sampled_of(own)
+        sample, sampled, scatter = read_sample(parts.sample, folder, report, known, single, contacts)
+    is_sampled = parts.sample is not None and (bool(sampled) or scatter is None)
     places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     places |= {"load": "blocks"} if blocks else {}
     samples = {name: sample.values[name] if sample else None for name in sampled}
-    distances = read_distances(fixed, axes, report, {**AXES, **rows}[DISTANCE])
-    names = read_quantities(raw.get("quantities", []), "quantities", report)
-    if contacts is not None and contacts.yield_strengths:
-        names = tuple(dict.fromkeys((*names, YIELD)))
-    counts = contacts is not None and bool(contacts.materials or contacts.shear_materials)
-    if blocks and contacts is not None and not counts:
-        told_of_lives(raw, report)
-    asked = Request(names, *distances, counts=counts)
-    grid: Grid | None
-    if isinstance(raw.get("sample"), dict) and not sampled:
-        grid, found = None, Report()  # what is sampled is unknown: nothing else is missing
+    distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
+    names = read_quantities(parts.quantities, "quantities", report)
+    asked = Request(names, *distances)
+    if contacts is not None:
+        contacts = replace(contacts, blocks=tuple(blocks), scatter=scatter)
+        asked = _asked_of(contacts, asked, raw, report)
+    grid, wrong = None, Report()
+    if is_sampled and not sampled:
+        pass  # what is sampled is unknown: nothing else is missing
     elif contacts is None:
-        grid, found = read_grid(
-            fixed, axes, report.key, source, others=(DISTANCE,), known=known, samples=samples
-        )
+        grid, wrong = read_grid(fixed, axes, report.key, source, (DISTANCE,), samples, known)
     else:
         from swtstudy.units.reading import read_contacts
 
-        grid, found = read_contacts(
+        grid, wrong = read_contacts(
             fixed, axes, contacts, report.key, source, samples, known, asked.distances
         )
-    report += found
-    figure = _figure_from(raw)
+    report += wrong
+    figure = _figure_of(parts)
     if figure is not None:
-        others = every_name() if contacts and report else ()
-        check_figure(figure, _dims(raw, grid), grid, asked, report, others)
-    if report or table is None or grid is None:
+        dims = [SAMPLE] * is_sampled + _dims(axes, grid)
+        check_figure(figure, dims, grid, asked, report, _every_name() if contacts and report else ())
+    if report or grid is None:
         told = {mistake.key for mistake in of_structure}  # once
         raise StudyError(dict.fromkeys(m for m in report if m in of_structure or m.key not in told))
-    if _names_files(raw):
+    tables = [parts.sample, *parts.loads.values(), *parts.profiles.values()]
+    if "file" in (parts.material or ()) or any(table.file for table in tables if table):
         # An archive and what a killed run leaves are read in other folders, and when the files may be gone.
-        text = to_toml(table.title, table.rtol, grid, figure, asked)
-    return Study(table.title, grid, table.rtol, asked, figure, text, sample)
+        text = to_toml(parts.title, parts.rtol, grid, figure, asked)
+    return Study(parts.title, grid, parts.rtol, asked, figure, text, sample)
+
+
+def _contacts(
+    raw: Mapping[str, Any], parts: Parts, fixed: Mapping[str, Any], folder: Path, report: Report
+) -> tuple[ContactDetails | None, float | None]:
+    """Units and materials, None for a study without units; and the critical distance of the materials."""
+    if parts.units is not None:
+        from swtstudy.units.material import read_given
+
+        return read_given(parts.units, parts.material, fixed, folder, report)
+    if "material" in raw and "units" not in raw:
+        report("material", "constants without [units]", "with [units] only: a life needs a real contact")
+    return None, None
+
+
+def _asked_of(contacts: ContactDetails, asked: Request, raw: Mapping[str, Any], report: Report) -> Request:
+    """The request with stresses for contacts with strengths, and strain cycles for those with constants."""
+    if contacts.yield_strengths:
+        asked = replace(asked, names=tuple(dict.fromkeys((*asked.names, YIELD))))
+    counts = bool(contacts.materials or contacts.shear_materials)
+    wrong = any(mistake.key.startswith("material") for mistake in report)
+    if contacts.blocks and not counts and "material" in raw and not wrong:
+        found = "blocks with a [material] without lives"
+        report("blocks", found, "constants of lives: Miner's sum needs them")
+    return replace(asked, counts=counts)
+
+
+def _figure_of(parts: Parts) -> FigureLayout | None:
+    """The layout of a study's figure, if it has one that is sound."""
+    if parts.figure is None:
+        return None
+    y = parts.figure.y
+    return FigureLayout(**{**dict(parts.figure), "y": (y,) if isinstance(y, str) else tuple(y)})
 
 
 def with_loads(
-    fixed: dict[str, Any], axes: dict[str, Any], of_blocks: Sequence[str]
+    fixed: Mapping[str, Any], axes: Mapping[str, Any], of_blocks: Sequence[str]
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """The same with the loads of blocks, as the last axis if there are several."""
     loads = list(dict.fromkeys(of_blocks))
-    if not loads:
-        return fixed, axes
-    fixed, axes = ({n: v for n, v in part.items() if n != "load"} for part in (fixed, axes))
-    return (fixed, {**axes, "load": loads}) if len(loads) > 1 else ({**fixed, "load": loads[0]}, axes)
+    fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in (fixed, axes))
+    if len(loads) > 1:
+        return fixed, {**axes, "load": loads}
+    return ({**fixed, "load": loads[0]} if loads else fixed), axes
 
 
-def _names_files(raw: Mapping[str, Any]) -> bool:
-    """Return whether a sound study has parts in files of their own."""
-    defined = [table for kind in ("loads", "profiles") for table in raw.get(kind, {}).values()]
-    return any("file" in table for table in (raw.get("sample", {}), raw.get("material", {}), *defined))
+def _axes_of(parts: Parts) -> GivenAxes:
+    """The axes as they are read; None for one that is wrong."""
+    return {
+        name: axis if axis is None or isinstance(axis, list) else Range(**dict(axis))
+        for name, axis in parts.axes.items()
+    }
 
 
-def _dims(raw: Mapping[str, Any], grid: Grid | None) -> list[str]:
-    """The dimensions that a figure may name, also where there is no grid because of mistakes."""
+def _sampled_of(own: Mapping[str, Parameter]) -> dict[str, Parameter]:
+    """The parameters that may be sampled."""
+    return {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
+
+
+def _dims(axes: Mapping[str, Any], grid: Grid | None) -> list[str]:
+    """The dimensions that a figure may name beside a sample, also without a grid because of mistakes."""
     # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
-    axis_names = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
-    names = [name if name in AXES else meant(name, AXES) or name for name in axis_names]
-    names += ["load"] if raw.get("blocks") and (grid is None or "load" in grid.dims) else []
-    dims = [*((SAMPLE,) if "sample" in raw else ()), *names]
-    return dims + ([] if grid is None else [dim for dim in grid.dims if dim not in dims])
+    names = [name if name in AXES else meant(name, AXES) or name for name in axes]
+    return names + [dim for dim in (grid.dims if grid else ()) if dim not in (*names, SAMPLE)]
 
 
-def sample_of(
-    raw: Mapping[str, Any], folder: Path, known: Known, report: Report, rows: Mapping[str, Parameter]
-) -> tuple[Sample | None, list[str]]:
-    """The sample, and the names of the parameters that are sampled."""
-    if not isinstance(raw.get("sample"), dict):
-        return None, []
+def _every_name() -> set[str]:
+    """Names of all data variables that a study with units may have."""
+    from swtstudy.units.results import NAMES
+
+    return {*NAMES, *EVERY_VARIABLE}
+
+
+#: What a study has that is nothing of one contact.
+_OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
+
+
+def one_of_study(
+    path: str, values: Mapping[str, object], smoothing: float | None = None, at_rest: bool = False
+) -> Grid:
+    """The one point of a study file, with other values of some parameters, or values along its axes.
+
+    Parameters
+    ----------
+    path
+        The study file, or the name of a study of the paper.
+    values
+        Its parameters, over those of the study; the profile may be a CSV file.
+    smoothing
+        Of a profile that is a table, over that of the study.
+    at_rest
+        Whether only the contact at rest counts: then axes that do not change it need no value.
+
+    Returns
+    -------
+    Grid
+        Of one value of each parameter: a `PhysicalGrid`, but for both bodies, if the study has units.
+
+    Raises
+    ------
+    StudyError
+        With every mistake; also if an axis of the study, or what it samples, has no value here.
+    """
+    from swtstudy.units.material import STRENGTH
+
+    path = str(find_study(path))
+    raw = tables_of(path)
+    parts, mistakes = read_study(raw, path)
+    if mistakes:
+        raise StudyError(mistakes)
+    fixed, axes = with_loads(parts.fixed, _axes_of(parts), [block.load for block in parts.blocks])
+    profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
+    if Path(name).suffix == ".csv":
+        file, name = str(Path(name).resolve()), Path(name).stem
+        profiles[name], values = {"file": file}, {**values, "profile": name}
+    if smoothing is not None:
+        if name not in profiles:
+            raise StudyError([Mistake("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")])
+        profiles[name] = {**profiles[name], "smoothing": smoothing}
+    replaced = {*values}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
+    if values.get("profile") in profiles and "radius" not in values:
+        replaced |= {"radius"}  # a table has lengths of its own
+    if "profile" in values:  # what the profile does not have
+        replaced |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
+    if "criterion" in values:
+        replaced |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
+    several = {
+        name: axis.start if isinstance(axis, Range) else (axis or [None])[0] for name, axis in axes.items()
+    }
+    several |= _firsts_of_sample(parts, Path(path).parent)
+    several = {n: first for n, first in several.items() if n not in (*replaced, DISTANCE, "body")}
+    if at_rest:
+        # Any of its values will do for what the contact at rest does not depend on.
+        needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)
+        values = {**{name: first for name, first in several.items() if name not in needed}, **values}
+        several = {name: first for name, first in several.items() if name in needed}
+    if several:
+        found = f"several values of {', '.join(several)}"
+        option = f"--{next(iter(several)).replace('_', '-')} VALUE"
+        raise StudyError([Mistake("", found, f"one of each, such as {option}", path)])
+    kept = {key: table for key, table in raw.items() if key not in _OF_STUDIES}
+    kept |= {"profiles": profiles} if profiles else {}
+    if "criterion" in values and "material" in kept:
+        own = {key: value for key, value in kept.pop("material").items() if key == STRENGTH}
+        kept |= {"material": own} if own else {}
+    others = {name: value for name, value in fixed.items() if name not in replaced and name != DISTANCE}
+    kept["fixed"] = others | dict(values)
+    return study_from(kept, "", path, Path(path).parent).grid
+
+
+def _firsts_of_sample(parts: Parts, folder: Path) -> dict[str, object]:
+    """The first values of the parameters that a study samples; None for those with mistakes."""
+    if parts.sample is None:
+        return {}
     from swtstudy.study.sample import read_sample
+    from swtstudy.units.rows import read_units
 
-    single = {name: row for name, row in rows.items() if name not in (DISTANCE, "body")}
-    return read_sample(raw["sample"], folder, report, known, single)
-
-
-def _definitions(raw: Mapping[str, Any], folder: Path, report: Report) -> dict[str, dict[str, Definition]]:
-    """Return the definitions of the study, by parameter and name, as far as its structure is sound."""
-    known: dict[str, dict[str, Definition]] = {}
-    for parameter in ("load", "profile"):
-        tables = raw.get(f"{parameter}s", {})
-        if not tables or not isinstance(tables, dict):
-            continue
-        from swtstudy.study.loops_and_profiles import read_loops, read_profiles
-
-        sound = {name: table for name, table in tables.items() if isinstance(table, dict)}
-        labels = raw["units"] if isinstance(raw.get("units"), dict) else {}
-        read = read_loops if parameter == "load" else read_profiles
-        known[parameter] = read(sound, folder, report, labels)
-    return known
-
-
-def _parts(raw: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Fixed values and axes as far as their structure is sound, so that all mistakes are found at once."""
-    from swtstudy.study.keys import read_keys
-    from swtstudy.study.tables import RangeTable
-
-    fixed, axes = (raw.get(key, {}) for key in ("fixed", "axes"))
-    good: dict[str, Any] = {}
-    for name, axis in axes.items() if isinstance(axes, dict) else ():
-        sound = read_keys(RangeTable, axis)[0] if isinstance(axis, dict) else None
-        good[name] = Range(**dict(sound)) if sound else axis if isinstance(axis, list) else None
-    return (fixed if isinstance(fixed, dict) else {}), good
-
-
-def _figure_from(raw: Mapping[str, Any]) -> FigureLayout | None:
-    """The layout of a study's figure; None without one, or with mistakes, which are reported elsewhere."""
-    from swtstudy.study.keys import read_keys
-    from swtstudy.study.tables import FigureTable
-
-    figure = raw.get("figure")
-    table = read_keys(FigureTable, figure)[0] if isinstance(figure, dict) else None
-    if table is None:
-        return None
-    y = (table.y,) if isinstance(table.y, str) else tuple(table.y)
-    return FigureLayout(**{**dict(table), "y": y})
+    units = read_units(parts.units, Report()) if parts.units is not None else None
+    own = _sampled_of(rows(units) if units else PARAMETERS)
+    sample, sampled, _ = read_sample(parts.sample, folder, Report(), {}, own)
+    return {name: sample.values[name][0] if sample else None for name in sampled}
 
 
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:

@@ -149,32 +149,27 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 
 def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     """Find mistakes in what is combined with the kind of figure."""
-    kind = f'kind = "{layout.kind}"'
-    surface = layout.kind in SURFACES
+    kind, surface, of_sample = layout.kind, layout.kind in SURFACES, layout.kind in SAMPLE_KINDS
+    named = f'kind = "{kind}"'
     if surface and layout.vertical is None:
-        yield "figure.vertical", "nothing", f"the name of an axis ({kind} needs it)"
-    elif not surface and layout.vertical is not None:
-        yield "figure.vertical", literal(layout.vertical), f"none for {kind}, whose vertical axis is y"
-    if surface and layout.hue is not None:
-        yield "figure.hue", literal(layout.hue), f"none for {kind}"
+        yield "figure.vertical", "nothing", f"the name of an axis ({named} needs it)"
+    for role, wrong, allowed in (
+        ("vertical", not surface, f"none for {named}, whose vertical axis is y"),
+        ("hue", surface, f"none for {named}"),
+        ("panels", kind == "scatter", f"none for {named}: every sampled parameter has its own"),
+        ("regimes", of_sample or kind in ("heatmap", "life"), f"False for {named}"),
+        ("validity", kind == "histogram", f"False for {named}"),
+    ):
+        if wrong and getattr(layout, role):
+            yield f"figure.{role}", literal(getattr(layout, role)), allowed
     for role, name in layout.roles():
-        named = name in AXES and AXES[name].kind == "name"
-        if role in ("x", "vertical") and named and layout.kind != "heatmap":
+        is_name = name in AXES and AXES[name].kind == "name"
+        if role in ("x", "vertical") and is_name and kind != "heatmap":
             yield f"figure.{role}", literal(name), "an axis of numbers"
-        if name == SAMPLE and (role != "x" or layout.kind not in SAMPLE_KINDS):
+        if name == SAMPLE and (role != "x" or not of_sample):
             yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
-    if layout.kind in ("heatmap", "life") and layout.regimes:
-        yield "figure.regimes", "True", f"False for {kind}"
-    if layout.kind not in SAMPLE_KINDS:
-        return
-    if layout.x != SAMPLE:
-        yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {kind}'
-    if layout.kind == "scatter" and layout.panels is not None:
-        yield "figure.panels", literal(layout.panels), f"none for {kind}: every sampled parameter has its own"
-    if layout.regimes:
-        yield "figure.regimes", "True", f"False for {kind}"
-    if layout.validity and layout.kind == "histogram":
-        yield "figure.validity", "True", f"False for {kind}"
+    if of_sample and layout.x != SAMPLE:
+        yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {named}'
 
 
 #: What is allowed in the place of the name of an axis where there is none.

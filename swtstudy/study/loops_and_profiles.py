@@ -1,8 +1,9 @@
-"""The loops of loads, and the profiles as tables, that a study defines in its text or in files beside it."""
+"""The loops of loads, the profiles as tables and the blocks that a study defines, in its text or in files."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,126 +13,119 @@ from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
-from swtstudy.study.columns import FileTable, read_columns
-from swtstudy.study.keys import place_of, read_keys
-from swtstudy.study.signal import BULK, COLUMNS, Signal, SignalTable, signal_from
-from swtstudy.study.tables import LoadTable, ProfileTable
+from swtstudy.study.columns import read_columns
+from swtstudy.study.keys import FileTable, LoadTable, Parts, ProfileTable, SignalTable, place_of, sound_keys
+from swtstudy.study.signal import BULK, COLUMNS, Signal, signal_from
 from swtstudy.study.trace import trace_from
+from swtstudy.units.life import Block, wrong_rounds
 from swtstudy.units.reading import ANY, ANY_MEASURED
-from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
-#: Numbers of a harmonic: order, amplitude, phase.
-_OF_HARMONIC = 3
-#: What may be said of a signal in a file.
-KEYS = (*SignalTable.model_fields,)
-#: What may be said of vertices and of harmonics besides.
+#: What may be said beside what defines a loop.
 _BESIDE = {
     "vertices": ("absolute", "mean_normal"),
     "normal": ("mean_normal",),
-    "file": (*KEYS, "keep_cycles"),
+    "file": (*SignalTable.model_fields, "keep_cycles"),
 }
+#: Columns of the file of a profile.
+PROFILE_COLUMNS = ("radius", "height")
+#: Stands for a wrong profile.
+_ANY_PROFILE = TabulatedProfile("any", np.linspace(0.0, 1e3, 9), np.linspace(0.0, 1e3, 9) ** 2)
 
 
-def read_loops(
-    tables: Mapping[str, Any], folder: Path, report: Report, labels: Mapping[str, Any]
-) -> dict[str, Definition]:
-    """The loops of a study, by name, as far as they are sound.
+def read_definitions(
+    raw: Mapping[str, Any], parts: Parts, folder: Path, report: Report
+) -> dict[str, dict[str, Definition]]:
+    """The loops and profiles of a study, by parameter and name; mistakes are reported.
+
+    What is wrong stands for any: that it is used is no mistake of its own.
 
     Parameters
     ----------
-    tables
-        What the study has under ``loads``, as far as its structure is sound.
+    raw, parts
+        The tables of the study, and the sound ones.
     folder
         That of the study, to which the paths of files are relative.
     report
         Told what is wrong with them.
-    labels
-        Those of the study's units by kind, as far as they are given.
     """
-    found: dict[str, Definition] = {}
-    for name, table in tables.items():
-        key = f"loads.{name}"
-        # A wrong loop stands for any: that it is used is no mistake of its own.
-        found[name] = ANY_MEASURED if {"absolute", "mean_normal"} & {*table} else ANY
-        form, _ = read_keys(LoadTable, table)
-        if form is None:
-            continue  # reported with the structure
-        kind = _kind(table)
-        if isinstance(kind, Mistake):
-            report(key, kind.found, kind.allowed)
-            continue
-        try:
-            if kind == "file":
-                if table.get("keep_cycles") is True and table.get("harmonics") is not None:
-                    allowed = "one of the two: kept cycles are as they were recorded"
-                    report(key, "keep_cycles and harmonics", allowed)
-                    continue
-                signal = signal_from(folder / table["file"], name, form, labels)
-                found[name] = signal.loop
-                for each in signal.loops if table.get("keep_cycles") is True else ():
-                    if each.name in tables:
-                        report(f"loads.{each.name}", f"the name of a cycle of loads.{name}", "another name")
-                    found[each.name] = each
-            else:
-                found[name] = _loop(name, table, kind)
-        except StudyError as error:
-            for mistake in error.mistakes:
-                report(*_placed(mistake, key, kind))
-    return found
+    loads: dict[str, Definition] = {}
+    for name, load in parts.loads.items():
+        given = raw["loads"][name]
+        measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
+        loads[name] = ANY_MEASURED if measured else ANY
+        if load is not None:
+            loads |= _read_load(name, load, folder, parts, report)
+    profiles: dict[str, Definition] = dict.fromkeys(parts.profiles, _ANY_PROFILE)
+    for name, profile in parts.profiles.items():
+        if profile is not None and (found := _read_profile(name, profile, folder, parts, report)):
+            profiles[name] = found
+    return {"load": loads, "profile": profiles}
 
 
-def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
-    """The signal that a load of a sound study is; None for one that comes from no file."""
-    table = parse_toml(text).get("loads", {}).get(name, {})
-    form, _ = read_keys(LoadTable, table)
-    return signal_from(folder / table["file"], name, form) if form is not None and form.file else None
-
-
-def _kind(table: Mapping[str, Any]) -> str | Mistake:
-    """Key that defines a loop: its vertices, a file, or harmonics of which "normal" is the first."""
-    given = [each for each in ("vertices", "file", *COLUMNS, BULK) if table.get(each) is not None]
-    if given not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
+def _read_load(
+    name: str, table: LoadTable, folder: Path, parts: Parts, report: Report
+) -> dict[str, Definition]:
+    """The loop of a table, and those of cycles that are kept; none with mistakes, which are reported."""
+    key, own = f"loads.{name}", _given(table)
+    kinds = [each for each in ("vertices", "file", *COLUMNS, BULK) if each in own]
+    if kinds not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
         allowed = "vertices, file, or normal and tangential, with or without bulk"
-        return Mistake("", " and ".join(given) or "nothing", allowed)
-    kind = given[0]
-    known = (*_BESIDE["file"], "mean_normal")  # others are reported elsewhere
-    strange = [key for key in known if table.get(key) is not None and key not in (*given, *_BESIDE[kind])]
-    if strange:
+        report(key, " and ".join(kinds) or "nothing", allowed)
+        return {}
+    kind = kinds[0]
+    if strange := [each for each in own if each not in (*kinds, *_BESIDE[kind])]:
         of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
-        return Mistake("", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
-    return kind
+        report(key, f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
+        return {}
+    try:
+        if table.file is None:
+            return {name: _loop(name, table, kind)}
+        if table.keep_cycles and table.harmonics is not None:
+            allowed = "one of the two: kept cycles are as they were recorded"
+            report(key, "keep_cycles and harmonics", allowed)
+            return {}
+        signal = signal_from(folder / table.file, name, table, parts.units)
+        kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
+        for each in (each for each in kept if each in parts.loads):
+            report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
+        return {name: signal.loop, **kept}
+    except StudyError as error:
+        for mistake in error.mistakes:
+            first = re.split(r"[,.]", mistake.key)[0]
+            if kind == "file" and first in SignalTable.model_fields and not mistake.source:
+                report(f"{key}.{mistake.key}", mistake.found, mistake.allowed)
+            else:
+                where = key if kind == "normal" else f"{key}.{kind}"
+                report(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed)
+        return {}
 
 
-def _placed(mistake: Mistake, key: str, kind: str) -> tuple[str, str, str]:
-    """A mistake in a loop, at its key in the study."""
-    first = mistake.key.partition(",")[0].partition(".")[0]
-    if kind == "file" and first in KEYS and not mistake.source:
-        return f"{key}.{mistake.key}", mistake.found, mistake.allowed
-    where = key if kind == "normal" else f"{key}.{kind}"
-    return where, f"{mistake.found}{place_of(mistake)}", mistake.allowed
+def _given(table: FileTable) -> list[str]:
+    """The keys of a table that have a value."""
+    return [name for name in type(table).model_fields if name in table.model_fields_set]
 
 
-def _loop(name: str, table: Mapping[str, Any], kind: str) -> Definition:
-    mean, absolute = table.get("mean_normal"), table.get("absolute")
+def _loop(name: str, table: LoadTable, kind: str) -> Definition:
+    """A loop of vertices or of harmonics."""
     if kind == "normal":
-        rows = [_harmonics(table.get(each) or (), each) for each in (*COLUMNS, BULK)]
-        return LoadPath.harmonic_sum(name, *rows, mean_normal=mean)
-    if absolute not in (None, False, True) or (absolute and mean is not None):
-        found = literal(absolute) if mean is None else "absolute and mean_normal"
-        raise StudyError([Mistake("absolute", found, "true or false; without mean_normal")])
-    if absolute:
-        return LoadPath.absolute(name, table["vertices"])
-    return LoadPath(name, table["vertices"], mean)
+        rows = [_harmonics(getattr(table, each) or (), each) for each in (*COLUMNS, BULK)]
+        return LoadPath.harmonic_sum(name, *rows, mean_normal=table.mean_normal)
+    if not table.absolute:
+        return LoadPath(name, table.vertices, table.mean_normal)
+    if table.mean_normal is not None:
+        allowed = "true or false; without mean_normal"
+        raise StudyError([Mistake("absolute", "absolute and mean_normal", allowed)])
+    return LoadPath.absolute(name, table.vertices)
 
 
 def _harmonics(rows: Any, column: str) -> Any:
     """Rows of order, amplitude and phase, which may be a text as in studies."""
     read = list(rows) if isinstance(rows, list | tuple) else rows
     for number, row in enumerate(read if isinstance(read, list) else ()):
-        if isinstance(row, list | tuple) and len(row) == _OF_HARMONIC:
+        if isinstance(row, list | tuple) and len(row) == 3:
             warn_of_degrees(column, row[-1])
             if isinstance(row[-1], str):
                 try:
@@ -142,55 +136,81 @@ def _harmonics(rows: Any, column: str) -> Any:
     return read
 
 
-#: Columns of the file of a profile.
-PROFILE_COLUMNS = ("radius", "height")
-#: What is said of a file, and of a trace.
-OF_FILES = (*FileTable.model_fields, "two_sided", "level")
+def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
+    """The signal that a load of a sound study is; None for one that comes from no file."""
+    table = sound_keys(LoadTable, parse_toml(text).get("loads", {}).get(name, {}))
+    return signal_from(folder / table.file, name, table) if table.file else None
 
-_RADII = np.linspace(0.0, 1e3, 9)
-_ANY_PROFILE = TabulatedProfile("any", _RADII, _RADII**2)
+
+def _read_profile(
+    name: str, table: ProfileTable, folder: Path, parts: Parts, report: Report
+) -> TabulatedProfile | None:
+    """The profile of a table; None with mistakes, which are reported."""
+    key, own = f"profiles.{name}", _given(table)
+    kinds = [each for each in (*PROFILE_COLUMNS, "file") if each in own]
+    if kinds not in (["file"], [*PROFILE_COLUMNS]):
+        report(key, " and ".join(kinds) or "nothing", "radius and height, or file")
+        return None
+    beside: tuple[str, ...] = ("level",)
+    words = "with two_sided"
+    if kinds != ["file"]:
+        beside, words = (*FileTable.model_fields, "two_sided", "level"), "with a file"
+    strange = [each for each in beside if each in own]
+    if strange and not (table.file and table.two_sided):
+        report(key, ", ".join(strange), f"{strange[0]} {words} only")
+        return None
+    try:
+        return profile_from(name, table, folder, parts.units)
+    except StudyError as error:
+        for each in error.mistakes:
+            report(key, f"{each.found}{place_of(each)}", each.allowed)
+        return None
 
 
 def profile_from(
-    name: str, table: Mapping[str, Any], folder: Path, labels: Mapping[str, Any] | None = None
+    name: str, table: ProfileTable, folder: Path, labels: Mapping[str, Any] | None = None
 ) -> TabulatedProfile:
-    """A profile from its table, whose keys are sound."""
-    form, _ = read_keys(ProfileTable, table)
-    if form is None or form.file is None:
-        smoothing = table.get("smoothing") or 0.0
-        return TabulatedProfile(
-            name, table["radius"], table["height"], smoothing, table.get("geometry", AXISYMMETRIC)
-        )
-    if form.two_sided:
-        return trace_from(folder / form.file, name, form, labels)
-    kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
-    radius, height = read_columns(folder / form.file, PROFILE_COLUMNS, (), form, kinds, labels).T
-    return TabulatedProfile(name, radius, height, form.smoothing or 0.0, form.geometry)
+    """A profile from its table."""
+    if table.file is None:
+        radius, height = table.radius, table.height
+    elif table.two_sided:
+        return trace_from(folder / table.file, name, table, labels)
+    else:
+        kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels).T
+    return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 
-def read_profiles(
-    tables: Mapping[str, Any], folder: Path, report: Report, labels: Mapping[str, Any]
-) -> dict[str, Definition]:
-    """The profiles of a study, by name; as `read_loops` for loads."""
-    # A wrong profile stands for any: that it is used is no mistake of its own.
-    found: dict[str, Definition] = {name: _ANY_PROFILE for name in tables}
-    for name, table in tables.items():
-        key = f"profiles.{name}"
-        given = [each for each in (*PROFILE_COLUMNS, "file") if table.get(each) is not None]
-        if read_keys(ProfileTable, table)[1]:
-            continue  # reported with the structure
-        if given not in (["file"], [*PROFILE_COLUMNS]):
-            words = " and ".join(given) or "nothing"
-            report(key, words, "radius and height, or file")
-            continue
-        beside = {"level": "with two_sided"} if given == ["file"] else dict.fromkeys(OF_FILES, "with a file")
-        strange = [each for each in beside if table.get(each) is not None]
-        if strange and not (given == ["file"] and table.get("two_sided") is True):
-            report(key, ", ".join(strange), f"{strange[0]} {beside[strange[0]]} only")
-            continue
-        try:
-            found[name] = profile_from(name, table, folder, labels)
-        except StudyError as error:
-            for each in error.mistakes:
-                report(key, f"{each.found}{place_of(each)}", each.allowed)
-    return found
+def read_blocks(raw: Mapping[str, Any], parts: Parts, names: Iterable[str], report: Report) -> list[Block]:
+    """The blocks of a study, those of a signal that keeps its cycles one by one; mistakes are reported.
+
+    Parameters
+    ----------
+    raw, parts
+        The tables of the study, and the sound ones.
+    names
+        Those of its loops.
+    report
+        Called with key, found and allowed of each mistake.
+    """
+    if parts.blocks and not ("units" in raw and "material" in raw):
+        report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
+    given: dict[str, Mapping[str, Any]] = {"fixed": parts.fixed, "axes": parts.axes}
+    for part, values in given.items():
+        if parts.blocks and "load" in values:
+            found = literal(raw[part]["load"])
+            report(f"{part}.load", found, "nothing: the loads are those of [[blocks]]")
+    blocks: list[Block] = []
+    for number, block in enumerate(parts.blocks):
+        wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
+        for mistake in wrong:
+            report(mistake.key, mistake.found, mistake.allowed)
+        table = parts.loads.get(block.load)
+        cycles = kept_cycles(block.load, names) if table and table.keep_cycles else []
+        blocks += [Block(each, 1.0 if wrong else float(block.rounds)) for each in cycles or [block.load]]
+    return blocks
+
+
+def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
+    """Which of the names are those of cycles that are kept of a load."""
+    return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]

@@ -1,32 +1,244 @@
-"""Samples of parameters: designs of points in given ranges, points from a CSV file, random points of a grid.
+"""Samples: parameters that vary together, and constants of [material] that scatter.
 
-They are read from what a user wrote, with every mistake reported at once. A file has a header with names of
-parameters, and a row for each point.
+A design fills the unit cube (`scipy.stats.qmc`), and distributions make values of its points; or the points
+are given, in the study or in a file with a header of names and a row for each point. Constants need no
+further points: each draw of theirs has a life at every point.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
-from swtstudy.points.values import NOTHING, NamedValues, Value, read_value
-from swtstudy.study.columns import FileTable, read_table
-from swtstudy.study.design import BALANCED, Design, Distribution, read_distribution
-from swtstudy.study.keys import place_of, read_keys
-from swtstudy.study.tables import SampleTable
-from swtstudy.vocabulary.mistakes import Report, StudyError, literal, more_like_it, nearest
+from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
+from swtstudy.study.columns import read_table
+from swtstudy.study.keys import DesignName, FileTable, SampleTable, place_of
+from swtstudy.units.life import SCATTERED, Scatter
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, more_like_it, nearest, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 
+if TYPE_CHECKING:
+    from swtstudy.units.grid import ContactDetails
+
+#: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
+BALANCED = ("sobol", "saltelli")
 #: Key of the file in messages.
 POINTS_KEY = "sample.file"
 ALLOWED_POINTS = "a CSV file: a row with names of parameters, then a row with their values for each point"
+ALLOWED_RANGE = (
+    'both ends, [low, high], or a table such as {distribution = "normal", mean = …, deviation = …}'
+)
+#: What each distribution is given by, beside its bounds; the bounds of the last ones may be left out.
+DISTRIBUTIONS: dict[str, tuple[str, ...]] = {
+    "uniform": (),
+    "triangular": ("mode",),
+    "normal": ("mean", "deviation"),
+    "lognormal": ("median", "deviation"),
+}
+_UNBOUNDED = ("normal", "lognormal")
+#: That of a logarithm: ten times as much or a tenth are as near to the median.
+_LARGEST_DEVIATION = 2.3
+#: A distribution of which the bounds leave less than this is not meant so.
+_LEAST_SHARE = 1e-6
+#: Constants of a material as what may be sampled: exponents are negative, and others positive.
+_CONSTANTS = {
+    name: Parameter(name, name, "", name, lower=low, upper=high, open_lower=high > 0.0)
+    for name in SCATTERED
+    for low, high in [(-10.0, 0.0) if name.endswith("exponent") else (0.0, 1e12)]
+}
+_MATRIX = "a table of variances and covariances, such as strength = { strength = 900, ductility = -0.5 }"
+
+
+@dataclass(frozen=True)
+class Design:
+    """A design of points.
+
+    Attributes
+    ----------
+    name
+        One of `swtstudy.study.keys.DESIGNS`.
+    size
+        Number of points; for "saltelli" that of its base, of which it has d + 2 variants.
+    seed
+        Seed of the random numbers.
+    """
+
+    name: DesignName
+    size: int
+    seed: int
+
+    def count(self, dimensions: int) -> int:
+        """Number of points."""
+        return self.size * (dimensions + 2) if self.name == "saltelli" else self.size
+
+    def attributes(self) -> dict[str, str | int]:
+        """Attributes of the samples of an archive."""
+        return {"design": self.name, "size": self.size, "seed": self.seed}
+
+    def points(self, dimensions: int) -> FloatArray:
+        """The points in the unit cube, shape (n, d)."""
+        from scipy.stats import qmc
+
+        if self.name == "random":
+            return np.random.default_rng(self.seed).random((self.size, dimensions))
+        if self.name == "latin_hypercube":
+            return np.asarray(qmc.LatinHypercube(dimensions, seed=self.seed).random(self.size))
+        twice = self.name == "saltelli"
+        unit = np.asarray(qmc.Sobol((1 + twice) * dimensions, seed=self.seed).random(self.size))
+        return saltelli(unit[:, :dimensions], unit[:, dimensions:]) if twice else unit
+
+
+def saltelli(a: FloatArray, b: FloatArray) -> FloatArray:
+    """The points for Sobol indices: a, b, and for each parameter a with the values of b for this one.
+
+    Parameters
+    ----------
+    a, b
+        Shape (n, d).
+
+    Returns
+    -------
+    array
+        Shape (n (d + 2), d).
+
+    References
+    ----------
+    A. Saltelli et al., Computer Physics Communications 181 (2010) 259-270.
+    """
+    d = a.shape[1]
+    mixed = np.where(np.eye(d, dtype=bool)[:, None, :], b, a)
+    return np.concatenate([a, b, mixed.reshape(-1, d)])
+
+
+@dataclass(frozen=True)
+class Distribution:
+    """The distribution of one parameter, cut off at its bounds.
+
+    Attributes
+    ----------
+    kind
+        One of `DISTRIBUTIONS`; the deviation of "lognormal" is that of the natural logarithm.
+    given
+        What it is given by.
+    low, high
+        Bounds.
+    """
+
+    kind: str
+    given: dict[str, float]
+    low: float
+    high: float
+
+    def values(self, unit: FloatArray) -> FloatArray:
+        """The values at points of the unit interval."""
+        if self.kind == "uniform":
+            return self.low * (1.0 - unit) + self.high * unit
+        whole, below = self._whole(), self._whole().cdf(self.low)
+        return np.clip(whole.ppf(below + unit * self.share()), self.low, self.high)
+
+    def share(self) -> float:
+        """The share of the distribution that is within the bounds."""
+        return float(self._whole().cdf(self.high) - self._whole().cdf(self.low))
+
+    def _whole(self) -> Any:
+        """The distribution without bounds, of scipy's."""
+        from scipy import stats
+
+        given, width = self.given, self.high - self.low
+        if self.kind in ("uniform", "triangular"):
+            middle = (given.get("mode", self.low) - self.low) / width
+            return stats.triang(middle, self.low, width)
+        if self.kind == "normal":
+            return stats.norm(given["mean"], given["deviation"])
+        return stats.lognorm(given["deviation"], scale=given["median"])
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A sample of parameters.
+
+    Attributes
+    ----------
+    values
+        The values of each parameter, all of one length.
+    design
+        The design that they come from; None for given points.
+    ranges
+        How each parameter is distributed in the design.
+    """
+
+    values: NamedValues
+    design: Design | None = None
+    ranges: dict[str, Distribution] = field(default_factory=dict)
+
+
+def read_sample(
+    table: SampleTable,
+    folder: Path,
+    report: Report,
+    known: Known,
+    rows: Mapping[str, Parameter],
+    contacts: ContactDetails | None = None,
+) -> tuple[Sample | None, list[str], Scatter | None]:
+    """The sample of a study's table, as far as it is sound; mistakes are reported.
+
+    Parameters
+    ----------
+    table
+        The table.
+    folder
+        Where a file of points is, if its path is relative.
+    report
+        Called with key, found and allowed of each mistake.
+    known
+        What the user has defined, by parameter and name.
+    rows
+        The parameters that may be sampled.
+    contacts
+        The contacts, with the constants that may scatter.
+
+    Returns
+    -------
+    sample
+        None without parameters.
+    names
+        The parameters that are sampled, as far as known.
+    scatter
+        None without constants.
+    """
+    given = table.model_fields_set
+    forms = [form for form in ("design", "file", "points") if form in given]
+    if len(forms) != 1:
+        allowed = "one of: design, size and ranges; or file; or points"
+        report("sample", " and ".join(forms) or "nothing", allowed)
+        return None, [], None
+    if forms[0] != "design":
+        for name in (each for each in ("size", "seed", "ranges") if each in given):
+            found = f"{literal(getattr(table, name))} beside {forms[0]}"
+            report(f"sample.{name}", found, "only with a design")
+    scatter = _read_scatter(table, contacts, report)
+    points: Mapping[str, Any] | None = table.points
+    if table.file is not None:
+        points = read_points(folder / table.file, report, table, rows)
+        if points is None:
+            return None, [], scatter
+    every = table.ranges if forms[0] == "design" else points or {}
+    own = {name: each for name, each in every.items() if name not in SCATTERED}
+    if not own and (table.covariance or every):
+        return None, [], scatter  # constants alone
+    if forms[0] == "design":
+        return *_designed(table, own, report, rows), scatter
+    values = _given(own, f"sample.{forms[0]}", report, known, rows)
+    return Sample(values) if values else None, [name for name in own if name in rows], scatter
 
 
 def read_points(
@@ -53,146 +265,86 @@ def read_points(
         for each in error.mistakes:
             report(POINTS_KEY, f"{each.found}{place_of(each)}", each.allowed)
         return None
-    if not len(table.cells):
+    if not table.cells:
         report(POINTS_KEY, f"{path} without points", ALLOWED_POINTS)
         return None
-    of_headers = {form.header(name): name for name in (*needed, *names)}
-    return {
-        (name := of_headers.get(header, header)): table.values(name) for header in table.headers if header
-    }
-
-
-_FORMS = "design, size and ranges; or file; or points"
-
-
-@dataclass(frozen=True)
-class Sample:
-    """A sample of parameters.
-
-    Attributes
-    ----------
-    values
-        The values of each parameter, all of one length.
-    design
-        The design that they come from; None for given points.
-    ranges
-        How each parameter is distributed in the design.
-    """
-
-    values: NamedValues
-    design: Design | None = None
-    ranges: dict[str, Distribution] = field(default_factory=dict)
-
-
-def read_sample(
-    raw: Mapping[str, Any], folder: Path, report: Report, known: Known, rows: Mapping[str, Parameter]
-) -> tuple[Sample | None, list[str]]:
-    """The sample of a study's table; None if there are mistakes, which are reported.
-
-    Parameters
-    ----------
-    raw
-        The table, whose structure may be unsound: that is reported elsewhere.
-    folder
-        Where a file of points is, if its path is relative.
-    report
-        Called with key, found and allowed of each mistake.
-    known
-        What the user has defined, by parameter and name.
-    rows
-        The parameters that may be sampled.
-
-    Returns
-    -------
-    sample
-    names
-        The parameters that are sampled, as far as known.
-    """
-    forms = [form for form in ("design", "file", "points") if form in raw]
-    if len(forms) != 1:
-        report("sample", " and ".join(forms) or "nothing", f"one of: {_FORMS}")
-        return None, []
-    if forms[0] == "design":
-        return _designed(raw, report, rows)
-    for name in ("size", "seed", "ranges"):
-        if name in raw:
-            report(f"sample.{name}", f"{literal(raw[name])} beside {forms[0]}", "only with a design")
-    points, key = raw.get("points"), "sample.points"
-    if forms[0] == "file":
-        file, key = raw["file"], POINTS_KEY
-        form, _ = read_keys(SampleTable, raw)
-        points = read_points(folder / file, report, form, rows) if form is not None else None
-    if not isinstance(points, Mapping):
-        return None, []
-    return _given(points, key, report, known, rows), [name for name in points if name in rows]
+    names_of = {form.header(name): name for name in (*needed, *names)}
+    return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
 
 
 def _designed(
-    raw: Mapping[str, Any], report: Report, rows: Mapping[str, Parameter]
+    table: SampleTable, ranges: Mapping[str, Any], report: Report, rows: Mapping[str, Parameter]
 ) -> tuple[Sample | None, list[str]]:
-    form, _ = read_keys(SampleTable, raw)
-    design = None
-    if form is not None and form.design is not None:
-        kind = "power of 2" if form.design in BALANCED else "whole number"
-        if form.size is None or (form.design in BALANCED and form.size & (form.size - 1)):
-            found = "nothing" if form.size is None else literal(form.size)
-            report("sample.size", found, f"a {kind} from 1 to {LONGEST_AXIS}")
-        else:
-            design = Design(form.design, form.size, form.seed)
-    ranges = raw.get("ranges")
-    if not isinstance(ranges, Mapping) or not ranges:
-        if "ranges" not in raw or isinstance(ranges, Mapping):
-            report("sample.ranges", "nothing", "at least one parameter with its range")
-        return None, []
-    read: dict[str, Distribution] = {}
-    numeric = [name for name, row in rows.items() if row.kind == "number"]
-    for name, entry in ranges.items():
-        key = f"sample.ranges.{name}"
-        if name in numeric:
-            distribution = read_distribution(rows[name], entry, key, report)
-            if distribution is not None:
-                read[name] = distribution
-        elif name in rows:
-            report(key, f"{name}, which is not a number", "an axis, or points from a file")
-        else:
-            report(key, f"unknown parameter {literal(name)}", nearest(name, numeric))
-    names = [name for name in ranges if name in numeric]
-    if design is None or len(read) < len(ranges):
+    """Values of parameters in their ranges, at the points of a design."""
+    numeric = {name: row for name, row in rows.items() if row.kind == "number"}
+    names, before = [name for name in ranges if name in numeric], len(report)
+    if not ranges:
+        report("sample.ranges", "nothing", "at least one parameter with its range")
+    for name in (name for name in ranges if name not in numeric):
+        found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
+        if name in rows:
+            found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
+        report(f"sample.ranges.{name}", found, allowed)
+    design, read = _design(table, len(names), report), _distributions(ranges, numeric, report)
+    if design is None or len(report) > before:
         return None, names
-    if design.count(len(names)) > LONGEST_AXIS:
-        report("sample.size", f"{design.count(len(names))} points", f"at most {LONGEST_AXIS} points")
-        return None, names
-    unit = design.points(len(names))
-    values = {
-        name: tuple(read[name].values(column).tolist()) for name, column in zip(names, unit.T, strict=True)
-    }
+    columns = zip(names, design.points(len(names)).T, strict=True)
+    values = {name: tuple(read[name].values(column).tolist()) for name, column in columns}
     return Sample(values, design, read), names
+
+
+def _design(table: SampleTable, dimensions: int, report: Report) -> Design | None:
+    """The design of a table; a wrong size is reported."""
+    if table.design is None:
+        return None  # reported with the structure
+    size, balanced = table.size, table.design in BALANCED
+    if size is None or (balanced and size & (size - 1)):
+        kind, found = (
+            "power of 2" if balanced else "whole number",
+            "nothing" if size is None else literal(size),
+        )
+        report("sample.size", found, f"a {kind} from 1 to {LONGEST_AXIS}")
+        return None
+    design = Design(table.design, size, table.seed)
+    if (count := design.count(dimensions)) > LONGEST_AXIS:
+        report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
+    return design
+
+
+def _distributions(
+    ranges: Mapping[str, Any], rows: Mapping[str, Parameter], report: Report
+) -> dict[str, Distribution]:
+    """The sound distributions of parameters."""
+    of_each = {
+        name: _distribution(rows[name], entry, f"sample.ranges.{name}", report)
+        for name, entry in ranges.items()
+        if name in rows
+    }
+    return {name: each for name, each in of_each.items() if each is not None}
 
 
 def _given(
     points: Mapping[str, Any], key: str, report: Report, known: Known, rows: Mapping[str, Parameter]
-) -> Sample | None:
-    """Points given one by one."""
-    values: NamedValues = {}
-    lengths = {name: len(column) for name, column in points.items() if isinstance(column, Sequence)}
+) -> NamedValues:
+    """Points given one by one; none with mistakes."""
+    lengths = {name: len(column) for name, column in points.items()}
     if not lengths or min(lengths.values()) == 0:
         report(key, "no points", "at least one point")
-        return None
+        return {}
+    before = len(report)
     if len({*lengths.values()}) > 1:
         words = ", ".join(f"{length} of {name}" for name, length in lengths.items())
-        report(key, f"{words}", "as many values of each parameter")
+        report(key, words, "as many values of each parameter")
     if max(lengths.values()) > LONGEST_AXIS:
         report(key, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
-        return None
+        return {}
+    values: NamedValues = {}
     for name, column in points.items():
         if name not in rows:
             report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
-        elif name in lengths:
-            good = _column(rows[name], column, f"{key}.{name}", report, known)
-            if good is not None:
-                values[name] = good
-    sound = len(values) == len(points) and len({*lengths.values()}) == 1
-    return Sample(values) if sound else None
+        elif good := _column(rows[name], column, f"{key}.{name}", report, known):
+            values[name] = good
+    return {} if len(report) > before else values
 
 
 def _column(
@@ -210,6 +362,148 @@ def _column(
         return tuple(good)
     report(key, wrong[0] + more_like_it(len(wrong)), row.allowed)
     return None
+
+
+def _distribution(parameter: Parameter, raw: object, key: str, report: Report) -> Distribution | None:
+    """The distribution of a parameter that a user wrote; None if there are mistakes, which are reported."""
+    if isinstance(raw, list) and len(raw) == 2:
+        raw = {"distribution": "uniform", "low": raw[0], "high": raw[1]}
+    if not isinstance(raw, Mapping):
+        report(key, literal(raw), ALLOWED_RANGE)
+        return None
+    kind = raw.get("distribution")
+    if not isinstance(kind, str) or kind not in DISTRIBUTIONS:
+        found = literal(kind) if "distribution" in raw else "nothing"
+        report(f"{key}.distribution", found, nearest(str(kind or ""), DISTRIBUTIONS))
+        return None
+    before = len(report)
+    known = ("distribution", "low", "high", *DISTRIBUTIONS[kind])
+    for name in (each for each in raw if each not in known):
+        report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
+    bounds = {"low": parameter.lower, "high": parameter.upper} if kind in _UNBOUNDED else {}
+    numbers = {
+        name: _number(parameter, name, raw.get(name, bounds.get(name)), f"{key}.{name}", report)
+        for name in known[1:]
+    }
+    if len(report) > before:
+        return None
+    low, high = numbers.pop("low"), numbers.pop("high")
+    distribution = Distribution(kind, numbers, low, high)
+    wrong = _wrong_distribution(distribution)
+    if wrong is not None:
+        report(f"{key}{wrong[0]}", *wrong[1:])
+    return distribution if wrong is None else None
+
+
+def _number(parameter: Parameter, name: str, raw: object, key: str, report: Report) -> float:
+    """A number of a distribution: a bound is a value of the parameter, a deviation is positive."""
+    bound = name in ("low", "high")
+    try:
+        if raw is None:
+            raise ValueError
+        if bound and raw == parameter.lower:
+            return parameter.lower  # an open end is a bound, although it is no value
+        read = read_angle if parameter.units == "rad" else read_exact
+        return as_number(read_value(parameter, raw)) if bound else float(read(raw))
+    except ValueError as error:
+        found = "nothing" if raw is None else f"{literal(raw)} ({error})"
+        report(key, found, parameter.allowed if bound else "a number")
+        return math.nan
+
+
+def _wrong_distribution(of: Distribution) -> tuple[str, str, str] | None:
+    """Key, found and allowed of what does not go together in a distribution."""
+    bounds, deviation = f"the bounds {of.low:g} and {of.high:g}", of.given.get("deviation", 1.0)
+    if not of.low < of.high:
+        return "", bounds, "the lower bound first, and a higher one"
+    if of.kind == "lognormal" and deviation > _LARGEST_DEVIATION:
+        allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
+        return ".deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed
+    for name in ("deviation", "median"):
+        if of.given.get(name, 1.0) <= 0.0:
+            return f".{name}", f"{of.given[name]:g}", "a number greater than 0"
+    mode = of.given.get("mode", of.low)
+    if not of.low <= mode <= of.high:
+        return ".mode", f"{mode:g}", f"a number in [{of.low:g}, {of.high:g}]"
+    if of.share() < _LEAST_SHARE:
+        return "", f"{bounds}, which hold none of the distribution", "bounds that hold some of it"
+    return None
+
+
+def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: Report) -> Scatter | None:
+    """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
+    given = {name for part in (table.ranges, table.points) for name in part if name in SCATTERED}
+    if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
+        return None
+    if contacts is None or not contacts.materials:
+        if not any(mistake.key.startswith("material") for mistake in report):
+            report("sample", "constants that scatter", "with the constants of lives in [material]")
+        return None
+    before, target = len(report), table.target_life or 0.0
+    if not 0.0 <= target < math.inf:
+        report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
+    found = {name: np.array(column) for name, column in _drawn(table, contacts, report).items()}
+    for name, column in found.items():
+        one, other = (getattr(constants, name) for constants in contacts.materials)
+        if one != other:
+            report(f"sample.{name}", f"{name} of {one:g} and {other:g}", "one value for both bodies")
+        if wrong := int((column * (-1.0 if name.endswith("exponent") else 1.0) <= 0.0).sum()):
+            allowed = "less scatter, or a distribution that is cut off"
+            report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
+    if len(report) > before or not found:
+        return None
+    names = tuple(name for name in SCATTERED if name in found)
+    draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
+    return Scatter(names, draws, target)
+
+
+def _drawn(table: SampleTable, contacts: ContactDetails, report: Report) -> Mapping[str, Any]:
+    """Draws of constants: given ones, or from ranges and from a covariance about the constants."""
+    given = {name: table.points[name] for name in SCATTERED if name in table.points}
+    if given:
+        return _given(given, "sample.points", report, {}, _CONSTANTS)
+    ranges, before = {n: entry for n, entry in table.ranges.items() if n in SCATTERED}, len(report)
+    correlated, root = _root(table.covariance, ranges, report)
+    if table.design == "saltelli":
+        report("sample.design", literal(table.design), "a design other than saltelli, for draws of constants")
+    read, dimensions = _distributions(ranges, _CONSTANTS, report), len(ranges) + len(correlated)
+    design = _design(table, dimensions, report)
+    if design is None or len(report) > before or not dimensions:
+        return {}
+    from scipy.special import ndtri
+
+    unit = design.points(dimensions)
+    draws = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
+    about = np.array([getattr(contacts.materials[0], name) for name in correlated])
+    normal = ndtri(np.clip(unit[:, len(ranges) :], 1e-12, 1.0 - 1e-12))
+    return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
+
+
+def _root(
+    covariance: Mapping[str, Any], ranges: Mapping[str, Any], report: Report
+) -> tuple[list[str], FloatArray]:
+    """Names of the constants of a covariance, and its root, shape (k, k)."""
+    nothing: tuple[list[str], FloatArray] = ([], np.empty((0, 0)))
+    sound = all(isinstance(row, dict) for row in covariance.values())
+    names = list(
+        dict.fromkeys([*covariance, *(name for row in covariance.values() if sound for name in row)])
+    )
+    if not sound or not {*names} <= {*SCATTERED}:
+        report("sample.covariance", literal(covariance), f"{_MATRIX}, of {', '.join(SCATTERED)}")
+        return nothing
+    for name in (each for each in names if each in ranges):
+        report(f"sample.covariance.{name}", f"{name}, which has a range", "one of the two")
+    # Either half is enough.
+    entries = [
+        [covariance.get(i, {}).get(j, covariance.get(j, {}).get(i, 0.0)) for j in names] for i in names
+    ]
+    matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
+    if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
+        values, vectors = np.linalg.eigh(matrix)
+        if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
+            return names, vectors * np.sqrt(np.clip(values, 0.0, None))
+    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive")
+    return nothing
 
 
 #: The largest index that NumPy's random numbers can be.

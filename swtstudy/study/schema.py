@@ -8,9 +8,9 @@ from typing import Any
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import NUMERIC
-from swtstudy.study.design import DISTRIBUTIONS
-from swtstudy.study.tables import StudyTable
-from swtstudy.units.material import KEYS
+from swtstudy.study.keys import StudyTable
+from swtstudy.study.sample import DISTRIBUTIONS
+from swtstudy.units.material import BY_NAME, PROPERTIES
 from swtstudy.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
 from swtstudy.units.rows import UNIT_KINDS as UNITS
 from swtstudy.vocabulary.choices import families_with
@@ -24,26 +24,6 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "|β|/μ up to which two bodies count as similar, β Dundurs' constant (eq. 1); with units only"
-#: What properties of a material are; the names of others say so.
-_PROPERTIES = {
-    "young_modulus": "Young's modulus of the constants, if it is not that of the body.",
-    "strength": "σf′ of the strain–life constants, a stress.",
-    "strength_exponent": "b, below 0.",
-    "ductility": "εf′.",
-    "ductility_exponent": "c, below 0.",
-    "shear_modulus": "G of the shear constants, if it is not that of the body.",
-    "shear_strength": "τf′ of the constants in torsion, a stress: for lives by Fatemi and Socie.",
-    "shear_strength_exponent": "b in torsion, below 0.",
-    "shear_ductility": "γf′.",
-    "shear_ductility_exponent": "c in torsion, below 0.",
-    "findley_limit": "What the Findley stress is compared with, a stress: for findley_usage.",
-    "yield_strength": "Stress above which the body yields: for von Mises stresses, and marks of validity.",
-    "threshold_stress_intensity_range": "ΔK_th, a range, in stress times √length; for the critical distance.",
-    "fatigue_limit_range": "Δσ_0, a range of stress; for the critical distance.",
-    "load_ratio": "Least over largest load at which both ranges were found; not used, but said.",
-    "file": "Path of a TOML file with a table of properties for each material, relative to the study.",
-    "name": "Name of the material in that file.",
-}
 #: Keys of the figure whose values are names of axes.
 _ROLES = ("x", "vertical", "hue", "panels")
 #: Where a sample may be beside axes.
@@ -116,7 +96,8 @@ def _units() -> dict[str, Any]:
 def _material() -> dict[str, Any]:
     """Schema of fatigue constants."""
     of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
-    properties = {key: {"description": _PROPERTIES[key], **of_both} for key in KEYS}
+    meanings = {key: row.meaning for key, row in PROPERTIES.items()} | BY_NAME
+    properties = {key: {"description": meaning, **of_both} for key, meaning in meanings.items()}
     return {"type": "object", "properties": properties, "additionalProperties": False}
 
 

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
-from swtstudy.loads.smooth_path import HIGHEST_ORDER
-from swtstudy.study.columns import FileTable, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
-from swtstudy.study.keys import Allowed, key, sound_keys, with_keys
+from swtstudy.study.keys import SignalTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
@@ -34,38 +33,6 @@ FEWEST_CYCLES = 3
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
 #: What a column is, with units.
 KINDS = {"normal": "force", "tangential": "force", "bulk": "stress"}
-
-
-class SignalTable(FileTable):
-    """The form of a signal in a file, and its cycles."""
-
-    absolute: Annotated[bool, Allowed("true or false")] = key(
-        "Whether the normal column is the load itself: its mean is the mean load of the study.", False
-    )
-    time: Annotated[str | None, Allowed("the header of the column of the time")] = key(
-        "Header of the file's column of the time; without it samples are even.", None, min_length=1
-    )
-    recorded_cycles: Annotated[int | None, Allowed("a whole number of cycles, 1 or more")] = key(
-        "Number of cycles that the file holds: they are folded into their mean.", None, ge=1
-    )
-    period: Annotated[float | None, Allowed("a positive number")] = key(
-        "Length of a cycle instead of their number, in the unit of the time, or in samples.",
-        None,
-        gt=0.0,
-        allow_inf_nan=False,
-    )
-    frequency: Annotated[float | None, Allowed("a positive number")] = key(
-        "Cycles per unit of the time, such as Hz, instead of the period.", None, gt=0.0, allow_inf_nan=False
-    )
-    harmonics: Annotated[int | None, Allowed(f"a whole number, 1 to {HIGHEST_ORDER}")] = key(
-        "Highest order of a fit of the file's columns by harmonics: a smooth loop.",
-        None,
-        ge=1,
-        le=HIGHEST_ORDER,
-    )
-    despike: Annotated[bool, Allowed("true or false")] = key(
-        "Whether samples that stand out from all other cycles take the median of the cycles.", False
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -306,18 +273,16 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
     """The signal with its period and number of cycles."""
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
-    if given.period is not None or given.frequency is not None:
+    lengths = [each for each in ("period", "frequency") if getattr(given, each) is not None]
+    key = (*lengths, "recorded_cycles")[0]
+    if lengths:
         period = given.period or 1.0 / float(given.frequency or 1.0)
         count = int((length + step * (1.0 + ROUNDING)) / period)
     else:
         count = given.recorded_cycles or 1
         # Each sample is there once: the first is not the last again.
         period = float(length * len(time) / (len(time) - 1) / count)
-    samples = period * (len(time) - 1) / length
-    highest = given.harmonics or 0
-    key = next(
-        (each for each in ("period", "frequency") if getattr(given, each) is not None), "recorded_cycles"
-    )
+    samples, highest = period / step, given.harmonics or 0
     if count < 1:
         raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
@@ -330,18 +295,31 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
-    _warn_of_time(signal)
-    if count == 1 and key == "recorded_cycles" and given.recorded_cycles is None:
-        _warn_of_repeats(signal)
-    if signal.is_folded_apart:
-        found = f"{name}: its {count} cycles differ by more than their mean moves"
-        warnings.warn(f"{found}; is {key} right?", stacklevel=2)
-    elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
-        late = "late" if shift > 0.0 else "early"
-        found = f"{name}: each of its {count} cycles comes {abs(shift):.1%} of a period {late}"
-        best = period * (1.0 + shift)
-        warnings.warn(f"{found}; is the period {best:.4g} and not {period:.4g}?", stacklevel=2)
+    for line in _doubts(signal, key, given.recorded_cycles is None):
+        warnings.warn(f"{name}: {line}", stacklevel=3)
     return signal
+
+
+def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
+    """Lines on a gap in the time, a closed record, one that repeats, and cycles that are none or drift."""
+    values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
+    gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
+    if gap > max(0.25 * period, 3.0 * most):
+        found = f"a gap of {gap:.4g} in the time, at {at:.4g}, where most steps are {most:.4g}"
+        yield f"{found}: the loads there are unknown"
+    if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
+        yield "the last sample is the first again: leave it out if closed"
+    if key == "recorded_cycles" and unsaid and (times := repeats(signal.time, values)):
+        if abs(times - round(times)) < 0.01 * times:
+            yield f"the record repeats {times:.0f} times: recorded_cycles = {times:.0f}?"
+        else:
+            yield f"the record repeats {times:.1f} times: period = {period / times:.4g}?"
+    if signal.is_folded_apart:
+        yield f"its {count} cycles differ by more than their mean moves; is {key} right?"
+    elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
+        found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
+        late = "late" if shift > 0.0 else "early"
+        yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"
 
 
 def _without_spikes(
@@ -366,28 +344,3 @@ def _without_spikes(
         usual = f"where the median of the cycles is {median[row, column]:.4g}{more}"
         warnings.warn(f"{name}: {found}, {usual}: a spike? despike = true takes it out", stacklevel=4)
     return values
-
-
-def _warn_of_repeats(signal: Signal) -> None:
-    """Warn of a record that is read as one load cycle and repeats itself."""
-    found = repeats(signal.time, signal.values)
-    if found is None:
-        return
-    whole = round(found)
-    if abs(found - whole) < 0.01 * found:
-        words = f"the record repeats {whole} times: recorded_cycles = {whole}?"
-    else:
-        length = signal.period / found
-        words = f"the record repeats {found:.1f} times: period = {length:.4g}?"
-    warnings.warn(f"{signal.name}: {words}", stacklevel=4)
-
-
-def _warn_of_time(signal: Signal) -> None:
-    """Warn of a gap between samples, and of a closed record, whose last sample is its first again."""
-    name, values, steps = signal.name, signal.values, np.diff(signal.time)
-    gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
-    if gap > max(0.25 * signal.period, 3.0 * most):
-        found = f"a gap of {gap:.4g} in the time, at {at:.4g}, where most steps are {most:.4g}"
-        warnings.warn(f"{name}: {found}: the loads there are unknown", stacklevel=3)
-    if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
-        warnings.warn(f"{name}: the last sample is the first again: leave it out if closed", stacklevel=3)

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from string import Template
 
-from swtstudy.study.design import DESIGNS
+from swtstudy.study.keys import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.writing import quoted
 from swtstudy.units.rows import Units, rows

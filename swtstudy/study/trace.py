@@ -7,15 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
 import numpy as np
 
 from swtstudy.profiles.table import FEWEST, TabulatedProfile
-from swtstudy.study.columns import FileTable, read_columns
-from swtstudy.study.keys import Allowed, key, sound_keys, with_keys
+from swtstudy.study.columns import read_columns
+from swtstudy.study.keys import TraceTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
-from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: The columns of a trace.
@@ -53,18 +52,6 @@ ROUND, LEAST_FACE = 1e-5, 0.05
 COMPACT = 0.5
 #: Share of its largest rise that a trace has at both of its ends.
 LEAST_RISE = 0.02
-
-
-class TraceTable(FileTable):
-    """A trace in a file, and the profile that is made of it."""
-
-    level: Annotated[bool, Allowed("true or false")] = key(
-        "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.", True
-    )
-    smoothing: Any = key("Root mean square of what the fit may miss of the heights; 0 to miss none.", None)
-    geometry: Any = key(
-        '"axisymmetric", or "plane" for a long body: its radii are then half-widths.', AXISYMMETRIC
-    )
 
 
 @with_keys(TraceTable)

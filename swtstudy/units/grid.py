@@ -274,6 +274,11 @@ class PhysicalGrid(ContactDetails, Grid):
         """The numbers of a parameter, over its dimension if it has one."""
         return self.over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
 
+    def of_bodies(self, value: Callable[[Contact, int], float]) -> xr.DataArray:
+        """A number of every contact and of each point's body, 0 or 1; over contacts if both are alike."""
+        one, two = (self.at_rest.each(lambda contact, k=k: value(contact, k)) for k in (0, 1))  # type: ignore[misc]
+        return one if one.equals(two) else one.where(self.bodies == 0, two)
+
     def over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
         """Numbers that go with the values of a parameter."""
         import xarray as xr
@@ -361,7 +366,7 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """See `Grid.made`."""
-        from swtstudy.units.variables import dims_of
+        from swtstudy.units.results import dims_of
 
         return super().made(asked) | dims_of(self, asked)
 

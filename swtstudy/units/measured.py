@@ -11,8 +11,8 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.labelled import margins
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.grid import PhysicalGrid, are_measured
+from swtstudy.units.results import KINDS
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, UNIT_KINDS, Units, rows
-from swtstudy.units.variables import KINDS
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS

@@ -1,35 +1,30 @@
-"""A grid of real contacts read from what a user wrote, with every mistake reported at once."""
+"""A grid of real contacts read from what a user wrote, with every mistake reported at once.
+
+Contacts that cannot be, or are beyond a range, are told in the user's own quantities and units.
+"""
 
 from __future__ import annotations
 
 import itertools
 import math
 import warnings
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop
+from swtstudy.points import rules
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
-from swtstudy.points.rules import (
-    check_amplitudes,
-    check_criteria,
-    check_forces,
-    check_loops,
-    check_shapes_given,
-)
-from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, read_value, values_taken
+from swtstudy.points.rules import check_shapes_given, largest_depths, largest_reach
+from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, index_at, read_value
+from swtstudy.profiles.at_rest import check_shape, compact_shapes
+from swtstudy.units import grid as grids
 from swtstudy.units.at_rest import Moduli
-from swtstudy.units.contacts_at_rest import check_contacts, check_distances
-from swtstudy.units.grid import (
-    ContactDetails,
-    PhysicalGrid,
-    labels_of,
-    mean_of_loads,
-    measured_amplitudes,
-    still_load,
-)
+from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.rows import (
     LABELS,
     MEAN_LOADS,
@@ -41,16 +36,24 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, is_plane
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal, meant, plain_number
+from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import AXES, FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.wording import unit_words
 
 #: Loads that stand for wrong ones: one in shares of the mean load, and one that was measured.
 ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
+#: More contacts than these take minutes.
+MOST_CONTACTS = 300_000
+#: What is said of a contact in every message.
+_SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
+#: Largest pressure over E* that no metal sustains, and contact radius over R of a table, far above the limit
+#: of half-spaces.
+LARGEST_PRESSURE, LARGEST_RATIO = 0.1, 0.2
 
 
 def read_contacts(
@@ -70,35 +73,32 @@ def read_contacts(
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     raw = everything.get("profile", PARAMETERS["profile"].default)
-    tables = known.get("profile", {})
-    profiles = [
-        tables.get(each, each) if isinstance(each, str) else each
-        for each in (raw if isinstance(raw, list | tuple) else [raw])
-    ]
-    labels = labels_of(given.units, profiles, everything)
+    tables, several = known.get("profile", {}), raw if isinstance(raw, list | tuple) else [raw]
+    profiles = [tables.get(each, each) if isinstance(each, str) else each for each in several]
+    labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, report)
-    similar = single.pop(SIMILAR_KEY, given.similar)
+    similar = plain_number(single.pop(SIMILAR_KEY, given.similar))
+    if not 0.0 <= similar < math.inf:
+        found = literal(fixed[SIMILAR_KEY])
+        report.of(SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
     body_names = _body_names(single, given.body_names, report)
-    if not 0.0 <= plain_number(similar) < math.inf:
-        report.of(SIMILAR_KEY, literal(similar), "a number ≥ 0: the largest |β|/μ of similar bodies")
-    good_fixed, good_axes = read_values(
-        single, axes, report, (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs), samples, known, own
-    )
+    others = (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs)
+    good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
-    _check_lengths(profiles, everything, report)
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
+    _check_lengths(profiles, everything, report)
     _check_given(everything, good, own, report)
-    check_amplitudes(everything, good, report)
-    check_criteria(everything, good, report)
-    _check_units_of_criteria(good, given, report)
+    rules.check_amplitudes(everything, good, report)
+    rules.check_criteria(everything, good, report)
+    _check_units_of_criteria({*good.get("criterion", ())}, given, report)
     check_shapes_given(single, {**axes, **samples}, good, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         return None, report
-    about = replace(given, pairs=pairs, similar=plain_number(similar), body_names=body_names)
+    about = replace(given, pairs=pairs, similar=similar, body_names=body_names)
     grid = completed(good_fixed, good_axes, good_samples, about)
     check_bodies(grid, report)
-    check_loops(grid, report)
+    rules.check_loops(grid, report)
     # Sizes of what stands for a wrong load are no mistakes.
     if not report and not any(load is ANY or load is ANY_MEASURED for load in grid.values("load")):
         check_contacts(grid, report)
@@ -107,18 +107,15 @@ def read_contacts(
     return (None if report else grid), report
 
 
-def _check_units_of_criteria(
-    good: Mapping[str, Sequence[Any]], given: ContactDetails, report: Report
-) -> None:
+def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report: Report) -> None:
     """The criterion that needs the strength of the bodies, the one that has no life, and those of tension."""
-    criteria = values_taken("criterion", good)
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
-    if {*criteria} == {FINDLEY} and (given.materials or given.shear_materials):
+    if criteria == {FINDLEY} and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
         report("material", f"constants with the criterion {FINDLEY} alone", allowed)
-    elif given.shear_materials and not given.materials and criteria and FATEMI_SOCIE not in criteria:
+    elif given.shear_materials and not given.materials and FATEMI_SOCIE not in criteria:
         allowed = f"the criterion {FATEMI_SOCIE}, of whose life they are, or tensile ones as well"
         report("material", "shear constants alone", allowed)
 
@@ -148,10 +145,10 @@ def completed(
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
     scaling = amplitudes_of(loads)
-    fixed = fixed | still_load(profiles, given | scaling)
-    fixed = fixed | measured_amplitudes(given, loads)
+    fixed = fixed | grids.still_load(profiles, given | scaling)
+    fixed = fixed | grids.measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
-    table = rows(labels_of(about.units, profiles, given))
+    table = rows(grids.labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
     if "bulk_stress_amplitude" in scaling:
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
@@ -188,21 +185,16 @@ def _body_names(single: dict[str, object], given: tuple[str, ...], report: Repor
 
 def _pairs(
     fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
-) -> tuple[dict[str, tuple[float, float]], dict[str, object]]:
+) -> tuple[dict[str, Any], dict[str, object]]:
     """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
-    for name in OF_BODIES:
-        raw = fixed.get(name)
-        if not isinstance(raw, list | tuple):
-            continue
-        pairs[name] = ()
-        if len(raw) != 2:
+    for name in (name for name in OF_BODIES if isinstance(fixed.get(name), list | tuple)):
+        raw: Any = fixed[name]
+        both = {f"{name}[{i}]": one for i, one in enumerate(raw)} if len(raw) == 2 else {}
+        if not both:
             report.of(name, literal(raw), f"{own[name].allowed}; or two, one for each body")
-            continue
-        both = {f"{name}[{i}]": one for i, one in enumerate(raw)}
         read, _ = read_values(both, {}, report, rows=dict.fromkeys(both, own[name]))
-        if len(read) == 2:
-            pairs[name] = tuple(map(as_number, read.values()))
+        pairs[name] = tuple(map(as_number, read.values())) if len(read) == 2 else ()
     return pairs, {name: value for name, value in fixed.items() if name not in pairs}
 
 
@@ -215,26 +207,23 @@ def _check_given(
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
     measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
-    everything |= {*measured_amplitudes(everything, measured)}
+    everything |= {*grids.measured_amplitudes(everything, measured)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
             report.of(name, "nothing", own[name].allowed)
     if "radius" in everything and all(tables) and tables:
         report.of("radius", "a radius", "nothing: the table of the profile has lengths")
-    mean = mean_of_loads(everything, measured)
+    loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
+    mean = grids.mean_of_loads(everything, measured)
     if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        loads = [load for load in measured if isinstance(load, Loop) and load.is_absolute]
-        hint = (
-            f"; or absolute = true under [loads.{loads[0]}], whose normal column is far from 0"
-            if loads
-            else ""
-        )
+        absolute, hint = [load for load in measured if isinstance(load, Loop) and load.is_absolute], ""
+        if absolute:
+            hint = f"; or absolute = true under [loads.{absolute[0]}], whose normal column is far from 0"
         report.of(MEAN_LOADS, wrong[0], wrong[1] + hint)
     if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report.of("body", literal(list(good["body"])), "1 or 2")
-    loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     scaling = amplitudes_of(loops)
     sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
     if "bulk_stress_ratio" in everything and not sized:
@@ -244,8 +233,8 @@ def _check_given(
         scaling.discard("normal_amplitude")  # it scales nothing
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
-        named = {*everything, *still_load(profiles, {*everything, *scaling})}
-        check_forces(named, good, report)
+        still = grids.still_load(profiles, {*everything, *scaling})
+        rules.check_forces({*everything, *still}, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = FORCE_OF[name]
@@ -303,3 +292,131 @@ def read_contact(text: object) -> ContactDetails:
     if not sound or {*map(len, several)} - {0, len(LABELS)}:
         raise ValueError(f"not a contact: {literal(text)}")
     return given
+
+
+def check_contacts(grid: PhysicalGrid, report: Report) -> None:
+    """Contacts that cannot be made, parameters beyond their range, and shapes that are not compact."""
+    dims = grid.at_rest_dims
+    count = math.prod(size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims)
+    if count > MOST_CONTACTS:
+        report.of(dims, f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
+    elif wrong := grid.at_rest.wrong:
+        error, own = wrong[0]
+        for mistake in error.mistakes:
+            unit, there = unit_words(grid.row(mistake.key).units), _words(grid, own, mistake.key)
+            found = f"{mistake.found}{unit} at {there}{more_like_it(len(wrong))}"
+            report.of(mistake.key, found, mistake.allowed)
+    elif all([_in_range(grid, column, report) for column in grid.numbers]):
+        for profile in dict.fromkeys(grid.values("profile")):
+            _check_shapes(grid, profile, report)
+
+
+def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
+    """Contacts at rest that hint at a wrong unit: one larger than its radius, or pressed beyond any metal."""
+    lines: dict[str, str] = {}
+    unit = unit_words(grid.labels.length)
+    for contact in {id(each): each for each in grid.at_rest.contacts.flat}.values():
+        radius, edge, profile = contact.radius, contact.contact_radius, contact.profile
+        if not isinstance(profile, str):
+            ratio, pressure = contact.depth / edge, contact.peak_pressure / contact.moduli.normal
+            if ratio > LARGEST_RATIO or (np.isfinite(pressure) and pressure > LARGEST_PRESSURE):
+                sizes = f"a contact radius of {edge:.4g}{unit} over R is {ratio:.3g}"
+                found = f"profile {profile.name}: {sizes}, p0 over E* is {pressure:.3g}"
+                lines.setdefault("table", f"{found}: are heights and positions in one unit?")
+        elif radius is not None and edge - contact.shape.get("flat_radius", 0.0) > radius:
+            found = f"radius {radius:g}{unit} is smaller than the contact ({edge:.3g}{unit})"
+            lines.setdefault("radius", f"{found}: is the radius in another unit, such as metres?")
+    yield from lines.values()
+
+
+def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Report) -> None:
+    """A critical distance beyond its range in the smallest contact."""
+    unit, length = unit_words(grid.row(DISTANCE).units), grid.at_rest.scale("a_H")
+    largest, smallest, upper = max(distances, default=0.0), float(length.min()), AXES[DISTANCE].upper
+    if largest > upper * smallest:
+        words = _words(grid, _at(grid, index_at(length, int(length.values.argmin()))))
+        found = f"{largest:g}{unit} at {words}, {largest / smallest:.4g} a_H"
+        report.of(DISTANCE, found, f"at most {upper * smallest:.4g}{unit}, {upper:g} a_H")
+
+
+def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
+    """Return whether a parameter is in its range everywhere; report the first value that is not."""
+    row, values = PARAMETERS[column], grid.numbers[column]
+    if column in rules.AMPLITUDES:
+        # Of a loop, by which its vertices are multiplied, the largest load counts.
+        loads = grid.values("load")
+        values = values * max(rules.sizes_of(v)[column] if isinstance(v, Loop) else 1.0 for v in loads)
+    source = grid.control.given_for(column)
+    if column == "bulk_stress_mean" and grid.values("bulk_stress_ratio"):
+        source = "bulk_stress_ratio"
+    low, high = (values < row.lower).values, ~(values <= row.upper).values
+    wrong = low | high | ((values == row.lower).values & row.open_lower & bool(grid.values(source)))
+    if column in SHAPE_COLUMNS and row.open_lower:
+        wrong &= values.values != 0.0  # the profile has none of it
+    if not wrong.any() or not row.scale:
+        return True
+    at = index_at(values, int(wrong.argmax()))
+    first, here = tuple(at.values()), _at(grid, at)
+    own, number = as_number(here[source]), float(values.values[first])
+    unit = unit_words(grid.row(source).units)
+    words, more, scale = _words(grid, here, source), more_like_it(int(wrong.sum())), AXES[source].scale
+    most, bound = ("at most", row.upper) if high[first] else ("at least", row.lower)
+    if not np.isfinite(number):
+        found = f"{own:g}{unit} at {words}, friction = {as_number(here['friction']):g}{more}"
+        report.of(source, found, "0: without friction the contact slides at once")
+    elif not scale:  # a ratio, to which the number is not in proportion
+        allowed = f"a mean of {most} {bound:g} {row.scale}"
+        report.of(source, f"{own:g} at {words}, a mean of {number:.4g} {row.scale}{more}", allowed)
+    else:
+        allowed = f"{most} {bound * own / number:.4g}{unit}, {bound:g} {scale}"
+        report.of(source, f"{own:g}{unit} at {words}, {number:.4g} {scale}{more}", allowed)
+    return False
+
+
+def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
+    """A profile whose contact is no full disc, up to the largest depth of each load."""
+    import xarray as xr
+
+    names = family_of(profile).shape
+    if not names and not isinstance(profile, Definition):
+        return
+    contacts, dims = grid.at_rest.contacts, grid.at_rest.dims
+    tables = np.vectorize(lambda contact: contact.pure_profile, otypes=[object])(contacts)
+    owned = np.vectorize(lambda contact: contact.profile == profile, otypes=[bool])(contacts)
+    amplitude, is_own, pure, *shapes = xr.broadcast(
+        grid.numbers["normal_amplitude"],
+        *(xr.DataArray(each, dims=dims) for each in (owned, tables)),
+        *(grid.numbers[name] for name in names),
+    )
+    places = np.flatnonzero(is_own.values)
+    own, tables, *columns = (each.values.ravel()[places] for each in (amplitude, pure, *shapes))
+    shape, largest = dict(zip(names, columns, strict=True)), 1.0 + np.maximum(own * largest_reach(grid), 0.0)
+    wrong, depth = np.zeros(len(places), bool), np.empty_like(largest)
+    for table in dict.fromkeys(tables):
+        same = np.flatnonzero(tables == table)
+        some = {name: values[same] for name, values in shape.items()}
+        depth[same] = largest_depths(grid, table, some, largest[same])
+        wrong[same] = ~compact_shapes(table, some, depth[same])
+    if wrong.any():
+        first = int(wrong.argmax())
+        here = _at(grid, index_at(is_own, int(places[first])))
+        name = grid.control.given_for("normal_amplitude")
+        words = f"{_words(grid, here)}, {name} = {as_number(here[name]):g}{unit_words(grid.row(name).units)}"
+        why = check_shape(tables[first], {n: float(v[first]) for n, v in shape.items()}, depth[first])
+        report.of(names or "profile", words + more_like_it(int(wrong.sum())), f"{why} (in a_H and δ0)")
+
+
+def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
+    """The values of the parameters at a place, or the first ones along dimensions that it leaves open."""
+    values = {name: grid.values(name) for name in grid.rows}
+    return {n: each[int(at.get(grid.dimension(n) or "", 0))] for n, each in values.items() if each}
+
+
+def _words(grid: PhysicalGrid, here: Mapping[str, Value], but: str = "") -> str:
+    """Which contact it is: its size and load, and whatever else of it varies, but for one parameter."""
+    words = []
+    for name in (name for name in grids.AT_REST_NAMES if name in here and name != but):
+        value = here[name]
+        if not isinstance(value, str | Definition) and (name in _SAID or grid.dimension(name)):
+            words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")
+    return ", ".join(words)

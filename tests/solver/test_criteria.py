@@ -25,7 +25,7 @@ from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.points.grid import complete
 from swtstudy.reports.parts import section
 from swtstudy.solving import solve_grid
-from swtstudy.units.variables import KINDS
+from swtstudy.units.results import KINDS
 from swtstudy.vocabulary.choices import CRITERIA
 
 Array = NDArray[np.float64]

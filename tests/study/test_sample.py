@@ -13,9 +13,9 @@ from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import draw
 from swtstudy.runner.run import Stopped
-from swtstudy.study.design import DESIGNS, Design, Distribution
 from swtstudy.study.figure import FigureLayout
-from swtstudy.study.sample import drawn_rows
+from swtstudy.study.keys import DESIGNS
+from swtstudy.study.sample import Design, Distribution, drawn_rows
 from swtstudy.study.template import template
 from swtstudy.study.writing import to_toml
 

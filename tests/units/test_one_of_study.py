@@ -12,7 +12,7 @@ from real import CONTACT, CRITERIA
 from swtstudy import StudyError, inspect_point
 from swtstudy.cli import main
 from swtstudy.contacts import PhysicalContact
-from swtstudy.study.one_point import one_of_study
+from swtstudy.study.definition import one_of_study
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 

@@ -113,13 +113,13 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
     [
         (SAMPLE + "[sample.ranges]\nstrength = 3\n", "sample.ranges.strength: found 3"),
         (SAMPLE.replace("sobol", "saltelli") + RANGE, "a design other than saltelli"),
-        (RANGE, "design None"),
+        (RANGE, "sample: found nothing; allowed: one of: design, size and ranges"),
         (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "symmetric and positive"),
         (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance: found"),
         (SAMPLE + COVARIANCE + RANGE, "strength, which has a range; allowed: one of the two"),
         (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
         (SAMPLE.replace("4e5", "-1") + RANGE, "sample.target_life: found -1"),
-        ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "draws of different length"),
+        ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "2 of strength, 1 of ductility"),
     ],
 )
 def test_mistakes_are_told(more: str, words: str) -> None:

@@ -12,7 +12,7 @@ from swtstudy.archive.describe import describe
 from swtstudy.archive.recall import grid_of
 from swtstudy.cli import main
 from swtstudy.contacts import PhysicalContact
-from swtstudy.study.one_point import one_of_study
+from swtstudy.study.definition import one_of_study
 from swtstudy.study.writing import to_toml
 
 RIG = {
