@@ -356,7 +356,7 @@ def table(found: dict[str, list[tuple[str, float, Array]]]) -> str:
         lines += ["", f"## {box}", ""]
         lines += ["| model | processor time, ms | " + " | ".join(COLUMNS) + " |", "|---" * 6 + "|"]
         for name, seconds, error in models:
-            cells = " | ".join(f"{100.0 * each:.2g} %" for each in quantiles(error))
+            cells = " | ".join(percent(each) for each in quantiles(error))
             lines.append(
                 f"| {name} | {1e3 * seconds:.2g} | {cells if name != REFERENCE else '– | – | – | –'} |"
             )

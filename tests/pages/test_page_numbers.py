@@ -331,7 +331,7 @@ def lives() -> None:
     said = "averaged over a radius of {} µm they are about {} to {} times as long there"
     tens = round(times.min(), -1), round(times.max(), -1)
     says(said, 50, *tens)
-    says("lives in the [example](from_rig_to_study.md#a-worked-example) are {} to {} times as long", *tens)
+    says("lives in the [example](units.md#a-worked-example) are {} to {} times as long", *tens)
 
 
 def checks() -> None:
@@ -388,7 +388,6 @@ def best_load() -> None:
 
 
 def limits() -> None:
-    says("|β|/μ above {} is warned of, above {} refused", NOTICEABLE_MISMATCH, SIMILAR)
     says("contacts with \\|β\\|/μ above {} are warned of, above {} refused", NOTICEABLE_MISMATCH, SIMILAR)
     says("(exit code {}, `--retry-failed`)", POINTS_FAILED)
     says("never on an oblique plane ({} % of s left aside)", 100 * TOLERANCE)
