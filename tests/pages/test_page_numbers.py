@@ -264,7 +264,7 @@ def stability() -> None:
         )
         assert not elsewhere.any()
     count, gone = sum(walk.s.size for walk in walks.values()), sum(int(each.sum()) for each in lost.values())
-    said = "Of their {} points {} have a number, and {}, all of truncated paraboloids, the flag"
+    said = "They have {} points: {} have a number, and {}, all of truncated paraboloids, the flag"
     says(said, count, count - gone, gone)
     ends = {
         "tangential_amplitude": "the tangential amplitude from {} to {}",
