@@ -122,7 +122,7 @@ def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Fig
             at, largest, **stroke("0.4", "--", marker="o", mfc="none", label=f"{label}: largest")
         )
         for axes, title in zip(panels[0], ("(A)  median", "(B)  largest", "(C)  with noise"), strict=True):
-            axes.set(xlabel="points of the table", title=title, ylim=(1e-10, 3e-2))
+            axes.set(xlabel="points of the table", title=title, ylim=(1e-12, 3e-2))
         panels[0, 2].set_xlabel(r"noise and smoothing over $\delta_0$")
         panels[0, 0].set_ylabel("relative error of $s$")
         add_legend(figure, panels)
