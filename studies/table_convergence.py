@@ -31,6 +31,8 @@ NOISE = (1e-5, 1e-4, 1e-3, 1e-2)
 #: Points of a noisy table, largest radius of all, points of the box and relative tolerance.
 NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 12, 1e-7
 H, WAVELENGTH, FACE = 0.05, 5.0, 0.5
+#: Errors below this are rounding; they are drawn here.
+SMALLEST = 1e-12
 SHAPES: dict[str, dict[str, float]] = {
     "rounded_punch": {"flat_radius": FACE},
     "wavy_paraboloid": {"waviness_amplitude": H, "wavelength": WAVELENGTH},
@@ -114,16 +116,16 @@ def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Fig
         panels = sheet.panels(figure, share_x="none")
         for (label, (at, median, largest)), color, marker in zip(curves, COLOURS, MARKERS[1:], strict=False):
             look = {"color": color, "marker": marker, "linestyle": "-", "label": label}
-            panels[0, 0].loglog(at, median, **look)
-            panels[0, 1].loglog(at, largest, **look)
+            panels[0, 0].loglog(at, np.maximum(median, SMALLEST), **look)
+            panels[0, 1].loglog(at, np.maximum(largest, SMALLEST), **look)
         label, (at, median, largest) = noisy_ones
         panels[0, 2].loglog(at, median, **stroke("0.4", marker="o", label=f"{label}: median"))
         panels[0, 2].loglog(
             at, largest, **stroke("0.4", "--", marker="o", mfc="none", label=f"{label}: largest")
         )
         for axes, title in zip(panels[0], ("(A)  median", "(B)  largest", "(C)  with noise"), strict=True):
-            axes.set(xlabel="points of the table", title=title, ylim=(1e-12, 3e-2))
-        panels[0, 2].set_xlabel(r"noise and smoothing over $\delta_0$")
+            axes.set(xlabel="points of the table", title=title, ylim=(0.5 * SMALLEST, 3e-2))
+        panels[0, 2].set_xlabel(r"noise and smoothing, in $\delta_0$")
         panels[0, 0].set_ylabel("relative error of $s$")
         add_legend(figure, panels)
     return figure
