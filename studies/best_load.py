@@ -21,7 +21,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 import swtstudy
-from swtstudy.figures.style import styled
+from swtstudy.figures.legend import place_legend
+from swtstudy.figures.sheet import WIDTHS, new_figure
+from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.surfaces import draw_contours
 
 #: The paper's tangential amplitude, friction and Poisson's ratio are the defaults.
@@ -35,8 +37,8 @@ LEVELS = np.arange(4, 21) / 10
 #: Of ratios from 0 to 2, so that both sides of 1 are told apart.
 COLOURS = ListedColormap(colormaps["PuOr_r"](0.25 * (LEVELS[:-1] + LEVELS[1:])))
 MARKS: dict[str, dict[str, Any]] = {
-    "best": {"marker": "*", "markersize": 20, "color": "white", "markeredgecolor": "black", "linestyle": ""},
-    "worst": {"marker": "X", "markersize": 14, "color": "black", "markeredgecolor": "white", "linestyle": ""},
+    "best": {"marker": "*", "markersize": 13, "color": "white", "markeredgecolor": "black", "linestyle": ""},
+    "worst": {"marker": "X", "markersize": 9, "color": "black", "markeredgecolor": "white", "linestyle": ""},
 }
 
 
@@ -97,8 +99,9 @@ def page(found: dict[object, xr.Dataset], grid: xr.Dataset) -> str:
 
 def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
     """The grid, over s without a normal oscillation, with the optima on it."""
-    with styled():
-        figure = Figure((9.0, 6.6), layout="constrained")
+    best_of_all = min(found, key=lambda ratio: float(found[ratio].s.min()))
+    with styled(width="page"):
+        figure = new_figure((WIDTHS["page"], 4.6), "page")
         panels = figure.subplots(2, 2, sharex=True, sharey=True)
         for axes, (ratio, each) in zip(panels.flat, found.items(), strict=False):
             s = grid.swt.slice(frequency_ratio=ratio).s
@@ -107,22 +110,23 @@ def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
             filled = draw_contours(axes, over_none.transpose("normal_amplitude", "phase"), look)
             for covered in [text for text in axes.texts if text.get_text() == "1"]:
                 covered.remove()  # by the thick line, which the legend explains
-            axes.contour(s.phase, s.normal_amplitude, over_none, [1.0], colors="black", linewidths=2.2)
+            axes.contour(s.phase, s.normal_amplitude, over_none, [1.0], colors="black", linewidths=1.8)
             for case, mark in MARKS.items():
                 at = each.sel(case=case)
                 amplitude = float(at.normal_amplitude)
-                # None has no phase: its mark is in the middle.
+                # Without a normal oscillation there is no phase: the mark is in the middle.
                 phase = float(at.phase) if amplitude > 0.0 else np.pi
-                axes.plot(phase, amplitude, **mark, label=f"{case} of all", clip_on=False, zorder=5)
-            axes.set_title(rf"$\omega_2/\omega_1$ = {ratio}", pad=11)
+                axes.plot(phase, amplitude, **mark, label=f"{case} at this ratio", clip_on=False, zorder=5)
+            title = rf"$\omega_2/\omega_1$ = {ratio}"
+            axes.set_title(f"{title}: best of all" if ratio == best_of_all else title, pad=9)
         for axes in panels[-1]:
             axes.set_xlabel(r"$\psi$ (rad)")
         for axes in panels[:, 0]:
             axes.set_ylabel(r"$\delta_A/\delta_0$")
-        figure.colorbar(filled, ax=panels, label="$s$ over $s$ without a normal oscillation")
-        thick = Line2D([], [], color="black", linewidth=2.2, label="neither better nor worse")
-        marks = panels.flat[0].get_lines()
-        figure.legend(handles=[*marks, thick], loc="outside lower center", ncols=3, numpoints=1)
+        figure.colorbar(filled, ax=panels, label="$s$ divided by $s$ without a normal oscillation")
+        thick = Line2D([], [], color="black", linewidth=1.8, label="no change")
+        handles = [*panels.flat[0].get_lines(), thick]
+        place_legend(figure, handles, [str(handle.get_label()) for handle in handles], {"numpoints": 1})
     return figure
 
 
@@ -146,7 +150,7 @@ def main() -> None:
     text = page(found, grid)
     print(text)
     (given.results / "best_load.md").write_text(text, encoding="utf-8")
-    draw(found, grid).savefig(given.results / "best_load.png", dpi=150)
+    save_figure(draw(found, grid), given.results / "best_load.png")
 
 
 if __name__ == "__main__":

@@ -17,8 +17,9 @@ from accuracy import random_points
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import solve_points
@@ -30,6 +31,8 @@ NOISE = (1e-5, 1e-4, 1e-3, 1e-2)
 #: Points of a noisy table, largest radius of all, points of the box and relative tolerance.
 NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 12, 1e-7
 H, WAVELENGTH, FACE = 0.05, 5.0, 0.5
+#: Errors below this are rounding; they are drawn here.
+SMALLEST = 1e-12
 SHAPES: dict[str, dict[str, float]] = {
     "rounded_punch": {"flat_radius": FACE},
     "wavy_paraboloid": {"waviness_amplitude": H, "wavelength": WAVELENGTH},
@@ -106,21 +109,25 @@ def found(name: str, at: tuple[float, ...], errors: list[Array]) -> Curve:
 
 
 def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Figure:
-    """Errors over the number of points, and over the noise: markers tell curves apart in grey."""
+    """Median and largest errors over the number of points, and both over the noise."""
     with styled(width="page"):
-        sheet = Sheet(1, 2, "page", least_height=3.2)
+        sheet = Sheet(1, 3, "page", least_height=2.8)
         figure = sheet.figure()
-        left, right = sheet.panels(figure, share_x="none")[0]
-        looks = list(zip(COLOURS, MARKERS[1:], strict=False))
-        several = [(left, *each) for each in curves] + [(right, *noisy_ones)]
-        for (axes, label, (at, median, largest)), (color, marker) in zip(several, looks, strict=False):
-            look = {"color": color, "marker": marker}
-            axes.loglog(at, median, linestyle="-", label=label, **look)
-            axes.loglog(at, largest, linestyle=":", mfc="none", **look)
-            axes.legend()
-        left.set(xlabel="points of the table", ylabel="relative error of $s$")
-        left.set_title("(A)  median, filled; largest, open")
-        right.set(xlabel=r"noise over $\delta_0$, smoothed as much", title="(B)  with noise")
+        panels = sheet.panels(figure, share_x="none")
+        for (label, (at, median, largest)), color, marker in zip(curves, COLOURS, MARKERS[1:], strict=False):
+            look = {"color": color, "marker": marker, "linestyle": "-", "label": label}
+            panels[0, 0].loglog(at, np.maximum(median, SMALLEST), **look)
+            panels[0, 1].loglog(at, np.maximum(largest, SMALLEST), **look)
+        label, (at, median, largest) = noisy_ones
+        panels[0, 2].loglog(at, median, **stroke("0.4", marker="o", label=f"{label}: median"))
+        panels[0, 2].loglog(
+            at, largest, **stroke("0.4", "--", marker="o", mfc="none", label=f"{label}: largest")
+        )
+        for axes, title in zip(panels[0], ("(A)  median", "(B)  largest", "(C)  with noise"), strict=True):
+            axes.set(xlabel="points of the table", title=title, ylim=(0.5 * SMALLEST, 3e-2))
+        panels[0, 2].set_xlabel(r"noise and smoothing, in $\delta_0$")
+        panels[0, 0].set_ylabel("relative error of $s$")
+        add_legend(figure, panels)
     return figure
 
 

@@ -3,7 +3,6 @@
 import shutil
 from pathlib import Path
 
-from build_steps.best_and_worst import draw_best_and_worst
 from build_steps.citation import citation
 from build_steps.commands import commands
 from build_steps.gallery import gallery, results_of
@@ -38,7 +37,6 @@ def generate(folder: Path, reports: bool = False) -> None:
         write_if_new(folder / f"{name}.md", text)
     draw_house(WHOLE, folder / "house.svg")
     draw_profiles(folder)
-    draw_best_and_worst(ROOT, folder / "best_and_worst.svg")
     shutil.rmtree(folder / "pages", ignore_errors=True)
     for _, problem in write_reports([archives[name] for name in reported], folder / "pages" / "reports"):
         if problem:

@@ -18,8 +18,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.figures.legend import add_legend
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
+from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import solve_points
@@ -116,21 +117,25 @@ def costs(batch: int, pairs: int) -> list[str]:
 
 
 def draw(found: dict[str, Array], counts: tuple[int, ...], path: Path) -> None:
-    """Median and largest differences over the number of vertices."""
+    """Median and largest differences over the number of vertices, a panel for each."""
+    k = np.array(counts)
     with styled(width="page"):
-        sheet = Sheet(1, 1, "page", least_height=4.0)
+        sheet = Sheet(1, 2, "page", least_height=3.0)
         figure = sheet.figure()
-        axes = sheet.panels(figure)[0, 0]
-        for color, marker, (name, off) in zip(COLOURS, MARKERS[1:], found.items(), strict=False):
-            look = {"color": color, "marker": marker}
-            axes.loglog(counts, np.median(off, axis=1), linestyle="-", label=name, **look)
-            axes.loglog(counts, off.max(axis=1), linestyle=":", mfc="none", **look)
-        axes.loglog(counts, 1.0 / np.array(counts), color="0.5", marker="", label="1/k")
-        axes.set(xlabel="vertices $k$ of the polygon", ylabel="relative difference of $s$")
-        axes.set_title("median, filled; largest, open")
-        axes.set_xticks(counts, map(str, counts))
-        axes.minorticks_off()
-        axes.legend()
+        panels = sheet.panels(figure)
+        for axes, title, of in zip(
+            panels[0], ("(A)  median", "(B)  largest"), (np.median, np.max), strict=True
+        ):
+            for color, marker, (name, off) in zip(COLOURS, MARKERS[1:], found.items(), strict=False):
+                label = name.replace("ω2/ω1", r"$\omega_2/\omega_1$")
+                axes.loglog(k, of(off, axis=1), color=color, marker=marker, linestyle="-", label=label)
+            axes.loglog(k, 1.0 / k, **stroke("0.4", "--"), label="$1/k$")
+            axes.loglog(k, 1.0 / k**2, **stroke("0.4", ":"), label="$1/k^2$")
+            axes.set(xlabel="vertices $k$ of the polygon", title=title)
+            axes.set_xticks(counts, map(str, counts))
+            axes.minorticks_off()
+        panels[0, 0].set_ylabel("relative difference of $s$")
+        add_legend(figure, panels)
     save_figure(figure, path)
 
 

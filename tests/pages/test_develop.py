@@ -1,4 +1,4 @@
-"""What the page for developers says of the code: its places are there, and a value goes the way it shows."""
+"""What the pages for developers say of the code: its places are there, and a value goes the way it shows."""
 
 import ast
 import importlib
@@ -16,7 +16,8 @@ from folders import ROOT
 
 from swtstudy.cli import main
 
-PAGE = (ROOT / "docs" / "develop.md").read_text(encoding="utf-8")
+PAGES = [(ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8") for name in ("develop", "extend")]
+PAGE = "\n".join(PAGES)
 #: Files named there, with what they hold: `file.py::name`.
 PLACES = sorted(set(re.findall(r"`(swtstudy/[\w/]+\.py)(?:::([\w.]+))?`", PAGE)))
 STEPS = re.findall(r"^\d+\. `(swtstudy/[\w/]+\.py)::([\w.]+)`", PAGE, re.MULTILINE)

@@ -59,7 +59,7 @@ def test_mean_stress_sensitivity(exponent):
     sensitivity = np.sqrt(swt[1] / swt[0]) - 1.0
     assert sensitivity == pytest.approx(2.0 ** (1.0 - exponent) - 1.0)
     if exponent == 0.5:
-        says("sensitivity, σ_a(R = −1)/σ_a(R = 0) − 1 (Schütz), is {};", sensitivity)
+        says("sensitivity of SWT, σ_a(R = −1)/σ_a(R = 0) − 1 (Schütz), is {};", sensitivity)
         assert f"− 1 = {sensitivity:.2f}" in swtstudy.FatigueConstants.cycles.__doc__
 
 
@@ -68,7 +68,6 @@ def test_lives_far_out():
     lives = steep.cycles(steep.swt(1e9) * np.array([1.0, 1.0 / 1.1]))
     power = np.log(lives[1] / lives[0]) / np.log(1.1)
     says("with SWT^−{}: 10 % of SWT are a factor of {}.", power, lives[1] / lives[0])
-    says("where N goes with SWT^−{}:", power)
 
 
 def falls(of):

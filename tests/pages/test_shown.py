@@ -50,13 +50,15 @@ FEWER = {
 
 @pytest.fixture(scope="module")
 def fresh(tmp_path_factory):
-    """A copy of what a clone has beside the package; its archives must be those of its studies."""
+    """A copy of what a clone has beside the package, up to date, and the README's rig.toml."""
     folder = tmp_path_factory.mktemp("clone")
     for name in ("results", "studies"):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     for study in sorted((folder / "studies").glob("*.toml")):
         work = assess(Study.from_toml(study), folder / "results" / f"{study.stem}.nc")
         assert not work.missing.any(), f"results/{study.stem}.nc is to be made anew"
+    (rig,) = (block for block in TOML if block.page.name == "README.md")
+    (folder / "rig.toml").write_text(rig.text)
     return folder
 
 
@@ -71,8 +73,6 @@ def clone(fresh, tmp_path_factory):
     shutil.copy2(folder / "results" / "figure3.nc", folder / "mine" / "figure3.nc")
     rows = "".join(f"{r / 10},{max(r / 10 - 0.3, 0.0) ** 2}\n" for r in range(25))
     (folder / "worn.csv").write_text(f"radius,height\n{rows}")
-    (rig,) = (block for block in TOML if block.page.name == "README.md")
-    (folder / "rig.toml").write_text(rig.text)
     (folder / "stresses.csv").write_text("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,0\n1,200,0,0,0,0,50\n")
     (folder / "tests.csv").write_text("tangential_force_amplitude,life\n30,2e10\n60,1e8\n")
     return folder
