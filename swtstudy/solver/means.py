@@ -99,11 +99,14 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
     """
     x, angle = solution.critical_x, solution.critical_angle
     found = means_at(points, x, angle, distance)
+    # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
+    far = np.flatnonzero(np.isnan(x) & np.isfinite(solution.s))
+    for kind in KINDS:
+        for name, own in ((kind, solution.s), (f"{kind}_error", solution.s_error)):
+            found[name][far] = own[far].reshape(-1, *(1,) * (found[name].ndim - 1))
     rows = np.flatnonzero(np.isfinite(x))
-    if not rows.size:
-        return found
     limits = np.array([max(_least(found, int(row)), 0.0) for row in rows]), solution.s[rows]
-    others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=OF_MAXIMA)
+    others = maxima_batch(*limits, **arguments_of(points[rows]), rtol=OF_MAXIMA) if rows.size else ()
     for row, maxima in zip(rows.tolist(), others, strict=True):
         opened, mirrored = None, (maxima[0] > 0.0).all()  # what is at -x is that of x then
         for place, double_angle, swt, ends in zip(*maxima, strict=True):
