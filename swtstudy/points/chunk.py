@@ -11,7 +11,7 @@ import numpy as np
 from swtstudy.points.canonical import COST, SHARED_COLUMNS, Distinct, alike, points_from
 from swtstudy.points.found import Arrays, blank, stacked
 from swtstudy.solver.points import Points, Solution
-from swtstudy.vocabulary.arrays import BoolArray, IndexArray, IntArray
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
 from swtstudy.vocabulary.variables import COMPUTED, FAILED
@@ -40,7 +40,7 @@ class Chunk:
         What is asked of them beside s; distances in a_H.
     """
 
-    places: IntArray | IndexArray
+    places: IndexArray
     points: Points
     asked: Request
 

@@ -94,7 +94,7 @@ class Found:
         number[used] = np.arange(len(used))
         return Found(arrays | {"run": number[arrays["run"]]}, tuple(self.runs[k] for k in used))
 
-    def put(self, index: IndexArray | IntArray, arrays: Arrays) -> None:
+    def put(self, index: IndexArray, arrays: Arrays) -> None:
         """Write values in some places."""
         for name, values in arrays.items():
             if name not in self.arrays:

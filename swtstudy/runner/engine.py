@@ -11,12 +11,12 @@ from typing import Any
 from swtstudy.points.chunk import Chunk, Solver, solve_chunk
 from swtstudy.points.found import Arrays, blank
 from swtstudy.runner.workers import Workers
-from swtstudy.vocabulary.arrays import IndexArray, IntArray
+from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.variables import FAILED
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: Receives places and values of every chunk as soon as they arrive.
-Deliver = Callable[[IntArray | IndexArray, Arrays], None]
+Deliver = Callable[[IndexArray, Arrays], None]
 
 #: Tasks in flight per worker: with two, no worker waits for the parent, and few are lost with a worker.
 IN_FLIGHT = 2

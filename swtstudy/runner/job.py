@@ -18,7 +18,7 @@ from swtstudy.runner.engine import WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.runner.workers import Workers
 from swtstudy.study.definition import Study, require_study
-from swtstudy.vocabulary.arrays import IndexArray, IntArray
+from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
@@ -67,7 +67,7 @@ class Job:
             self._begin = self._saved = time.perf_counter()
             self.work = assess(study, path, retry_failed)
             self._what, self._complete = _told(self.work), not self.work.todo.any()
-            self._unsaved: list[tuple[IntArray | IndexArray, Arrays]] = []
+            self._unsaved: list[tuple[IndexArray, Arrays]] = []
             self.close = held.pop_all().close
 
     def compute(self, workers: Workers, solver: Solver) -> None:
@@ -79,7 +79,7 @@ class Job:
         run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), now, work.asked.items)
         work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
 
-        def deliver(places: IntArray | IndexArray, arrays: Arrays) -> None:
+        def deliver(places: IndexArray, arrays: Arrays) -> None:
             arrays["run"][:] = work.found.runs.index(run)
             self._unsaved.append((places, arrays))
             now = time.perf_counter()
@@ -103,10 +103,8 @@ class Job:
         from swtstudy.archive.parts import save_part
 
         if self._unsaved:
-            places, arrays = (
-                np.concatenate([p for p, _ in self._unsaved]),
-                stacked([a for _, a in self._unsaved]),
-            )
+            several, parts = zip(*self._unsaved, strict=True)
+            places, arrays = np.concatenate(several), stacked(parts)
             part = Found(arrays | {"row": self.work.points.rows[places]}, self.work.found.runs)
             save_part(self._folder, part.take(slice(None)))
             self.work.found.put(places, arrays)
@@ -177,14 +175,14 @@ def _saved(work: Work, path: Path) -> str:
 def _told(work: Work) -> str:
     """Say in the log what is known; what the run does, for the history."""
     count, todo, more = len(work.found), int(work.todo.sum()), int(work.incomplete.sum())
-    if work.outdated:
-        _log.warning("%d points come from another version of the solver and are recomputed", work.outdated)
-    if work.coarse:
-        _log.info("%d points are less accurate than the study asks for and are recomputed", work.coarse)
-    if more:
-        _log.info("%d points are computed, but lack quantities that the study asks", more)
+    for number, level, words in (
+        (work.outdated, logging.WARNING, "come from another version of the solver and are recomputed"),
+        (work.coarse, logging.INFO, "are less accurate than the study asks for and are recomputed"),
+        (more, logging.INFO, "are computed, but lack quantities that the study asks"),
+    ):
+        if number:
+            _log.log(level, "%d points %s", number, words)
     if 0 < todo < count:
         _log.info("%d of %d distinct points are already computed", count - todo, count)
-    return f"{todo} of {count} distinct points computed" + (
-        f", {more} of them for quantities that they lacked" if more else ""
-    )
+    words = f", {more} of them for quantities that they lacked" if more else ""
+    return f"{todo} of {count} distinct points computed{words}"

@@ -1,5 +1,3 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import stand_in
@@ -16,7 +14,7 @@ def kinked(points, rtol):
     """A sharp valley that runs askew, lowest at the largest amplitude and hardly higher at none."""
     bottom = 2.0 + 0.8 * points.normal_amplitude
     s = 0.15 + 0.05 * abs(points.phase - bottom) - 0.05 * (points.normal_amplitude - 0.4) ** 2
-    return replace(stand_in.smooth(points, rtol), s=s, s_surface=s)
+    return stand_in.smooth(points, rtol)._replace(s=s, s_surface=s)
 
 
 @pytest.fixture(scope="module")
@@ -157,7 +155,7 @@ def test_a_quantity_beside_s(monkeypatch):
 def singular_beyond(points, rtol):
     """A smooth function of the friction that is infinite from 1.6 on."""
     found = stand_in.smooth(points, rtol)
-    return replace(found, s=np.where(points.friction < 1.6, found.s, np.inf))
+    return found._replace(s=np.where(points.friction < 1.6, found.s, np.inf))
 
 
 @pytest.mark.slow
