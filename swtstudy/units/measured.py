@@ -13,7 +13,7 @@ from swtstudy.units.at_rest import Contact
 from swtstudy.units.grid import PhysicalGrid, are_measured
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, UNIT_KINDS, Units, rows
 from swtstudy.units.variables import KINDS
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
+from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.variables import ATTRIBUTES
@@ -135,8 +135,6 @@ class Measured(NamedTuple):
             contact.stress_scale,
             contact.moduli.swt_share(self.body),
         )
-        local = {SWT: contact.swt_scale * share, FINDLEY: stress}
-        local[FATEMI_SOCIE] = stress / contact.moduli.shear[self.body]
         found = {name: (length, "length", symbol) for name, symbol in _LENGTHS.items()}
         found |= {name: (stress, "stress", symbol) for name, symbol in _STRESSES.items()}
         found |= {
@@ -147,7 +145,7 @@ class Measured(NamedTuple):
             "height": (contact.depth, "length", "-z"),
             "spring_depth": (contact.depth, "length", "g"),
             "normal_strain": (contact.depth / length * share, "1", r"\varepsilon_n"),
-            "s_local": (local[self.criterion], kind.unit, kind.symbol),
+            "s_local": (kind.scale(contact, self.body), kind.unit, kind.symbol),
             "dissipation": (contact.work_scale, "work", "W"),
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }

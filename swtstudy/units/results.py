@@ -35,7 +35,7 @@ from swtstudy.vocabulary.wording import number_words, numbers_words
 if TYPE_CHECKING:
     from swtstudy.units.grid import PhysicalGrid
 
-#: Facts that an archive has even where there are none; without others it stays as those of before.
+#: Facts that an archive has even where there are none; others are left out then.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
 #: Most lives in memory at once.
 _AT_ONCE = 1_000_000

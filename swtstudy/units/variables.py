@@ -11,6 +11,7 @@ from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, Request,
 if TYPE_CHECKING:
     import xarray as xr
 
+    from swtstudy.units.at_rest import Contact
     from swtstudy.units.grid import PhysicalGrid
 
 #: What a study without units calls so, where the same has units in one with them.
@@ -62,7 +63,7 @@ class Kind(NamedTuple):
     unit
         "stress", or "1".
     scale
-        Over s.
+        Over s, of a body, 0 or 1, of a contact.
     life, life_symbol
         Of the life at that its name and what is below N; empty where there is none.
     """
@@ -71,7 +72,7 @@ class Kind(NamedTuple):
     name: str
     symbol: str
     unit: str
-    scale: Callable[[PhysicalGrid], xr.DataArray]
+    scale: Callable[[Contact, int], float]
     life: str = ""
     life_symbol: str = ""
 
@@ -79,14 +80,6 @@ class Kind(NamedTuple):
 def _of_body(grid: PhysicalGrid, of: Callable[[int], xr.DataArray]) -> xr.DataArray:
     """A value of the first or the second body, 0 or 1, where the grid has that body."""
     return of(0).where(grid.bodies == 0, of(1))
-
-
-def _swt(grid: PhysicalGrid) -> xr.DataArray:
-    return _of_body(grid, lambda body: grid.at_rest.each(lambda c: c.swt_scale * c.moduli.swt_share(body)))
-
-
-def _strain(grid: PhysicalGrid) -> xr.DataArray:
-    return _of_body(grid, lambda body: grid.at_rest.each(lambda c: c.stress_scale / c.moduli.shear[body]))
 
 
 def _stress(grid: PhysicalGrid) -> xr.DataArray:
@@ -98,13 +91,21 @@ def _over(stresses: Sequence[float]) -> Callable[[PhysicalGrid], xr.DataArray]:
     return lambda grid: _of_body(grid, lambda body: _stress(grid) / stresses[body])
 
 
+def _swt(contact: Contact, body: int) -> float:
+    return contact.swt_scale * contact.moduli.swt_share(body)
+
+
+def _strain(contact: Contact, body: int) -> float:
+    return contact.stress_scale / contact.moduli.shear[body]
+
+
 #: By criterion.
 KINDS = {
     kind.criterion: kind
     for kind in (
         Kind(SWT, "SWT", r"\mathrm{SWT}", "stress", _swt, "cycles"),
         Kind(FATEMI_SOCIE, "FS", r"\mathrm{FS}", "1", _strain, "FS_cycles", "FS"),
-        Kind(FINDLEY, "findley_stress", "f", "stress", _stress),
+        Kind(FINDLEY, "findley_stress", "f", "stress", lambda contact, body: contact.stress_scale),
     )
 }
 #: Scales by kind of unit, where these are those of a contact.
@@ -124,7 +125,7 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
             yield from _of_criterion(kind, name, grid)
     radius = "half-width" if grid.plane else "radius"
     places = {name: (position_of(name), "x", NONLOCAL[name].meaning, "length") for name in PLACES}
-    ends = {n: (n.rpartition("_")[2], rf"x_\mathrm{{{n.rpartition('_')[2]}}}") for n in STICK_ENDS}
+    ends = {name: name.removeprefix("stick_") for name in STICK_ENDS}
     made: dict[str, tuple[str, str, str, str]] = {
         "critical_x": ("critical_position", "x", "position of the critical point", "length"),
         **places,
@@ -134,8 +135,8 @@ def variables(grid: PhysicalGrid, asked: Request) -> Iterator[Variable]:
         ),
         "stick_radius": ("stick_radius", "c", f"{radius} that always sticks", "length"),
         **{
-            n: (n, symbol, f"{side} end of what always sticks", "length")
-            for n, (side, symbol) in ends.items()
+            name: (name, rf"x_\mathrm{{{side}}}", f"{side} end of what always sticks", "length")
+            for name, side in ends.items()
         },
         "contact_radius": (
             *("largest_contact_radius", r"a_\mathrm{max}", f"largest contact {radius}", "length"),
@@ -175,7 +176,11 @@ def _of_criterion(kind: Kind, name: str, grid: PhysicalGrid) -> Iterator[Variabl
         CRITERIA[kind.criterion].values + end.replace("_", " "),
         rf"_\mathrm{{{place}}}" * bool(place),
     )
-    own: dict[str, Any] = {"of": name, "scale": kind.scale, "criterion": kind.criterion}
+
+    def scale(grid: PhysicalGrid) -> xr.DataArray:
+        return _of_body(grid, lambda body: grid.at_rest.each(lambda contact: kind.scale(contact, body)))
+
+    own: dict[str, Any] = {"of": name, "scale": scale, "criterion": kind.criterion}
     yield Variable(f"{kind.name}{end}", f"{kind.symbol}{below}", meaning, kind.unit, **own)
     if kind.criterion == FINDLEY and grid.findley_limits:
         symbol, usage = rf"{kind.symbol}{below}/f_\mathrm{{lim}}", own | {"scale": _over(grid.findley_limits)}
