@@ -24,7 +24,9 @@ BINS, SHOWN = 12, 3
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the figure")
+    arguments.add_argument("--quick", action="store_true", help="few bins, to see that it runs")
     given = arguments.parse_args()
+    count = 3 if given.quick else BINS
     sample = swtstudy.open_results(ARCHIVES / "sensitivity.nc")
     indices = xr.load_dataset(ARCHIVES / "sensitivity_indices.nc").isel(quantity=0)
     order = indices.parameter[np.argsort(-indices.total.mean("frequency_ratio").values)].values
@@ -40,7 +42,7 @@ def main() -> None:
             bars.barh(place, own.total, 0.36, xerr=ends, capsize=1.5, **look)
             for axes, name in zip(panels, order, strict=False):
                 x, s = sample[name].values, sample.s.sel(frequency_ratio=ratio).values
-                bins = np.array_split(np.argsort(x), BINS)
+                bins = np.array_split(np.argsort(x), count)
                 middle = [np.median(x[rows]) for rows in bins]
                 low, median, high = np.transpose([np.quantile(s[rows], [0.1, 0.5, 0.9]) for rows in bins])
                 label = rf"$\omega_2/\omega_1$ = {word}: median"
