@@ -358,10 +358,10 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
         try:
             table = StudyTable.model_validate({name: plain(value) for name, value in left.items()})
         except ValidationError as error:
-            for place in {
-                detail["loc"][: _LEVELS.get(str(detail["loc"][0]), 1)] for detail in error.errors()
-            }:
-                _drop(left, *place)
+            places = (detail["loc"] for detail in error.errors())
+            for place in {place[: _LEVELS.get(str(place[0]), 1)] for place in places}:
+                if not _drop(left, *place):
+                    _drop(left, place[0])
     found = {name: getattr(table, name) for name in StudyTable.model_fields}
     for part in ("axes", "loads", "profiles"):
         names = raw.get(part)
@@ -369,15 +369,15 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
     return Parts.model_construct(**found), mistakes
 
 
-def _drop(left: dict[Any, Any], first: Any, *others: Any) -> None:
-    """Take the entry at a place out of tables."""
+def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
+    """Take the entry at a place out of tables; False if there is none."""
     inner = left.get(first)
     if others and isinstance(inner, dict):
-        _drop(inner, *others)
-    elif first == "title":
+        return _drop(inner, *others)
+    if first == "title":
         left["title"] = "-"
-    else:
-        left.pop(first, None)
+        return True
+    return left.pop(first, left) is not left
 
 
 def read_keys(
