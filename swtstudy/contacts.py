@@ -66,9 +66,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from swtstudy.figures.quantity_words import Label
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
+    from swtstudy.figures.words import Label
 
     #: Values with names for their dimensions keep them.
     Values = FloatArray | xr.DataArray
@@ -567,7 +567,7 @@ class PhysicalContact:
     def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
-        from swtstudy.figures.inspection import draw_inspection
+        from swtstudy.figures.point import draw_inspection
 
         labels, headlines = _labels(self._measured(body)), self._headlines(body)
         with self._in_equilibrium(body):
@@ -609,7 +609,7 @@ def _places(contact: Contact, **given: Any) -> dict[str, Any]:
 
 def _labels(measured: Measured) -> dict[str, Label]:
     """By name of a variable what its numbers are in the units of a contact."""
-    from swtstudy.figures.quantity_words import Label
+    from swtstudy.figures.words import Label
 
     found = {name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in measured.scales().items()}
     if measured.criterion != SWT:

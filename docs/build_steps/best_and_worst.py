@@ -7,7 +7,7 @@ import numpy as np
 from swtstudy import inspect_point, open_results
 from swtstudy.figures.sheet import new_figure
 from swtstudy.figures.style import COLOURS, save_figure, styled
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 from swtstudy.reports.findings import Lever, levers
 from swtstudy.reports.values import value_text
 

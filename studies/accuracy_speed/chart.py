@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.legend import add_legend
+from swtstudy.figures.sheet import add_legend
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import styled
 

@@ -198,7 +198,7 @@ def show(
 
 def _point_or_profile(values: dict[str, object], smoothing: float, style: str | None, width: Any) -> Figure:
     """A point, or a profile where its shape alone is given."""
-    from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.point import inspect
     from swtstudy.figures.profile import draw_profile
     from swtstudy.study.loops_and_profiles import profile_from
 

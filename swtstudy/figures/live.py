@@ -20,11 +20,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import load_and_springs
-from swtstudy.figures.force_panels import draw_load_plane
-from swtstudy.figures.inspection_panels import draw_load, draw_springs
+from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 from swtstudy.points.values import read_value
 from swtstudy.solving import solve
 from swtstudy.vocabulary.arrays import FloatArray

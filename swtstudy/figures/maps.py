@@ -12,8 +12,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.patches import Patch
 
 from swtstudy.figures.style import COLOURS, DASHES, stroke
-from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.figures.words import flag_words, tick_in_pi
 
 #: A component below this fraction of the largest one is 0 but for rounding.
 _ROUNDING = 1e-9
@@ -102,28 +101,22 @@ def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
     colours = ListedColormap(STATE_COLOURS)
     norm = BoundaryNorm(np.arange(len(STATE_COLOURS) + 1) - 0.5, colours.N)
     state = dataset.state.transpose("r", "time")
-    # An image: a mesh of so many cells takes longer than all else in the panel.
-    axes.pcolorfast(
-        _edges(state.time), _edges(state.r), state.values, cmap=colours, norm=norm, rasterized=True
-    )
-    axes.plot(dataset.time, dataset.contact_radius, **stroke(linewidth=1.2))
-    words = state.attrs["flag_meanings"].split()
+    # Borders of cells are half way between places. An image: a mesh of so many cells takes longer than all
+    # else in the panel.
+    edges = []
+    for places in (state.time.values, state.r.values):
+        middle = 0.5 * (places[1:] + places[:-1])
+        edges.append(np.array([2.0 * places[0] - middle[0], *middle, 2.0 * places[-1] - middle[-1]]))
+    axes.pcolorfast(*edges, state.values, cmap=colours, norm=norm, rasterized=True)
+    both_sides = float(state.r[0]) < 0.0
+    for sign in (1.0, -1.0) if both_sides else (1.0,):
+        axes.plot(dataset.time, sign * dataset.contact_radius, **stroke(linewidth=1.2))
     draw_time_axis(axes, dataset.time)
-    if float(state.r[0]) < 0.0:  # both sides
-        axes.plot(dataset.time, -dataset.contact_radius, **stroke(linewidth=1.2))
-    axes.set_ylabel("$x/a_H$" if float(state.r[0]) < 0.0 else "$r/a_H$")
+    axes.set_ylabel("$x/a_H$" if both_sides else "$r/a_H$")
     return [
-        Patch(facecolor=colour, edgecolor="black", label=word.replace("_", " "))
-        for word, colour in zip(words, STATE_COLOURS, strict=True)
+        Patch(facecolor=colour, edgecolor="black", label=words)
+        for words, colour in zip(flag_words(state), STATE_COLOURS, strict=True)
     ]
-
-
-def _edges(places: xr.DataArray) -> FloatArray:
-    """Borders of cells about places, half way between them."""
-    middle = 0.5 * (places.values[1:] + places.values[:-1])
-    return np.concatenate(
-        [2.0 * places.values[:1] - middle[:1], middle, 2.0 * places.values[-1:] - middle[-1:]]
-    )
 
 
 def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:

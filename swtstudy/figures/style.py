@@ -151,7 +151,7 @@ def _untouched(name: Any) -> bool:
 
 
 #: Time stamps, left out so that the same results give the same file.
-_NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+_NO_DATE: dict[str, dict[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 FORMATS = (".png", ".pdf", ".svg")
 
@@ -173,9 +173,9 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
         temporary.write_bytes(content)
 
 
-def picture(figure: Figure, ending: str, style: Style | None = None) -> bytes:
-    """The content of a file with a figure: png, pdf or svg; `figure` and `style` as for `save_figure`."""
+def picture(figure: Figure, ending: str, style: Style | None = None, **options: Any) -> bytes:
+    """The content of a file with a figure: png, pdf, svg or webp; ``options`` as of ``savefig``."""
     content = BytesIO()
     with styled(style, getattr(figure, "width", None)):
-        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"))
+        figure.savefig(content, format=ending, metadata=_NO_DATE.get(ending), **options)
     return content.getvalue()

@@ -6,7 +6,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import swtstudy
-from swtstudy.figures import force_panels as panels
+from swtstudy.figures import point as panels
 from swtstudy.figures.maps import STATE_COLOURS
 from swtstudy.paper.reference import march_springs
 

@@ -12,10 +12,11 @@ from solved import REGIMES
 
 import swtstudy
 from swtstudy.figures.draw import draw
-from swtstudy.figures.lines import hue_scale, in_equal_ratios, mark_regimes
+from swtstudy.figures.lines import _mark_regimes as mark_regimes
+from swtstudy.figures.lines import hue_scale, in_equal_ratios
 from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
 from swtstudy.figures.style import STYLE
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 from swtstudy.study.figure import FigureLayout
 
 

@@ -13,7 +13,7 @@ from made_up import made_up
 from swtstudy.figures.draw import draw
 from swtstudy.figures.lines import may_jump, place_jumps
 from swtstudy.figures.sheet import Figure, wrap_texts
-from swtstudy.figures.ticks import tick_in_ratios
+from swtstudy.figures.words import tick_in_ratios
 from swtstudy.study.figure import FigureLayout
 
 X = np.linspace(0.0, 2.0 * np.pi, 49)

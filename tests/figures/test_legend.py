@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
 
-from swtstudy.figures.legend import add_legend
+from swtstudy.figures.sheet import add_legend
 from swtstudy.figures.lines import hue_scale
 from swtstudy.figures.style import MARKERS
 from swtstudy.vocabulary.choices import FAMILIES

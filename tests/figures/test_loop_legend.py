@@ -10,7 +10,7 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 import swtstudy
-from swtstudy.figures.legend import loops_of
+from swtstudy.figures.draw import loops_of
 
 
 def small_lines(legend: Legend) -> list[Line2D]:

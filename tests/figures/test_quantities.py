@@ -8,7 +8,7 @@ from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
 
-from swtstudy.figures.quantity_words import title_words
+from swtstudy.figures.words import title_words
 from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
