@@ -45,7 +45,9 @@ class _Commands(click.Group):
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         for title, commands in _SECTIONS.items():
             with formatter.section(title):
-                formatter.write_dl([(str(each.name), _first_sentence(each)) for each in commands])
+                # The first paragraph of each, uncut.
+                said = (" ".join(str(each.help).split("\n\n")[0].split()) for each in commands)
+                formatter.write_dl([*zip((str(each.name) for each in commands), said, strict=True)])
 
     def resolve_command(
         self, context: click.Context, args: list[str]
@@ -77,11 +79,6 @@ class _Commands(click.Group):
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
-
-
-def _first_sentence(command: click.Command) -> str:
-    """First paragraph of a command's help, uncut."""
-    return " ".join(str(command.help).split("\n\n")[0].split())
 
 
 def _log_to_terminal() -> None:

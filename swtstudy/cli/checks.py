@@ -8,8 +8,15 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_studies, with_width, with_workers
-from swtstudy.cli.terminal import line_length, of_markdown, wrapped
+from swtstudy.cli.options import (
+    examples,
+    study_completion,
+    with_results,
+    with_studies,
+    with_width,
+    with_workers,
+)
+from swtstudy.cli.terminal import line_length, of_markdown, say, table
 
 
 @click.command(epilog=examples("swtstudy sensitivity sensitivity"))
@@ -19,9 +26,7 @@ from swtstudy.cli.terminal import line_length, of_markdown, wrapped
 )
 @click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the bootstrap.")
-@click.option(
-    "--results", default="results", show_default=True, help="Folder for archive, indices and figure."
-)
+@with_results
 @with_width
 @with_workers
 def sensitivity(
@@ -79,7 +84,7 @@ def sensitivity(
 )
 @click.option("--friction", is_flag=True, help="Fit friction, too.")
 @click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
-@click.option("--results", default="results", show_default=True, help="Folder for the fit and its figure.")
+@with_results
 @with_width
 def fit(study: str, tests: str, y: str, friction: bool, confidence: float, results: str, width: Any) -> None:
     """Fit the critical distance, and friction, to the lives of TESTS.
@@ -103,7 +108,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
-        click.echo(wrapped(line, line_length()))
+        say(line)
     for path in targets.values():
         click.echo(str(path))
 
@@ -125,16 +130,20 @@ def check(results: str, output: str | None) -> None:
     or have gaps.
     """
     from swtstudy.paper.statements.check import check as check_statements
-    from swtstudy.paper.statements.check import markdown, summary, terminal_table
+    from swtstudy.paper.statements.check import markdown, summary
     from swtstudy.vocabulary.files import check_writable, write_text
 
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
-    checked = [outcome for outcome in outcomes if outcome.finding is not None]
-    click.echo(terminal_table(checked, line_length() or 120))
+    rows = [
+        (each.statement.place, f"{each.statement.sentence}\n", each.measured, each.verdict)
+        for each in outcomes
+        if each.finding is not None
+    ]
+    click.echo(table(rows, max(line_length() or 120, 80), ("where", "the paper says", "measured", "")))
     click.echo(summary(outcomes))
     problems = dict.fromkeys(
-        line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
+        line for each in outcomes if each.finding is None for line in each.problem.splitlines()
     )
     if problems:
         raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
@@ -147,7 +156,7 @@ def check(results: str, output: str | None) -> None:
 @with_studies
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of random numbers.")
-@click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
+@with_results
 @with_workers
 @click.option(
     "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
@@ -207,8 +216,6 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
             at = found.isel(point=int(found[name].values.argmax()))
             words = f"largest {name} = {float(at[name]):.4g} {at[name].attrs.get('units', '')}".rstrip()
             words += f", {lives} = {float(at[lives]):.3g}" if lives in found else ""
-            place = ", ".join(
-                f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords
-            )
-            click.echo(wrapped(f"{words} at {place or 'the only point'}", line_length()))
+            places = [f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords]
+            say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

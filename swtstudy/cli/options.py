@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from operator import itemgetter
 from pathlib import Path
 
@@ -79,27 +80,27 @@ def study_completion(context: Context, parameter: Parameter, incomplete: str) ->
     """Studies of the paper by name, and study files here or in the folder studies."""
     from swtstudy.study.shipped import shipped_studies
 
-    return _offered([*shipped_studies(), *_files("*.toml", "studies/*.toml")], incomplete)
+    return _offered(incomplete, "*.toml", "studies/*.toml", names=shipped_studies())
 
 
 def archive_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
     """Archives here or in the folder results."""
-    return _offered(_files("*.nc", "results/*.nc"), incomplete)
+    return _offered(incomplete, "*.nc", "results/*.nc")
 
 
-def _files(*patterns: str) -> list[str]:
-    return [str(path) for pattern in patterns for path in sorted(Path().glob(pattern))]
-
-
-def _offered(names: list[str], incomplete: str) -> list[CompletionItem]:
-    """Names that begin with the incomplete word, or else the files that the shell finds."""
-    items = [CompletionItem(name) for name in names if name.startswith(incomplete)]
+def _offered(incomplete: str, *patterns: str, names: Iterable[str] = ()) -> list[CompletionItem]:
+    """Names and files that begin with the incomplete word, or else the files that the shell finds."""
+    files = [str(path) for pattern in patterns for path in sorted(Path().glob(pattern))]
+    items = [CompletionItem(name) for name in (*names, *files) if name.startswith(incomplete)]
     return items or [CompletionItem(incomplete, type="file")]
 
 
 #: What several commands take.
 with_studies = click.argument(
     "studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion
+)
+with_results = click.option(
+    "--results", default="results", show_default=True, help="Folder for archives and what is made of them."
 )
 with_width = click.option(
     "--width",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from swtstudy.cli.options import archive_completion, examples, with_width
-from swtstudy.cli.terminal import line_length, wrapped
+from swtstudy.cli.terminal import say
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -128,15 +128,12 @@ def info(archive: str) -> None:
 
     dataset = open_results(archive)
     for line in describe(dataset):
-        click.echo(wrapped(line, line_length(), INDENT))
-    saved = points_saved(parts_folder(Path(archive)))
-    if saved:
+        say(line, INDENT)
+    if saved := points_saved(parts_folder(Path(archive))):
         click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")
-    kept = points_saved(kept_folder(Path(archive)))
-    if kept:
-        click.echo(
-            f"  kept           {kept} distinct points of other studies are in {kept_folder(Path(archive))}"
-        )
+    folder = kept_folder(Path(archive))
+    if kept := points_saved(folder):
+        click.echo(f"  kept           {kept} distinct points of other studies are in {folder}")
 
 
 @click.command(epilog=examples("swtstudy merge results/a.nc results/b.nc -o results/both.nc"))

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_width, with_workers
-from swtstudy.cli.terminal import line_length, wrapped
+from swtstudy.cli.options import examples, study_completion, with_results, with_width, with_workers
+from swtstudy.cli.terminal import say
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ _NAMED = 5
 )
 @click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--all", "suite", is_flag=True, help="Every study of the paper; see swtstudy list.")
-@click.option("--results", default="results", show_default=True, help="Folder for archives and figures.")
+@with_results
 @click.option(
     "--format",
     "formats",
@@ -178,7 +178,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
     for line in outcome(dataset):
-        click.echo(wrapped(line, line_length(), 2))
+        say(line, 2)
     failed = [*failures(dataset)]
     for where, why in failed[:_NAMED]:
         click.echo(f"failed: {where}: {why}", err=True)

@@ -185,13 +185,11 @@ def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points:
     assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
 
 
-def test_limits_of_the_stress_are_said_beside_the_constants(without_points: None) -> None:
-    contact = swtstudy.physical(
-        young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=200.0,
-        tangential_force_amplitude=60.0, yield_strength=(350.0, 420.0),
-    )  # fmt: skip
-    body = said_in(contact.solve(1e-2), "settings").partition("Limits of the stress")[2]
-    assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 ", "yield strength", "420 "]
+def test_limits_of_the_stress_are_said_beside_the_constants(tmp_path: Path, without_points: None) -> None:
+    text = RECORD.format(alloy="[material]\n").replace("yield_strength = 100", "yield_strength = [350, 420]")
+    found = swtstudy.run(Study.from_text(text), tmp_path / "rig.nc")
+    body = said_in(found, "settings").partition("Limits of the stress")[2]
+    assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 MPa", "yield strength", "420 MPa"]
 
 
 @pytest.mark.parametrize(
