@@ -427,8 +427,7 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
-        from swtstudy.results.objective import Box, read_ranges
-        from swtstudy.results.optimise import check_asked, optimum_in
+        from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
 
         self._one  # noqa: B018 – one contact only, or an error
         grid, asked = self._with_request(rtol, (), critical_distance, constants, yield_strength)

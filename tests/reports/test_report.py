@@ -186,7 +186,7 @@ def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points:
 
 
 def test_limits_of_the_stress_are_said_beside_the_constants(tmp_path: Path, without_points: None) -> None:
-    text = RECORD.format(alloy="[material]\n").replace("yield_strength = 100", "yield_strength = [350, 420]")
+    text = RECORD.format(alloy=ALLOY).replace("yield_strength = 100", "yield_strength = [350, 420]")
     found = swtstudy.run(Study.from_text(text), tmp_path / "rig.nc")
     body = said_in(found, "settings").partition("Limits of the stress")[2]
     assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 MPa", "yield strength", "420 MPa"]
