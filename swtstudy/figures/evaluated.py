@@ -89,7 +89,8 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
         for factor, dashes, label in ((1, "-", "equal"), (2, "--", "factor of 2"), (5, ":", "factor of 5")):
             look = stroke("0.4", dashes, linewidth=0.8)
             axes.plot(ends, ends * factor, label=label, **look)
-            axes.plot(ends, ends / factor, **look)
+            if factor > 1:
+                axes.plot(ends, ends / factor, **look)
         axes.plot(fitted.observed, fitted.predicted, linestyle="none", marker="o", label="tests")
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")

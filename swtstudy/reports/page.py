@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from importlib.resources import files
 from typing import Any, NamedTuple
@@ -29,7 +29,6 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside_words, validity_lines
 from swtstudy.points.values import index_at
 from swtstudy.reports.findings import (
-    CRITERION,
     extreme_places,
     extreme_points,
     indices_of,
@@ -68,22 +67,20 @@ _LARGEST_DRAWING, _DPI, _DPI_SMALL = 400_000, 150, 96
 #: Coordinates in a drawing; their digits behind the point, in 1/72 inch; what is for who reads its source.
 _COORDINATES, _LONG = re.compile(rb' (?:d|x|y|x1|x2|y1|y2|points)="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
 _SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
-#: Most rows of a table of extrema, failed points, and values of an axis that are listed one by one.
-_ROWS, _FAILURES, _LISTED = 12, 12, 8
+#: Most rows of a table of extrema, and values of an axis that are listed one by one.
+_ROWS, _LISTED = 12, 8
 #: What the figures of a sample are over.
 _SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
 
 
 def rendered(template: str, **content: Any) -> str:
-    """A page that needs no other file, from a template of this folder."""
-    room = jinja2.Environment(
-        loader=jinja2.PackageLoader("swtstudy.reports", "."), autoescape=True,
-        trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined,
-    )  # fmt: skip
-    own = {
-        end: Markup(files("swtstudy.reports").joinpath(f"page.{end}").read_text("utf-8"))
-        for end in ("css", "js")
-    }
+    """A page that needs no other file, from a template of this folder, which may call our functions."""
+    look: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+    loader = jinja2.PackageLoader("swtstudy.reports", ".")
+    room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
+    of_page = files("swtstudy.reports")
+    own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
+    room.globals |= {"describe": describe, "share": share, "symbol_of": symbol_of, "value_text": value_text}
     return room.get_template(template).render(**own, **content)
 
 
@@ -142,39 +139,29 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
     rows = table_of(dataset)
     known = about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
     shown = _study_figure(dataset, known) if "figure" in dataset.attrs else None
-    text, ends = str(dataset.attrs.get("study", "")), [*_ends(dataset)]
-    shipped = shipped_studies().get(name)
+    shipped, ends = shipped_studies().get(name), [*_ends(dataset)]
+    text = str(dataset.attrs.get("study", ""))
     return rendered(
         "page.html",
+        ds=dataset,
         name=name,
         home=home,
         title=str(dataset.attrs["title"]),
         sentences=sentences(dataset, indices),
         outside=outside_words(dataset),
         tiles=tiles(dataset, ends),
-        units=has_units(dataset),
-        criterion=dataset.s.attrs.get("comment", "") if CRITERION in dataset.coords else None,
+        contact=read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None,
+        stress=str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else "",
         figure=shown,
         source=packed(rows),
         size=rows.shape,
         extremes=[*_extremes(dataset)],
         indices=_indices(dataset, indices),
         points=points_of(dataset, ends),
-        settings=[*_settings(dataset)],
-        control=str(dataset.control.item()) if "control" in dataset.coords else "",
-        materials=[*_materials(dataset)],
-        accuracy=describe.accuracy(dataset),
-        completeness=describe.completeness(dataset),
+        settings=_settings(dataset),
         validity=validity_lines(dataset, inside=True),
-        regimes=_regimes(dataset),
-        failed=[*describe.failures(dataset)],
-        most_failures=_FAILURES,
         paper=[each for each in about_archive(name, dataset) if each.finding is not None],
-        origin=[row for row in describe.facts(dataset) if row[0].split(" ")[0] in ("made", "history", "run")],
-        study=text,
         own=name if shipped and shipped.read_text("utf-8") == text else f"{name}.toml",
-        cited=f"{dataset.attrs.get('references', '')}; {dataset.attrs['source']}.",
-        made_by=str(dataset.attrs["source"]),
         about=htmlsafe_json_dumps(known, separators=(",", ":"), ensure_ascii=False),
     )
 
@@ -365,62 +352,15 @@ def _point_line(one: xr.Dataset) -> Iterator[Any]:
     yield one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")
 
 
-def _settings(dataset: xr.Dataset) -> Iterator[tuple[Any, str, str, bool]]:
-    """Every parameter: symbol, meaning, values with their unit, and whether these are several."""
+def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
+    """Every parameter that there is something to say of: coordinate, meaning, and values with their unit."""
     hidden = ("body", "direction", *describe.unsaid(dataset))
     for name in dict.fromkeys([*map(str, dataset.s.dims), *map(str, dataset.coords)]):
         if name in AXES and name not in hidden:
             values = dataset[name]
-            symbol = "" if AXES[name].kind == "name" else symbol_of(values)
-            said = with_unit(_listed(name, values), values)
-            yield symbol, AXES[name].meaning, said, values.size > 1
-    for load, words in describe.recorded_loads(dataset):
-        yield "", f"load {load}", words, False
-
-
-def _listed(name: str, values: xr.DataArray) -> str:
-    known = np.atleast_1d(values.values)
-    if len(known) > _LISTED and known.dtype.kind in "fiu":
-        ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
-        return f"{' to '.join(ends)} ({len(np.unique(known))} values)"
-    return ", ".join(dict.fromkeys(value_text(name, value, values.attrs) for value in known.tolist()))
-
-
-def _materials(dataset: xr.Dataset) -> Iterator[tuple[str, list[tuple[str, str]] | str]]:
-    """Titles with the constants of the materials, or with words."""
-    if not has_units(dataset):
-        return
-    given = read_contact(dataset.attrs[CONTACT])
-    stress = str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else ""
-    kinds = {
-        "Strain-life constants": given.materials,
-        "Strain-life constants in torsion": given.shear_materials,
-    }
-    for title, several in kinds.items():
-        for material in dict.fromkeys(several):
-            yield title, [_constant(name, value, stress) for name, value in vars(material).items()]
-    if given.scatter:
-        yield "Scatter", f"{describe.scatter_words(given.scatter)}."
-    limits: Mapping[str, Any] = {
-        "yield_strength": given.yield_strengths,
-        "findley_limit": given.findley_limits,
-    }
-    rows = [
-        (name.replace("_", " "), f"{value_text(name, value)} {given.units.stress}")
-        for name, both in limits.items()
-        for value in dict.fromkeys(both)
-    ]
-    if rows:
-        yield "Limits of the stress", rows
-
-
-def _constant(name: str, value: float, stress: str) -> tuple[str, str]:
-    unit = stress if name.endswith(("modulus", "strength")) else ""
-    return name.replace("_", " "), f"{value_text(name, value)} {unit}"
-
-
-def _regimes(dataset: xr.Dataset) -> list[tuple[str, str, float]]:
-    """Regimes with the share of the points, in words and as a number."""
-    counts = describe.regime_counts(dataset)
-    total = sum(counts.values())
-    return [(name.replace("_", " "), share(n / total), n / total) for name, n in counts.items()]
+            known = np.atleast_1d(values.values)
+            said = list(dict.fromkeys(value_text(name, each, values.attrs) for each in known.tolist()))
+            if len(known) > _LISTED and known.dtype.kind in "fiu":
+                ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
+                said = [f"{' to '.join(ends)} ({len(np.unique(known))} values)"]
+            yield values, AXES[name].meaning, with_unit(", ".join(said), values)

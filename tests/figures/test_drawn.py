@@ -15,7 +15,6 @@ from swtstudy.figures.draw import draw
 from swtstudy.figures.lines import _mark_regimes as mark_regimes
 from swtstudy.figures.lines import hue_scale, in_equal_ratios
 from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
-from swtstudy.figures.style import STYLE
 from swtstudy.figures.words import tick_in_pi
 from swtstudy.study.figure import FigureLayout
 
@@ -207,7 +206,7 @@ def test_eight_values_have_a_scale():
     colours = [line.get_color() for line in figure.axes[0].lines]
     assert len({tuple(colour) for colour in colours}) == 8
     # Up to nine tenths of the map: its lightest end cannot be seen on white.
-    expected = colormaps[STYLE["image.cmap"]](0.9 * np.linspace(0.0, 1.0, 8))
+    expected = colormaps["cividis"](0.9 * np.linspace(0.0, 1.0, 8))
     np.testing.assert_allclose(colours, expected, atol=0.01)
 
 

@@ -10,7 +10,7 @@ from made_up import PANELS
 
 from swtstudy import Study, StudyError, run
 from swtstudy.figures.draw import draw
-from swtstudy.figures.style import STYLE, save_figure
+from swtstudy.figures.style import save_figure, style_of
 from swtstudy.figures.surfaces import _colours
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout
@@ -216,7 +216,7 @@ def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
 
 def test_lines_differ_in_greyscale():
     """Of any five neighbours in the cycle none have the same dashes; later ones differ in the marker."""
-    looks = list(STYLE["axes.prop_cycle"])
+    looks = list(style_of("screen")["axes.prop_cycle"])
     assert all(len({str(look["linestyle"]) for look in looks[i : i + 5]}) == 5 for i in range(30))
     assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 
