@@ -16,7 +16,7 @@ import click
 
 import swtstudy
 from swtstudy.cli.checks import audit, check, fit, history, sensitivity
-from swtstudy.cli.options import check_options, examples
+from swtstudy.cli.options import check_options
 from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
@@ -90,21 +90,21 @@ def _log_to_terminal() -> None:
     logger.setLevel(logging.INFO)
 
 
-@click.group(
-    cls=_Commands,
-    epilog=examples(
-        "swtstudy run figure3      # a study of the paper: archive and figure",
-        "swtstudy new mine         # a commented study to start from",
-        "swtstudy run --help",
-        "",
-        "Shell completion, a line of ~/.bashrc (zsh_source in ~/.zshrc):",
-        '  eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)"',
-    ),
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(swtstudy.__version__, prog_name="swtstudy")
 def main() -> None:
-    """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
+    """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts.
+
+    \b
+    Examples:
+      swtstudy run figure3      # a study of the paper: archive and figure
+      swtstudy new mine         # a commented study to start from
+      swtstudy run --help
+
+    \b
+    Shell completion, a line of ~/.bashrc (zsh_source in ~/.zshrc):
+      eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)"
+    """
 
 
 for _command in itertools.chain(*_SECTIONS.values()):

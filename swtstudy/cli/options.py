@@ -1,4 +1,4 @@
-"""Shared by commands: checks of options, completion of arguments by the shell, examples of the help."""
+"""Shared by commands: checks of options, completion of arguments by the shell."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import click
 from click import Context, Parameter
 from click.shell_completion import CompletionItem
 
+from swtstudy.study.shipped import shipped_studies
 from swtstudy.vocabulary.mistakes import Report, meant
 from swtstudy.vocabulary.parameters import AXES
 
@@ -78,7 +79,6 @@ def check_options(context: click.Context, command: click.Command, args: list[str
 
 def study_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
     """Studies of the paper by name, and study files here or in the folder studies."""
-    from swtstudy.study.shipped import shipped_studies
 
     return _offered(incomplete, "*.toml", "studies/*.toml", names=shipped_studies())
 
@@ -110,8 +110,3 @@ with_width = click.option(
 with_workers = click.option(
     "--workers", default=2, show_default=True, type=click.IntRange(1), help="Threads, or processes."
 )
-
-
-def examples(*lines: str) -> str:
-    """The epilog of a command: one line per example, as typed."""
-    return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
+from swtstudy.cli.options import SEVERAL, InSections, study_completion, with_width
 from swtstudy.cli.terminal import fitted, line_length, say
+from swtstudy.study.shipped import find_study
 from swtstudy.units.rows import Units, rows
+from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
@@ -61,14 +63,7 @@ def with_parameters(
     return decorate
 
 
-@click.command(
-    cls=InSections,
-    epilog=examples(
-        "swtstudy solve --phase 0,pi/2",
-        "swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4",
-        "swtstudy solve --profile rounded_punch --flat-radius 0.5,1",
-    ),
-)
+@click.command(cls=InSections)
 @with_parameters(SEVERAL, PARAMETERS.values())
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 @click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
@@ -84,6 +79,12 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     or a file they are parted by tabs.
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+
+    \b
+    Examples:
+      swtstudy solve --phase 0,pi/2
+      swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4
+      swtstudy solve --profile rounded_punch --flat-radius 0.5,1
     """
     from swtstudy.solving import solve as solve_grid
     from swtstudy.vocabulary.choices import REGIMES
@@ -118,17 +119,7 @@ def _values(text: str) -> str | list[str]:
     return parts if len(parts) > 1 else parts[0]
 
 
-@click.command(
-    cls=InSections,
-    epilog=examples(
-        "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
-        "swtstudy show --profile rounded_punch --flat-radius 0.5",
-        "swtstudy show --profile worn.csv",
-        "swtstudy show rig.toml --tangential-force-amplitude 60",
-        "swtstudy show rig.toml --profile worn.csv --smoothing 0.0002",
-        "swtstudy show --load square loops",
-    ),
-)
+@click.command(cls=InSections)
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
 @with_parameters("VALUE", (*PARAMETERS.values(), *_SIZES))
 @click.option("--body", metavar="BODY", help="1 or 2, or its name.  [default: 1]")
@@ -160,10 +151,18 @@ def show(
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
+
+    \b
+    Examples:
+      swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf
+      swtstudy show --profile rounded_punch --flat-radius 0.5
+      swtstudy show --profile worn.csv
+      swtstudy show rig.toml --tangential-force-amplitude 60
+      swtstudy show rig.toml --profile worn.csv --smoothing 0.0002
+      swtstudy show --load square loops
     """
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     from swtstudy.figures.style import save_figure
-    from swtstudy.vocabulary.files import check_writable
 
     check_writable(output)
     words = ""
@@ -228,7 +227,6 @@ def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure
     from swtstudy.figures.load import draw_load
     from swtstudy.study.definition import Study
     from swtstudy.study.loops_and_profiles import read_signal_of
-    from swtstudy.study.shipped import find_study
 
     study, path = Study.from_toml(source), find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)

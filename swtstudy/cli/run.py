@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_results, with_width, with_workers
+from swtstudy.archive.paths import archive_paths
+from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
 from swtstudy.cli.terminal import say
+from swtstudy.study.shipped import shipped_folder
+from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -34,14 +37,7 @@ CONNECT_SECONDS = 10.0
 _NAMED = 5
 
 
-@click.command(
-    epilog=examples(
-        "swtstudy run figure3",
-        "swtstudy run mine.toml --workers 8 --format pdf",
-        "swtstudy run mine.toml --scheduler tcp://host:8786",
-        "swtstudy run --all",
-    )
-)
+@click.command()
 @click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--all", "suite", is_flag=True, help="Every study of the paper; see swtstudy list.")
 @with_results
@@ -85,11 +81,15 @@ def run(
 
     After 2 and 130 everything computed so far is saved, and the same command
     continues from there.
+
+    \b
+    Examples:
+      swtstudy run figure3
+      swtstudy run mine.toml --workers 8 --format pdf
+      swtstudy run mine.toml --scheduler tcp://host:8786
+      swtstudy run --all
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
-    from swtstudy.study.shipped import shipped_folder
-    from swtstudy.vocabulary.files import check_writable
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")

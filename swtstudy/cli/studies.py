@@ -8,15 +8,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.options import examples, with_studies, with_workers
+from swtstudy.archive.paths import archive_paths
+from swtstudy.cli.options import with_studies, with_workers
 from swtstudy.cli.terminal import say
+from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
+from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.wording import duration, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
 
 
-@click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
+@click.command()
 @click.argument("name")
 @click.option("--units", is_flag=True, help="A study of real contacts, in N, mm and MPa.")
 def new(name: str, units: bool) -> None:
@@ -24,10 +29,15 @@ def new(name: str, units: bool) -> None:
 
     Beside it goes the schema that editors use to complete and check studies. An existing study is never
     replaced.
+
+    \b
+    Examples:
+      swtstudy new mine
+      swtstudy plan mine.toml
+      swtstudy run mine.toml
     """
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template, template_with_units
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     if Path(name).name in ("", ".toml"):
         raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
@@ -49,14 +59,18 @@ def new(name: str, units: bool) -> None:
         click.echo(str(schema))
 
 
-@click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
+@click.command()
 @with_studies
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything.
 
     Says, too, which limits of the model points exceed, as far as their loads alone tell.
+
+    \b
+    Examples:
+      swtstudy validate mine.toml
+      swtstudy validate studies
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.points.foreseen import foreseen
     from swtstudy.study.definition import sound_studies
 
@@ -74,7 +88,7 @@ def validate(studies: tuple[str, ...]) -> None:
     report.refuse()
 
 
-@click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
+@click.command()
 @with_studies
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
 @with_workers
@@ -82,8 +96,12 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     """Show what a run of each STUDY would compute, and how long it would take.
 
     A few points are computed to time them, loops of many vertices with fewer; nothing is written.
+
+    \b
+    Examples:
+      swtstudy plan figure3
+      swtstudy plan mine.toml --workers 8
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
 
     defined = read_studies(studies)
@@ -97,8 +115,6 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
     """Describe in lines what a run would do, with its time from a few points that are solved."""
     from swtstudy.points.chunk import solve_points
     from swtstudy.runner.work import assess, estimate
-    from swtstudy.vocabulary.quantities import DISTANCE
-    from swtstudy.vocabulary.wording import duration, unit_words
 
     work = assess(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
@@ -131,15 +147,19 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
         yield f"  time               about {duration(seconds / workers)} with {workers} workers ({each})"
 
 
-@click.command("list", epilog=examples("swtstudy list", "swtstudy run figure3"))
+@click.command("list")
 def list_studies() -> None:
     """List the studies of the paper.
 
     They come with the package; other commands accept their names as STUDY.
+
+    \b
+    Examples:
+      swtstudy list
+      swtstudy run figure3
     """
     from swtstudy.points.canonical import LARGEST_GRID
     from swtstudy.study.definition import Study
-    from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 
     studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))
@@ -153,16 +173,20 @@ def list_studies() -> None:
     click.echo(f"files: {shipped_folder()}")
 
 
-@click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))
+@click.command()
 @click.option("--output", "-o", help="File for the schema; by default it is printed.")
 def schema(output: str | None) -> None:
     """Write the JSON schema of study files.
 
     Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
     a study whose first line is "#:schema study.schema.json".
+
+    \b
+    Examples:
+      swtstudy schema
+      swtstudy schema -o study.schema.json
     """
     from swtstudy.study.schema import schema_text
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     if output is None:
         click.echo(schema_text(), nl=False)

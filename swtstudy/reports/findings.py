@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from swtstudy.archive.outcome import life_words, outcome, shown_in
 from swtstudy.archive.recall import grid_of
@@ -15,7 +15,7 @@ from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
-from swtstudy.reports.values import along, is_number, place_html, symbol_html, symbol_of, unit_of, value_text
+from swtstudy.reports.values import rendered, symbol_html, value_text
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout
@@ -25,7 +25,7 @@ from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
 from swtstudy.vocabulary.variables import has_units
-from swtstudy.vocabulary.wording import number_words, numbers_words
+from swtstudy.vocabulary.wording import numbers_words
 
 #: The parameter whose values have an s of another kind each.
 CRITERION = "criterion"
@@ -108,40 +108,46 @@ def sentences(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None = Non
     The latter begins with the Sobol indices, as from `indices_of`, if these are given.
     """
     text = dataset.attrs.get("figure")
-    own = FigureLayout.from_json(text).message if text else None
-    said = [escape(own)] if own else []
-    said += [_most_sensitive(indices)] if isinstance(indices, xr.Dataset) else []
     values = measured(dataset)
-    if values.size == 1 and has_units(dataset):
-        return [*said, escape(next(outcome(dataset)))]
-    moved = [
-        _sentence(lever, _symbol(measured_at(dataset, lever.there)))
-        for lever in levers(dataset)
-        if lever.ratio > _CHANGES
-    ]
-    said += moved
-    if SAMPLE in values.dims or not moved:
-        for k in range(dataset.sizes.get(CRITERION, 1)):
-            one = dataset.isel({CRITERION: k}, missing_dims="ignore")
-            several = CRITERION in dataset.dims
-            words = escape(f"{value_text(CRITERION, one.criterion.item())}: ") if several else Markup()
-            said.append(words + _range(measured_at(dataset, one) if several else values))
-    return [*said, *(escape(f"{words[0].upper()}{words[1:]}.") for words in life_words(dataset))]
+    single = values.size == 1 and has_units(dataset)
+    moved = [] if single else [each for each in levers(dataset) if each.ratio > _CHANGES]
+    lines = rendered(
+        "sentences.html",
+        message=FigureLayout.from_json(text).message if text else None,
+        sensitive=_most_sensitive(indices) if isinstance(indices, xr.Dataset) else [],
+        outcome=next(outcome(dataset)) if single else "",
+        levers=[(each, measured_at(dataset, each.there), AXES[each.name]) for each in moved],
+        ranges=[] if single or (moved and SAMPLE not in values.dims) else [*_ranges(dataset)],
+        lives=[] if single else [*life_words(dataset)],
+        is_life=is_life,
+        families=FAMILIES,
+    )
+    return [Markup(line.strip()) for line in lines.splitlines() if line.strip()]
 
 
-def _most_sensitive(indices: xr.Dataset) -> Markup:
-    """Say which sampled parameter has the largest Sobol index, and which the second largest."""
+def _most_sensitive(indices: xr.Dataset) -> list[tuple[str, Markup, str]]:
+    """The two sampled parameters with the largest Sobol indices: meaning, symbol, and the index in words."""
     total = indices.total.isel(quantity=0)
     mean = total.mean([dim for dim in total.dims if dim != "parameter"])
     said = []
     for k in np.argsort(-mean.values)[:2]:
         one = indices.isel(parameter=int(k), quantity=0)
         ends = dict.fromkeys(f"{float(end):.2f}" for end in (one.total.min(), one.total.max()))
-        symbol, meaning = symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning
-        said.append((Markup("{} {}").format(meaning, symbol), " to ".join(ends)))
-    (most, index), *others = said
-    words = Markup().join(Markup("; next is the {}, {}").format(*each) for each in others)
-    return Markup("The {} matters most, with a Sobol index of <b>{}</b>{}.").format(most, index, words)
+        meaning = AXES[str(one.parameter.item())].meaning
+        said.append((meaning, symbol_html(str(one.symbol.item())), " to ".join(ends)))
+    return said
+
+
+def _ranges(dataset: xr.Dataset) -> Iterator[tuple[str, xr.DataArray, int, list[str], bool]]:
+    """The values of each criterion: its name if there are several, number, ends, whether they vary."""
+    several = CRITERION in dataset.dims
+    for k in range(dataset.sizes.get(CRITERION, 1)):
+        one = dataset.isel({CRITERION: k}, missing_dims="ignore")
+        own = measured_at(dataset, one) if several else measured(dataset)
+        known = own.values[np.isfinite(own.values)]
+        ends = numbers_words((known.min(), np.median(known), known.max())) if known.size else []
+        varies = bool(known.size and known.max() > _CHANGES * known.min())
+        yield value_text(CRITERION, one.criterion.item()) if several else "", own, known.size, ends, varies
 
 
 def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
@@ -152,62 +158,6 @@ def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
         return sensitivity(dataset, str(measured(dataset).name))
     except StudyError as error:
         return error
-
-
-def _symbol(values: xr.DataArray) -> Markup:
-    return Markup("<i>s</i>") if values.name == "s" else symbol_of(values)
-
-
-def _sentence(lever: Lever, symbol: Markup) -> Markup:
-    there, life = lever.there, is_life(lever.table.minimum.attrs)
-    chosen = AXES[lever.name].part == "load"  # there may be a better and a worse one
-    words = ("best", "worst") if chosen else ("longest", "shortest") if life else ("lowest", "highest")
-    ends = ("maximum", "minimum") if life else ("minimum", "maximum")
-    named = escape(re.split("[,:]", AXES[lever.name].meaning)[0])
-    if is_number(there.at_minimum):
-        named += Markup(" {}").format(symbol_of(there.at_minimum.rename(lever.name)))
-    first, second = (_at(there[f"at_{end}"].rename(lever.name)) for end in ends)
-    return Markup("The {} changes {}{} by a factor of <b>{}</b>{}: {} {}, {} {}.").format(
-        named, "the life " * life, symbol, number_words(lever.ratio, 3), _where(lever), words[0], first,
-        words[1], second,
-    )  # fmt: skip
-
-
-def _at(place: xr.DataArray) -> str:
-    """At a number, or for something that has a name."""
-    words = along(place)
-    return f"at {words}" if is_number(place) else f"for {'the ' * (place.item() in FAMILIES)}{words}"
-
-
-def _where(lever: Lever) -> Markup:
-    """The place of the largest ratio, such as " for load L at μ = 1"."""
-    places = [lever.there[str(name)] for name, size in lever.table.ratio.sizes.items() if size > 1]
-    names = [
-        f"the {along(each)}" if each.item() in FAMILIES else f"{each.name} {along(each)}"
-        for each in places
-        if not is_number(each)
-    ]
-    numbers = [place_html(each) for each in places if is_number(each)]
-    words = escape(f" for {' and '.join(names)}" * bool(names))
-    return words + Markup(" at ") * bool(numbers) + Markup(", ").join(numbers)
-
-
-def _range(values: xr.DataArray) -> Markup:
-    """From where to where the values of one criterion go."""
-    symbol = _symbol(values)
-    known = values.values[np.isfinite(values.values)]
-    if not known.size:
-        return Markup("No point has a finite {}.").format(symbol)
-    unit = f" {unit_of(values)}".rstrip()
-    if known.size == 1:
-        alone = f" at one of {values.size} points; the others have none" if values.size > 1 else ""
-        return Markup("{} is <b>{}</b>{}{}.").format(symbol, number_words(float(known[0])), unit, alone)
-    low, middle, high = numbers_words((known.min(), np.median(known), known.max()))
-    if known.max() <= _CHANGES * known.min():
-        words = "At all {} points {} is {}{}: nothing that was varied changes it."
-        return Markup(words).format(known.size, symbol, low, unit)
-    words = "Over {} points {} goes from {} to {}, median {}{}."
-    return Markup(words).format(known.size, symbol, low, high, middle, unit)
 
 
 def extreme_places(dataset: xr.Dataset) -> dict[str, dict[str, int]]:

@@ -6,10 +6,8 @@ import base64
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from importlib.resources import files
 from typing import Any, NamedTuple
 
-import jinja2
 import numpy as np
 import xarray as xr
 from jinja2.utils import htmlsafe_json_dumps
@@ -43,6 +41,7 @@ from swtstudy.reports.values import (
     along,
     packed,
     place_html,
+    rendered,
     rows_of,
     share,
     symbol_html,
@@ -71,17 +70,6 @@ _SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
 _ROWS, _LISTED = 12, 8
 #: What the figures of a sample are over.
 _SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
-
-
-def rendered(template: str, **content: Any) -> str:
-    """A page that needs no other file, from a template of this folder, which may call our functions."""
-    look: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
-    loader = jinja2.PackageLoader("swtstudy.reports", ".")
-    room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
-    of_page = files("swtstudy.reports")
-    own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
-    room.globals |= {"describe": describe, "share": share, "symbol_of": symbol_of, "value_text": value_text}
-    return room.get_template(template).render(**own, **content)
 
 
 class Picture(NamedTuple):

@@ -8,13 +8,15 @@ import math
 import re
 import unicodedata
 from collections.abc import Mapping
+from importlib.resources import files
 from typing import Any
 
+import jinja2
 import pandas as pd
 import xarray as xr
 from markupsafe import Markup, escape
 
-from swtstudy.archive.describe import unsaid
+from swtstudy.archive import describe
 from swtstudy.figures.lines import in_equal_ratios
 from swtstudy.figures.words import flag_words
 from swtstudy.points.grid import SAMPLE
@@ -155,7 +157,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 def table_of(dataset: xr.Dataset) -> pd.DataFrame:
     """The table, of several points without the columns that have one value: the page says these once."""
-    table = to_table(dataset).drop(columns=["run", *unsaid(dataset)], errors="ignore")
+    table = to_table(dataset).drop(columns=["run", *describe.unsaid(dataset)], errors="ignore")
     kept = (*rows_of(dataset), "s")
     few = [name for name in table if name not in kept and table[name].nunique(dropna=False) < 2]
     return table.drop(columns=few) if len(table) > 1 else table
@@ -214,3 +216,15 @@ def _labels(values: xr.DataArray) -> dict[str, Any]:
     rad = {"rad": True} if name in AXES and AXES[name].units == "rad" else {}
     own = {"symbol": str(symbol_of(values)), "meaning": meaning.replace("_", " "), "unit": unit_of(values)}
     return own | rad
+
+
+def rendered(template: str, **content: Any) -> str:
+    """A page that needs no other file, from a template of this folder, which may call our functions."""
+    look: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+    loader = jinja2.PackageLoader("swtstudy.reports", ".")
+    room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
+    of_page = files("swtstudy.reports")
+    own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
+    ours = (along, is_number, number_words, place_html, share, symbol_of, unit_of, value_text)
+    room.globals |= {"describe": describe} | {each.__name__: each for each in ours}
+    return room.get_template(template).render(**own, **content)
