@@ -14,14 +14,15 @@ from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
 from swtstudy.fields.inspection import inspect_point
-from swtstudy.figures.maps import STATE_COLOURS, draw_slip_map, draw_time_axis
 from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
 from swtstudy.figures.style import DASHES, Style, stroke, styled
-from swtstudy.figures.words import NO_LABELS, Labels, show_units
+from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, NORMAL_STRAIN, REGIMES, SHEAR_STRESS, SWT, family_of
@@ -32,6 +33,8 @@ from swtstudy.vocabulary.wording import place_words
 _PANEL, _LEAST_HEIGHT = (4.4, 3.8), 2.4
 #: Grey of guide lines, and of the second of two curves.
 _FAINT, _SECOND = "0.55", "0.4"
+#: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
+STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
 #: Colours of the marked instants: none of those of stick and slip.
 _INSTANTS = ("#009E73", "#CC79A7", "#D55E00", "#56B4E9")
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
@@ -238,6 +241,50 @@ def draw_load(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
     axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
     axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
+
+
+def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:
+    """Set up the horizontal axis of a panel over time."""
+    first, last = float(time.min()), float(time.max())
+    axes.set_xlim(first, last)
+    tick_in_pi(axes.xaxis, first, last)
+    axes.set_xlabel(f"${time.attrs['symbol']}$")
+
+
+def draw_slip_map(axes: Axes, dataset: xr.Dataset) -> list[Patch]:
+    """Draw stick and slip over the distance from the axis and time.
+
+    Parameters
+    ----------
+    axes
+        Where to draw.
+    dataset
+        From `swtstudy.slip_map`.
+
+    Returns
+    -------
+    handles
+        For a legend of the states.
+    """
+    colours = ListedColormap(STATE_COLOURS)
+    norm = BoundaryNorm(np.arange(len(STATE_COLOURS) + 1) - 0.5, colours.N)
+    state = dataset.state.transpose("r", "time")
+    # Borders of cells are half way between places. An image: a mesh of so many cells takes longer than all
+    # else in the panel.
+    edges = []
+    for places in (state.time.values, state.r.values):
+        middle = 0.5 * (places[1:] + places[:-1])
+        edges.append(np.array([2.0 * places[0] - middle[0], *middle, 2.0 * places[-1] - middle[-1]]))
+    axes.pcolorfast(*edges, state.values, cmap=colours, norm=norm, rasterized=True)
+    both_sides = float(state.r[0]) < 0.0
+    for sign in (1.0, -1.0) if both_sides else (1.0,):
+        axes.plot(dataset.time, sign * dataset.contact_radius, **stroke(linewidth=1.2))
+    draw_time_axis(axes, dataset.time)
+    axes.set_ylabel("$x/a_H$" if both_sides else "$r/a_H$")
+    return [
+        Patch(facecolor=colour, edgecolor="black", label=words)
+        for words, colour in zip(flag_words(state), STATE_COLOURS, strict=True)
+    ]
 
 
 def draw_slip(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:

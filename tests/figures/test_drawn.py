@@ -14,7 +14,7 @@ from solved import REGIMES
 import swtstudy
 from swtstudy.figures.lines import _mark_regimes as mark_regimes
 from swtstudy.figures.lines import hue_scale, in_equal_ratios
-from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
+from swtstudy.figures.point import draw_slip_map
 from swtstudy.figures.words import tick_in_pi
 
 
@@ -361,30 +361,6 @@ def test_sizes_of_figures():
 def test_ticks_in_pi(axes, low, high, words):
     tick_in_pi(axes.xaxis, low * np.pi, high * np.pi)
     assert [tick.get_text() for tick in axes.get_xticklabels()] == words
-
-
-def test_map_of_swt(axes):
-    field = swtstudy.swt_field([-1.0, 0.0, 1.0], 0.0, [0.1, 0.3])
-    mesh = draw_swt_map(axes, field, highest=0.2)
-    drawn = np.asarray(mesh.get_array()).reshape(2, 3)
-    np.testing.assert_array_equal(drawn, field.s_local.transpose("z", "x"))
-    assert mesh.get_clim() == (0.0, 0.2)
-    assert axes.yaxis_inverted()
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$x/a_H$", "$z/a_H$")
-    assert mesh.get_coordinates()[..., 0].tolist() == [[-1.0, 0.0, 1.0]] * 2
-    with pytest.raises(ValueError, match="found swt over x; allowed: two of x, y and z"):
-        draw_swt_map(axes, field.isel(z=0), 0.2)
-
-
-def test_stress_cycle_leaves_out_what_is_zero(axes):
-    field = swtstudy.stress_field(0.5, 0.0, 0.2, time=np.linspace(0.0, 2 * np.pi, 7))
-    draw_stress_cycle(axes, field)
-    names = ["sigma_xx", "sigma_yy", "sigma_zz", "sigma_xz"]
-    assert len(axes.lines) == 4
-    drawn = {line.get_label(): line.get_ydata() for line in axes.lines}
-    for name in names:
-        np.testing.assert_array_equal(drawn[f"${field[name].attrs['symbol']}$"], field[name])
-    assert axes.get_xlim() == pytest.approx((0.0, 2 * np.pi))
 
 
 def test_slip_map(axes):

@@ -7,8 +7,7 @@ from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy.figures import point as panels
-from swtstudy.figures.maps import STATE_COLOURS
-from swtstudy.figures.point import draw_forces, limits
+from swtstudy.figures.point import STATE_COLOURS, draw_forces, limits
 
 #: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
 CATTANEO = {"normal_amplitude": 0, "tangential_amplitude": 0.36, "friction": 0.5}
