@@ -6,6 +6,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterable, Sequence
+from itertools import groupby
 from shutil import get_terminal_size
 from typing import Any
 
@@ -55,18 +56,8 @@ def say(line: object, indent: int = 0, err: bool = False) -> None:
     click.echo(wrapped(str(line), line_length(), indent), err=err)
 
 
-def drawn(content: Any, width: int) -> str:
-    """What rich makes of a table or of Markdown, as plain text."""
-    from rich.console import Console
-
-    console = Console(width=width, color_system=None, force_terminal=False)
-    with console.capture() as capture:
-        console.print(content, markup=False, highlight=False)
-    return "\n".join(map(str.rstrip, capture.get().rstrip("\n").splitlines()))
-
-
-def table(rows: Iterable[Sequence[str]], width: int = sys.maxsize, head: Sequence[str] = ()) -> str:
-    """Rows in columns, numbers to the right; what is too wide for the width is broken.
+def table(rows: Iterable[Sequence[str]], width: int = 10_000, head: Sequence[str] = ()) -> str:
+    """Rows in columns, numbers to the right; what is too wide for the width is broken between words.
 
     Examples
     --------
@@ -75,16 +66,21 @@ def table(rows: Iterable[Sequence[str]], width: int = sys.maxsize, head: Sequenc
          0  0.142857
     1.5708      0.15
     """
+    from rich.console import Console
     from rich.table import Table
 
-    grid = Table.grid(padding=(0, 2, 0, 0))
-    rows = [*rows]
+    grid, rows = Table.grid(padding=(0, 2, 0, 0)), [*rows]
     for column in zip(*rows, strict=True):
         numbers = all(_NUMBER.fullmatch(cell) for cell in column)
-        grid.add_column(justify="right" if numbers else "left", overflow="fold")
+        # Only cells of three words and more are broken.
+        whole = max(len(cell.split()) for cell in column) < 3
+        grid.add_column(justify="right" if numbers else "left", overflow="fold", no_wrap=whole)
     for row in ([head] if head else []) + rows:
         grid.add_row(*map(printable, row))
-    return drawn(grid, min(width, 10_000))
+    console = Console(width=width, color_system=None, markup=False, highlight=False)
+    with console.capture() as capture:
+        console.print(grid)
+    return "\n".join(map(str.rstrip, capture.get().rstrip("\n").splitlines()))
 
 
 def fitted(head: Sequence[str], rows: list[list[str]], width: int) -> str:
@@ -106,9 +102,21 @@ def fitted(head: Sequence[str], rows: list[list[str]], width: int) -> str:
 
 
 def of_markdown(text: str, width: int | None) -> str:
-    """Markdown as a terminal shows it; as it is for a pipe or a file."""
+    """Markdown whose tables are set in columns, and whose lines fit; as it is for a pipe or a file.
+
+    Examples
+    --------
+    >>> print(of_markdown("| parameter | alone |\\n|---|---|\\n| friction | 0.59 |", 80))
+    parameter  alone
+    friction    0.59
+    """
     if width is None:
         return text
-    from rich.markdown import Markdown
-
-    return drawn(Markdown(text), width)
+    parts: list[str] = []
+    for is_table, lines in groupby(text.splitlines(), lambda line: line.startswith("|")):
+        if is_table:
+            head, _, *rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+            parts.append(table(rows, width, head))
+        else:
+            parts += [wrapped(line, width, 2 * line.startswith("* ")) for line in lines]
+    return "\n".join(parts)
