@@ -63,7 +63,7 @@ def draw_surfaces(
     if names:  # a colour for each flag, in order from dark to light
         look = {"cmap": colormaps[rcParams["image.cmap"]].resampled(len(names))}
         look["norm"] = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
-    draw = _draw_cells if kind == "heatmap" else _draw_areas if names else _draw_contours
+    draw = _draw_cells if kind == "heatmap" else _draw_areas if names else draw_contours
     for one, surface in zip(axes, surfaces, strict=True):
         one.set_facecolor("0.8")  # where nothing is known
         one.grid(False)
@@ -129,7 +129,7 @@ def _draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scal
     return mesh
 
 
-def _draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
+def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
     """Draw contours of a surface over (vertical, x); for s also where it is least and greatest along x."""
     levels, life = look["norm"].boundaries, is_life(surface.attrs)
     at, up, surface = _sorted(surface)
