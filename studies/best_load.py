@@ -105,6 +105,7 @@ def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
             over_none = (s / s.sel(normal_amplitude=0.0)).rename("over_none")
             look = {"norm": BoundaryNorm(LEVELS, len(LEVELS) - 1), "cmap": COLOURS}
             filled = draw_contours(axes, over_none.transpose("normal_amplitude", "phase"), look)
+            axes.grid(False)
             for covered in [text for text in axes.texts if text.get_text() == "1"]:
                 covered.remove()  # by the thick line, which the legend explains
             axes.contour(s.phase, s.normal_amplitude, over_none, [1.0], colors="black", linewidths=2.2)
