@@ -16,7 +16,6 @@ import click
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
 from swtstudy.cli.terminal import say
-from swtstudy.study.shipped import shipped_folder
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.wording import number_words
 
@@ -90,6 +89,7 @@ def run(
       swtstudy run --all
     """
     from swtstudy.study.definition import read_studies
+    from swtstudy.study.shipped import shipped_folder
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
