@@ -17,6 +17,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
@@ -169,16 +170,19 @@ def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
 
 def _apart(axes: Axes, tried: list[Text]) -> list[tuple[float, float]]:
     """Places of labels inside of the frame and apart from one another, names and lines; the labels go."""
-    to_panel = axes.transData - axes.transAxes
-    taken = [to_panel.transform(each.get_position()) for each in axes.texts if each not in tried]
-    lines = [to_panel.transform(line.get_xydata()) for line in axes.lines]
+    frame, names = axes.get_window_extent(), [each for each in axes.texts if each not in tried]
+    taken = [each.get_window_extent() for each in names]
+    over = [path.vertices for each in axes.collections if each.get_zorder() == 3 for path in each.get_paths()]
+    lines = axes.transData.transform(
+        np.concatenate([np.empty((0, 2)), *map(Line2D.get_xydata, axes.lines), *over])
+    )
     kept = []
     for each in tried:
-        place = to_panel.transform(each.get_position())
-        near = [np.all(np.abs(place - other) < (0.2, 0.12)) for other in taken]
-        near += [np.any(np.all(np.abs(line - place) < (0.07, 0.05), axis=1)) for line in lines]
-        if place.min() > 0.08 and place.max() < 0.92 and not any(near):
-            taken.append(place)
+        # The layout, which comes later, leaves a panel less room.
+        box = each.get_window_extent().expanded(1.5, 1.5)
+        inside = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
+        if inside and not box.count_overlaps(taken) and not box.count_contains(lines):
+            taken.append(box)
             kept.append(each.get_position())
         each.remove()
     return kept
