@@ -19,9 +19,9 @@ from matplotlib import colormaps
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from swtstudy.figures.legend import place_legend
 
 import swtstudy
-from swtstudy.figures.legend import place_legend
 from swtstudy.figures.sheet import WIDTHS, new_figure
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.surfaces import draw_contours
@@ -108,6 +108,7 @@ def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
             over_none = (s / s.sel(normal_amplitude=0.0)).rename("over_none")
             look = {"norm": BoundaryNorm(LEVELS, len(LEVELS) - 1), "cmap": COLOURS}
             filled = draw_contours(axes, over_none.transpose("normal_amplitude", "phase"), look)
+            axes.grid(False)
             for covered in [text for text in axes.texts if text.get_text() == "1"]:
                 covered.remove()  # by the thick line, which the legend explains
             axes.contour(s.phase, s.normal_amplitude, over_none, [1.0], colors="black", linewidths=1.8)

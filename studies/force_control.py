@@ -16,7 +16,7 @@ import xarray as xr
 import swtstudy
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 from swtstudy.vocabulary.wording import place_words
 
 STUDY = Path(__file__).with_suffix(".toml")

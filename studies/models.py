@@ -19,8 +19,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-
 from swtstudy.figures.legend import place_legend
+
 from swtstudy.figures.sheet import WIDTHS, new_figure
 from swtstudy.figures.style import save_figure, stroke, styled
 from swtstudy.kernel.batch import chunks

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import slip_map as slip_map
     from swtstudy.fields.stress import stress_field as stress_field
     from swtstudy.fields.stress import swt_field as swt_field
-    from swtstudy.figures.inspection import inspect as inspect
     from swtstudy.figures.load import draw_load as draw_load
+    from swtstudy.figures.point import inspect as inspect
     from swtstudy.figures.profile import draw_profile as draw_profile
     from swtstudy.loads.load_path import LoadPath as LoadPath
     from swtstudy.paper.audit.audit import audit_study as audit_study
@@ -52,7 +52,7 @@ _HOMES = {
     "draw_profile": "swtstudy.figures.profile",
     "evaluate_history": "swtstudy.fields.elements",
     "fit": "swtstudy.results.fitting",
-    "inspect": "swtstudy.figures.inspection",
+    "inspect": "swtstudy.figures.point",
     "inspect_point": "swtstudy.fields.inspection",
     "open_results": "swtstudy.archive.archive",
     "optimise": "swtstudy.results.optimise",

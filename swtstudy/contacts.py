@@ -64,9 +64,9 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-    from swtstudy.figures.quantity_words import Label
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
+    from swtstudy.figures.words import Label
 
     #: Values with names for their dimensions keep them.
     Values = FloatArray | xr.DataArray
@@ -418,8 +418,7 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
-        from swtstudy.results.objective import Box, read_ranges
-        from swtstudy.results.optimise import check_asked, optimum_in
+        from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
 
         self._one  # noqa: B018 – one contact only, or an error
         grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
@@ -566,7 +565,7 @@ class PhysicalContact:
     def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
-        from swtstudy.figures.inspection import draw_inspection
+        from swtstudy.figures.point import draw_inspection
 
         labels, headlines = _labels(self._measured(body)), self._headlines(body)
         with self._in_equilibrium(body):
@@ -594,7 +593,7 @@ def _labelled(
 
 def _labels(measured: Measured) -> dict[str, Label]:
     """By name of a variable what its numbers are in the units of a contact."""
-    from swtstudy.figures.quantity_words import Label
+    from swtstudy.figures.words import Label
 
     found = {name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in measured.scales().items()}
     if measured.criterion != SWT:

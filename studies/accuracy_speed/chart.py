@@ -9,8 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.legend import add_legend
-from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import styled
 
 #: Errors below this are rounding errors of the reference; they are drawn at this value.

@@ -6,8 +6,8 @@ from functools import lru_cache
 
 import numpy as np
 from histories import INSTANTS, stress_at
+from textbook import brute_force
 
-from swtstudy.paper.reference import brute_force
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.points import Points
 

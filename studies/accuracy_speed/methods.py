@@ -10,8 +10,8 @@ import numpy as np
 from half_space import half_space_s
 from plane_loop import plane_loop_s
 from scenes import Scene
+from textbook import textbook_s
 
-from swtstudy.paper.reference import textbook_s
 from swtstudy.solver.solve import solve_points
 
 RTOLS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)

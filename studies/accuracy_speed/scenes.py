@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from textbook import textbook_s
 
-from swtstudy.paper.reference import textbook_s
 from swtstudy.solver.points import Points
 from swtstudy.solver.solve import solve_points
 

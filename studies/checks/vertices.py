@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 import swtstudy
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
-from swtstudy.figures.ticks import tick_in_ratios
+from swtstudy.figures.words import tick_in_ratios
 
 COUNTS = (50, 100, 200, 400, 800, 1400, 2000)
 #: Noise over the amplitude, and whether there is a bulk stress.

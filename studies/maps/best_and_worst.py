@@ -12,7 +12,7 @@ import numpy as np
 import swtstudy
 from swtstudy.figures.sheet import WIDTHS, new_figure
 from swtstudy.figures.style import COLOURS, save_figure, styled
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 
 #: ω2/ω1: the normal motion oscillates twice as fast as the tangential one.
 RATIO = "1/2"

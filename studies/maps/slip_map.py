@@ -9,9 +9,8 @@ from pathlib import Path
 import numpy as np
 
 import swtstudy
-from swtstudy.figures.legend import place_legend
-from swtstudy.figures.maps import draw_slip_map
-from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.point import draw_slip_map
+from swtstudy.figures.sheet import Sheet, place_legend
 from swtstudy.figures.style import save_figure, styled
 
 

@@ -7,11 +7,13 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
 
 import swtstudy
-from swtstudy.figures.maps import draw_stress_cycle
+from swtstudy.figures.point import draw_time_axis
 from swtstudy.figures.sheet import Sheet
-from swtstudy.figures.style import save_figure, styled
+from swtstudy.figures.style import COLOURS, DASHES, save_figure, stroke, styled
 
 
 def main() -> None:
@@ -29,6 +31,19 @@ def main() -> None:
             axes.label_outer()
             axes.set_title(f"({letter})  $x/a_H$ = ${x:.3f}$, $z/a_H$ = {z:g}", loc="left")
     save_figure(figure, given.results / "stress_cycle.png")
+
+
+def draw_stress_cycle(axes: Axes, dataset: xr.Dataset) -> None:
+    """Draw the stress components that are not 0, but for rounding, over one cycle at one point."""
+    names = [str(name) for name in dataset.data_vars if str(name).startswith("sigma_")]
+    largest = {name: float(abs(dataset[name]).max()) for name in names}
+    shown = [name for name in names if largest[name] > 1e-9 * max(largest.values())]
+    for index, name in enumerate(shown):
+        look = stroke(COLOURS[index], DASHES[index % len(DASHES)], label=f"${dataset[name].attrs['symbol']}$")
+        axes.plot(dataset.time, dataset[name], **look)
+    draw_time_axis(axes, dataset.time)
+    axes.set_ylabel(r"$\sigma\,a_H/(E^* \delta_0)$")
+    axes.legend(frameon=False)
 
 
 if __name__ == "__main__":

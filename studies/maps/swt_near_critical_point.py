@@ -7,9 +7,11 @@ import argparse
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
 
 import swtstudy
-from swtstudy.figures.maps import draw_swt_map
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import save_figure, styled
 
@@ -45,6 +47,19 @@ def main() -> None:
             axes.grid(False)
         figure.colorbar(mesh, ax=panels, label=r"$\mathrm{swt}/\mathrm{SWT}_0$")
     save_figure(figure, given.results / "swt_near_critical_point.png")
+
+
+def draw_swt_map(axes: Axes, dataset: xr.Dataset, highest: float, stretch: float) -> QuadMesh:
+    """Draw swt over a section, depth downwards, on a scale from 0; the upright direction may be stretched."""
+    across, along = sorted(map(str, dataset.s_local.dims))
+    swt = dataset.s_local.transpose(along, across)
+    look = {"cmap": "cividis", "shading": "gouraud", "rasterized": True}
+    mesh = axes.pcolormesh(swt[across], swt[along], swt, vmin=0.0, vmax=highest, **look)
+    stretched = "" if stretch == 1.0 else f", drawn {stretch:g} times larger"
+    axes.set(xlabel=f"${across}/a_H$", ylabel=f"${along}/a_H${stretched}", aspect=stretch)
+    if along == "z":
+        axes.invert_yaxis()
+    return mesh
 
 
 if __name__ == "__main__":

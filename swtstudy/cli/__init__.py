@@ -16,7 +16,7 @@ import click
 
 import swtstudy
 from swtstudy.cli.checks import audit, check, fit, history, sensitivity
-from swtstudy.cli.options import check_options, examples
+from swtstudy.cli.options import check_options
 from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
@@ -45,7 +45,9 @@ class _Commands(click.Group):
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         for title, commands in _SECTIONS.items():
             with formatter.section(title):
-                formatter.write_dl([(str(each.name), _first_sentence(each)) for each in commands])
+                # The first paragraph of each, uncut.
+                said = (" ".join(str(each.help).split("\n\n")[0].split()) for each in commands)
+                formatter.write_dl([*zip((str(each.name) for each in commands), said, strict=True)])
 
     def resolve_command(
         self, context: click.Context, args: list[str]
@@ -79,11 +81,6 @@ class _Commands(click.Group):
             sys.exit(STOPPED)
 
 
-def _first_sentence(command: click.Command) -> str:
-    """First paragraph of a command's help, uncut."""
-    return " ".join(str(command.help).split("\n\n")[0].split())
-
-
 def _log_to_terminal() -> None:
     """Print the package's log messages, and warnings, to the terminal as plain lines."""
     warnings.showwarning = lambda message, *_, **__: click.echo(f"Warning: {message}", err=True)
@@ -93,21 +90,21 @@ def _log_to_terminal() -> None:
     logger.setLevel(logging.INFO)
 
 
-@click.group(
-    cls=_Commands,
-    epilog=examples(
-        "swtstudy run figure3      # a study of the paper: archive and figure",
-        "swtstudy new mine         # a commented study to start from",
-        "swtstudy run --help",
-        "",
-        "Shell completion, a line of ~/.bashrc (zsh_source in ~/.zshrc):",
-        '  eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)"',
-    ),
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.version_option(swtstudy.__version__, prog_name="swtstudy")
 def main() -> None:
-    """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts."""
+    """Parameter studies of the Smith–Watson–Topper parameter in frictional contacts.
+
+    \b
+    Examples:
+      swtstudy run figure3      # a study of the paper: archive and figure
+      swtstudy new mine         # a commented study to start from
+      swtstudy run --help
+
+    \b
+    Shell completion, a line of ~/.bashrc (zsh_source in ~/.zshrc):
+      eval "$(_SWTSTUDY_COMPLETE=bash_source swtstudy)"
+    """
 
 
 for _command in itertools.chain(*_SECTIONS.values()):

@@ -8,20 +8,21 @@ from typing import Any
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_studies, with_width, with_workers
-from swtstudy.cli.terminal import line_length, of_markdown, wrapped
+from swtstudy.archive.paths import archive_paths
+from swtstudy.cli.options import study_completion, with_results, with_studies, with_width, with_workers
+from swtstudy.cli.terminal import line_length, of_markdown, say, table
+from swtstudy.study.shipped import shipped_studies
+from swtstudy.vocabulary.files import check_writable, write_text
 
 
-@click.command(epilog=examples("swtstudy sensitivity sensitivity"))
+@click.command()
 @click.argument("study", shell_complete=study_completion)
 @click.option(
     "--y", multiple=True, help="A data variable; repeat for more.  [default: s, or such as SWT with units]"
 )
 @click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the bootstrap.")
-@click.option(
-    "--results", default="results", show_default=True, help="Folder for archive, indices and figure."
-)
+@with_results
 @with_width
 @with_workers
 def sensitivity(
@@ -32,10 +33,12 @@ def sensitivity(
     The sample of STUDY has the design "saltelli". Points that are not computed yet are computed as
     by swtstudy run. Writes a table, a bar chart, and the indices as netCDF, beside the archive:
     NAME_indices, or NAME_indices_Y.
+
+    \b
+    Examples:
+      swtstudy sensitivity sensitivity
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     defined = read_studies([study])
     if len(defined) > 1:
@@ -59,7 +62,6 @@ def sensitivity(
     from swtstudy.paper.statements.parameters import table
     from swtstudy.results.sensitivity import sensitivity as indices_of
     from swtstudy.runner.run import run
-    from swtstudy.study.shipped import shipped_studies
 
     indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
     text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
@@ -71,7 +73,7 @@ def sensitivity(
         click.echo(str(path))
 
 
-@click.command(epilog=examples("swtstudy fit rig.toml tests.csv"))
+@click.command()
 @click.argument("study")
 @click.argument("tests")
 @click.option(
@@ -79,7 +81,7 @@ def sensitivity(
 )
 @click.option("--friction", is_flag=True, help="Fit friction, too.")
 @click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
-@click.option("--results", default="results", show_default=True, help="Folder for the fit and its figure.")
+@with_results
 @with_width
 def fit(study: str, tests: str, y: str, friction: bool, confidence: float, results: str, width: Any) -> None:
     """Fit the critical distance, and friction, to the lives of TESTS.
@@ -89,12 +91,15 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     to a crack; of a run-out the cycles that it survived, as >1e7 or with 1 in a column runout. Maximum
     likelihood of the logarithms of the lives. Writes the fit as netCDF and the figure of predicted over
     observed lives: NAME_fit.
+
+    \b
+    Examples:
+      swtstudy fit rig.toml tests.csv
     """
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.evaluated import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
     from swtstudy.results.fitting import fit as fitted_to
-    from swtstudy.vocabulary.files import check_writable
 
     targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
     for path in targets.values():
@@ -103,7 +108,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
-        click.echo(wrapped(line, line_length()))
+        say(line)
     for path in targets.values():
         click.echo(str(path))
 
@@ -114,7 +119,7 @@ EVERYTHING = (
 )
 
 
-@click.command(epilog=examples(f"{EVERYTHING} && swtstudy check"))
+@click.command()
 @click.option("--results", default="results", show_default=True, help="Folder with the archives.")
 @click.option("--output", "-o", help="Markdown file for the table; by default statements.md in that folder.")
 def check(results: str, output: str | None) -> None:
@@ -123,18 +128,28 @@ def check(results: str, output: str | None) -> None:
     Prints a table of the statements with what was measured, and writes it to a Markdown file. The exit code
     is 0 if every statement was checked, whether or not it holds; 2, without a file, if archives are missing
     or have gaps.
+
+    \b
+    Examples:
+      swtstudy run --all
+      swtstudy audit parameter_box
+      swtstudy audit figure3 figure4 --points 100
+      swtstudy check
     """
     from swtstudy.paper.statements.check import check as check_statements
-    from swtstudy.paper.statements.check import markdown, summary, terminal_table
-    from swtstudy.vocabulary.files import check_writable, write_text
+    from swtstudy.paper.statements.check import markdown, summary
 
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
-    checked = [outcome for outcome in outcomes if outcome.finding is not None]
-    click.echo(terminal_table(checked, line_length() or 120))
+    rows = [
+        (each.statement.place, f"{each.statement.sentence}\n", each.measured, each.verdict)
+        for each in outcomes
+        if each.finding is not None
+    ]
+    click.echo(table(rows, max(line_length() or 120, 80), ("where", "the paper says", "measured", "")))
     click.echo(summary(outcomes))
     problems = dict.fromkeys(
-        line for outcome in outcomes if outcome.finding is None for line in outcome.problem.splitlines()
+        line for each in outcomes if each.finding is None for line in each.problem.splitlines()
     )
     if problems:
         raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
@@ -143,11 +158,11 @@ def check(results: str, output: str | None) -> None:
     click.echo(str(target))
 
 
-@click.command(epilog=examples("swtstudy audit figure3 --points 100"))
+@click.command()
 @with_studies
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of random numbers.")
-@click.option("--results", default="results", show_default=True, help="Folder for audit and report.")
+@with_results
 @with_workers
 @click.option(
     "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
@@ -157,11 +172,13 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 
     Writes the audited points, and a report that says where the maximum is not on the surface line, where the
     solver looks for s. Points already audited are not audited again.
+
+    \b
+    Examples:
+      swtstudy audit figure3 --points 100
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.paper.audit import AUDIT_PREFIX
     from swtstudy.study.definition import read_studies
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     defined = read_studies(studies)
     targets = archive_paths(defined, results, AUDIT_PREFIX)
@@ -180,7 +197,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
         click.echo(f"{target}\n{target.with_suffix('.md')}")
 
 
-@click.command(epilog=examples("swtstudy history rig.toml stresses.csv -o lives.vtu"))
+@click.command()
 @click.argument("study", shell_complete=study_completion)
 @click.argument("file")
 @click.option("--order", help="Components: swtstudy (xx yy zz yz xz xy) or abaqus (S11 S22 S33 S12 S13 S23).")
@@ -194,9 +211,12 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
     FILE is a table with a row for each point and step of one load cycle: id or x, y, z or both, step, and six
     stress components. STUDY is a study file with units, young_modulus and poisson_ratio; its [material] gives
     lives, its normal_sensitivity the criteria of Fatemi and Socie and of Findley.
+
+    \b
+    Examples:
+      swtstudy history rig.toml stresses.csv -o lives.vtu
     """
     from swtstudy.fields.elements import evaluate_history, read_history, write_history
-    from swtstudy.vocabulary.files import check_writable
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
     check_writable(target)
@@ -207,8 +227,6 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
             at = found.isel(point=int(found[name].values.argmax()))
             words = f"largest {name} = {float(at[name]):.4g} {at[name].attrs.get('units', '')}".rstrip()
             words += f", {lives} = {float(at[lives]):.3g}" if lives in found else ""
-            place = ", ".join(
-                f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords
-            )
-            click.echo(wrapped(f"{words} at {place or 'the only point'}", line_length()))
+            places = [f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords]
+            say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

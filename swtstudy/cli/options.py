@@ -1,8 +1,9 @@
-"""Shared by commands: checks of options, completion of arguments by the shell, examples of the help."""
+"""Shared by commands: checks of options, completion of arguments by the shell."""
 
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from operator import itemgetter
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import click
 from click import Context, Parameter
 from click.shell_completion import CompletionItem
 
+from swtstudy.study.shipped import shipped_studies
 from swtstudy.vocabulary.mistakes import Report, meant
 from swtstudy.vocabulary.parameters import AXES
 
@@ -77,29 +79,28 @@ def check_options(context: click.Context, command: click.Command, args: list[str
 
 def study_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
     """Studies of the paper by name, and study files here or in the folder studies."""
-    from swtstudy.study.shipped import shipped_studies
 
-    return _offered([*shipped_studies(), *_files("*.toml", "studies/*.toml")], incomplete)
+    return _offered(incomplete, "*.toml", "studies/*.toml", names=shipped_studies())
 
 
 def archive_completion(context: Context, parameter: Parameter, incomplete: str) -> list[CompletionItem]:
     """Archives here or in the folder results."""
-    return _offered(_files("*.nc", "results/*.nc"), incomplete)
+    return _offered(incomplete, "*.nc", "results/*.nc")
 
 
-def _files(*patterns: str) -> list[str]:
-    return [str(path) for pattern in patterns for path in sorted(Path().glob(pattern))]
-
-
-def _offered(names: list[str], incomplete: str) -> list[CompletionItem]:
-    """Names that begin with the incomplete word, or else the files that the shell finds."""
-    items = [CompletionItem(name) for name in names if name.startswith(incomplete)]
+def _offered(incomplete: str, *patterns: str, names: Iterable[str] = ()) -> list[CompletionItem]:
+    """Names and files that begin with the incomplete word, or else the files that the shell finds."""
+    files = [str(path) for pattern in patterns for path in sorted(Path().glob(pattern))]
+    items = [CompletionItem(name) for name in (*names, *files) if name.startswith(incomplete)]
     return items or [CompletionItem(incomplete, type="file")]
 
 
 #: What several commands take.
 with_studies = click.argument(
     "studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion
+)
+with_results = click.option(
+    "--results", default="results", show_default=True, help="Folder for archives and what is made of them."
 )
 with_width = click.option(
     "--width",
@@ -109,8 +110,3 @@ with_width = click.option(
 with_workers = click.option(
     "--workers", default=2, show_default=True, type=click.IntRange(1), help="Threads, or processes."
 )
-
-
-def examples(*lines: str) -> str:
-    """The epilog of a command: one line per example, as typed."""
-    return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

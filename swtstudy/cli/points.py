@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import SEVERAL, InSections, examples, study_completion, with_width
-from swtstudy.cli.terminal import fitted, line_length, wrapped
+from swtstudy.cli.options import SEVERAL, InSections, study_completion, with_width
+from swtstudy.cli.terminal import fitted, line_length, say
+from swtstudy.study.shipped import find_study
 from swtstudy.units.rows import Units, rows
+from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
@@ -19,9 +21,7 @@ from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import raised
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.figure import Figure
-    from numpy.typing import NDArray
 
 _DISTANCE = QUANTITY_AXES[DISTANCE]
 #: What a contact of a study with units has besides.
@@ -33,6 +33,12 @@ WHY = {
     "not_finite": "s is infinite, since swt grows without bound towards the edge of the contact",
     "no_equilibrium": "there is no s, since friction does not carry the force, or the normal force pulls",
 }
+
+
+#: Digits of the columns that every point has.
+_FORMATS = {
+    "s": ".6f", "s_error": ".1e", "s_surface": ".6f", "critical_x": "z.5f", "critical_angle": "z.2f"
+}  # fmt: skip
 
 
 def _short(value: object) -> str:
@@ -57,14 +63,7 @@ def with_parameters(
     return decorate
 
 
-@click.command(
-    cls=InSections,
-    epilog=examples(
-        "swtstudy solve --phase 0,pi/2",
-        "swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4",
-        "swtstudy solve --profile rounded_punch --flat-radius 0.5,1",
-    ),
-)
+@click.command(cls=InSections)
 @with_parameters(SEVERAL, PARAMETERS.values())
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
 @click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
@@ -80,6 +79,12 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     or a file they are parted by tabs.
 
     VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
+
+    \b
+    Examples:
+      swtstudy solve --phase 0,pi/2
+      swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4
+      swtstudy solve --profile rounded_punch --flat-radius 0.5,1
     """
     from swtstudy.solving import solve as solve_grid
     from swtstudy.vocabulary.choices import REGIMES
@@ -87,47 +92,26 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
     dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
-    dims = list(map(str, dataset.s.dims))
-    places = itertools.product(*(dataset[dim].values.tolist() for dim in dims))
-    columns = ("s", "s_error", "s_surface", "critical_x", "critical_angle", "regime")
-    more = _more(dataset, columns)
-    lines = [[*dims, *columns, *more]]
-    rows = zip(*(dataset[name].values.ravel() for name in columns), *more.values(), strict=True)
-    for place, (s, error, surface, x, angle, regime, *others) in zip(places, rows, strict=True):
-        numbers = (
-            f"{s:.6f}",
-            f"{error:.1e}",
-            f"{surface:.6f}",
-            f"{x:z.5f}",
-            f"{angle:z.2f}",
-            REGIMES[int(regime)],
-            *(f"{value:.6g}" for value in others),
-        )
-        lines.append([*map(_short, place), *numbers])
-    for line in _as_read(lines, line_length()):
-        click.echo(line)
-    known = {REGIMES[int(regime)] for regime in dataset.regime.values.ravel()}
-    for name in (each for each in WHY if each in known):
-        click.echo(wrapped(f"{name}: {WHY[name]}", line_length()), err=True)
-
-
-def _as_read(lines: list[list[str]], room: int | None) -> Iterable[str]:
-    """A table for people, as wide as their terminal, or for programs."""
-    if room is None:
-        return map("\t".join, lines)
-    return fitted([[raised(cell) for cell in line] for line in lines], room)
-
-
-def _more(dataset: xr.Dataset, columns: tuple[str, ...]) -> dict[str, NDArray]:
-    """Further columns: a quantity with dimensions of its own has one for each place in them."""
-    found = {}
-    for name in (str(name) for name in dataset.data_vars if name not in columns):
-        own = [str(dim) for dim in dataset[name].dims if dim not in dataset.s.dims]
-        values = dataset[name].transpose(*dataset.s.dims, *own).values.reshape(dataset.s.size, -1)
-        places = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in own))
-        for place, column in zip(places, values.T, strict=True):
-            found[f"{name}[{','.join(place)}]" if own else name] = column
-    return found
+    dims = [*map(str, dataset.s.dims)]
+    places = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in dims))
+    found = dict(zip(dims, zip(*places, strict=True), strict=True))
+    for name, form in _FORMATS.items():
+        found[name] = tuple(f"{value:{form}}" for value in dataset[name].values.ravel())
+    found["regime"] = tuple(REGIMES[int(value)] for value in dataset.regime.values.ravel())
+    for name in (str(name) for name in dataset.data_vars if name not in found):
+        # A quantity with dimensions of its own has a column for each place in them.
+        own = [str(dim) for dim in dataset[name].dims if dim not in dims]
+        values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
+        beside = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in own))
+        for place, column in zip(beside, values.T, strict=True):
+            found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{each:.6g}" for each in column)
+    lines, room = [*zip(*found.values(), strict=True)], line_length()
+    if room is None:  # for programs
+        click.echo("\n".join("\t".join(line) for line in [(*found,), *lines]))
+    else:
+        click.echo(fitted([*found], [[*map(raised, line)] for line in lines], room))
+    for name in (name for name in WHY if name in found["regime"]):
+        say(f"{name}: {WHY[name]}", err=True)
 
 
 def _values(text: str) -> str | list[str]:
@@ -135,17 +119,7 @@ def _values(text: str) -> str | list[str]:
     return parts if len(parts) > 1 else parts[0]
 
 
-@click.command(
-    cls=InSections,
-    epilog=examples(
-        "swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf",
-        "swtstudy show --profile rounded_punch --flat-radius 0.5",
-        "swtstudy show --profile worn.csv",
-        "swtstudy show rig.toml --tangential-force-amplitude 60",
-        "swtstudy show rig.toml --profile worn.csv --smoothing 0.0002",
-        "swtstudy show --load square loops",
-    ),
-)
+@click.command(cls=InSections)
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
 @with_parameters("VALUE", (*PARAMETERS.values(), *_SIZES))
 @click.option("--body", metavar="BODY", help="1 or 2, or its name.  [default: 1]")
@@ -177,10 +151,18 @@ def show(
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
+
+    \b
+    Examples:
+      swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf
+      swtstudy show --profile rounded_punch --flat-radius 0.5
+      swtstudy show --profile worn.csv
+      swtstudy show rig.toml --tangential-force-amplitude 60
+      swtstudy show rig.toml --profile worn.csv --smoothing 0.0002
+      swtstudy show --load square loops
     """
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     from swtstudy.figures.style import save_figure
-    from swtstudy.vocabulary.files import check_writable
 
     check_writable(output)
     words = ""
@@ -198,7 +180,7 @@ def show(
 
 def _point_or_profile(values: dict[str, object], smoothing: float, style: str | None, width: Any) -> Figure:
     """A point, or a profile where its shape alone is given."""
-    from swtstudy.figures.inspection import inspect
+    from swtstudy.figures.point import inspect
     from swtstudy.figures.profile import draw_profile
     from swtstudy.study.keys import ProfileTable
     from swtstudy.study.loops_and_profiles import profile_from
@@ -246,7 +228,6 @@ def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure
     from swtstudy.figures.load import draw_load
     from swtstudy.study.definition import Study
     from swtstudy.study.loops_and_profiles import read_signal_of
-    from swtstudy.study.shipped import find_study
 
     study, path = Study.from_toml(source), find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)

@@ -8,20 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import archive_completion, examples, with_width
-from swtstudy.cli.terminal import line_length, wrapped
+from swtstudy.archive.paths import check_archive_path, locked
+from swtstudy.cli.options import archive_completion, with_width
+from swtstudy.cli.terminal import say
+from swtstudy.vocabulary.files import check_writable
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.wording import place_words
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-@click.command(
-    epilog=examples(
-        "swtstudy report results/figure3.nc",
-        "swtstudy report results/figure3.nc -o to_send.html",
-        "swtstudy report results/*.nc -o site/",
-    )
-)
+@click.command()
 @click.argument("archives", metavar="ARCHIVE...", nargs=-1, required=True, shell_complete=archive_completion)
 @click.option(
     "--output", "-o", help="HTML file, by default beside the archive; of several archives a folder."
@@ -36,6 +34,12 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
     extrema, the best and the worst point, settings, errors, a CSV file, and how to make it again.
 
     Several archives also get a page that lists them. Files that are no archives are left out.
+
+    \b
+    Examples:
+      swtstudy report results/figure3.nc
+      swtstudy report results/figure3.nc -o to_send.html
+      swtstudy report results/*.nc -o site/
     """
     from swtstudy.reports.site import write_reports
 
@@ -43,14 +47,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
         click.echo(problem or str(path), err=bool(problem))
 
 
-@click.command(
-    epilog=examples(
-        "swtstudy plot results/figure3.nc --width column -o figure3.pdf",
-        "swtstudy plot results/figure3.nc --y critical_x --y regime",
-        "swtstudy plot results/figure4.nc --at normal_amplitude=0.75",
-        "swtstudy plot results/contour.nc --kind heatmap --y critical_angle",
-    )
-)
+@click.command()
 @click.argument("archive", shell_complete=archive_completion)
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
 @click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
@@ -78,12 +75,18 @@ def plot(
 
     Values of --at are written as in a study file, such as --at friction=0.6; the title says them. With --x
     the options alone define the layout; without it they change the layout stored in the archive.
+
+    \b
+    Examples:
+      swtstudy plot results/figure3.nc --width column -o figure3.pdf
+      swtstudy plot results/figure3.nc --y critical_x --y regime
+      swtstudy plot results/figure4.nc --at normal_amplitude=0.75
+      swtstudy plot results/contour.nc --kind heatmap --y critical_angle
     """
     from swtstudy.archive.archive import open_results
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
     from swtstudy.study.figure import FigureLayout
-    from swtstudy.vocabulary.files import check_writable
     from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
@@ -103,8 +106,6 @@ def plot(
 def _at(dataset: xr.Dataset, at: tuple[str, ...], title: str | None) -> tuple[xr.Dataset, str]:
     """The part of results at single values of some axes, and the title of its figure."""
     from swtstudy.results.evaluate import slice_at
-    from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
-    from swtstudy.vocabulary.wording import place_words
 
     places = {name.strip(): value.strip() for name, _, value in (each.partition("=") for each in at)}
     for each in at:
@@ -115,12 +116,16 @@ def _at(dataset: xr.Dataset, at: tuple[str, ...], title: str | None) -> tuple[xr
     return part, title or ",  ".join(words)
 
 
-@click.command(epilog=examples("swtstudy info results/figure3.nc"))
+@click.command()
 @click.argument("archive", shell_complete=archive_completion)
 def info(archive: str) -> None:
     """Describe an ARCHIVE.
 
     Shows its study and versions, how complete and how accurate it is.
+
+    \b
+    Examples:
+      swtstudy info results/figure3.nc
     """
     from swtstudy.archive.archive import open_results
     from swtstudy.archive.describe import INDENT, describe
@@ -128,18 +133,15 @@ def info(archive: str) -> None:
 
     dataset = open_results(archive)
     for line in describe(dataset):
-        click.echo(wrapped(line, line_length(), INDENT))
-    saved = points_saved(parts_folder(Path(archive)))
-    if saved:
+        say(line, INDENT)
+    if saved := points_saved(parts_folder(Path(archive))):
         click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")
-    kept = points_saved(kept_folder(Path(archive)))
-    if kept:
-        click.echo(
-            f"  kept           {kept} distinct points of other studies are in {kept_folder(Path(archive))}"
-        )
+    folder = kept_folder(Path(archive))
+    if kept := points_saved(folder):
+        click.echo(f"  kept           {kept} distinct points of other studies are in {folder}")
 
 
-@click.command(epilog=examples("swtstudy merge results/a.nc results/b.nc -o results/both.nc"))
+@click.command()
 @click.argument("archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion)
 @click.option("--output", "-o", required=True, help="File for the merged archive.")
 @click.option(
@@ -151,16 +153,17 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     Along every axis the merged grid has the values of all archives. Points of it that are in none of them
     are refused without --sparse; contradictory values are always refused. What an archive in the place of the
     merged one has besides is kept in a folder beside it.
+
+    \b
+    Examples:
+      swtstudy merge results/a.nc results/b.nc -o results/both.nc
     """
     from swtstudy.archive.merge import merge as merge_archives
     from swtstudy.archive.netcdf import save
     from swtstudy.archive.parts import keeping, kept_folder, known_points, parts_folder
-    from swtstudy.archive.paths import check_archive_path, locked
     from swtstudy.archive.recall import grid_of, request_of
     from swtstudy.points.canonical import Distinct
     from swtstudy.runner.work import not_in
-    from swtstudy.vocabulary.files import check_writable
-    from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
     from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output)

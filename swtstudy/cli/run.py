@@ -13,8 +13,10 @@ from typing import TYPE_CHECKING, NoReturn
 
 import click
 
-from swtstudy.cli.options import examples, study_completion, with_width, with_workers
-from swtstudy.cli.terminal import line_length, wrapped
+from swtstudy.archive.paths import archive_paths
+from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
+from swtstudy.cli.terminal import say
+from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.wording import number_words
 
 if TYPE_CHECKING:
@@ -34,17 +36,10 @@ CONNECT_SECONDS = 10.0
 _NAMED = 5
 
 
-@click.command(
-    epilog=examples(
-        "swtstudy run figure3",
-        "swtstudy run mine.toml --workers 8 --format pdf",
-        "swtstudy run mine.toml --scheduler tcp://host:8786",
-        "swtstudy run --all",
-    )
-)
+@click.command()
 @click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=study_completion)
 @click.option("--all", "suite", is_flag=True, help="Every study of the paper; see swtstudy list.")
-@click.option("--results", default="results", show_default=True, help="Folder for archives and figures.")
+@with_results
 @click.option(
     "--format",
     "formats",
@@ -85,11 +80,16 @@ def run(
 
     After 2 and 130 everything computed so far is saved, and the same command
     continues from there.
+
+    \b
+    Examples:
+      swtstudy run figure3
+      swtstudy run mine.toml --workers 8 --format pdf
+      swtstudy run mine.toml --scheduler tcp://host:8786
+      swtstudy run --all
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
     from swtstudy.study.shipped import shipped_folder
-    from swtstudy.vocabulary.files import check_writable
 
     if not studies and not suite:
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
@@ -178,7 +178,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
     click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
     for line in outcome(dataset):
-        click.echo(wrapped(line, line_length(), 2))
+        say(line, 2)
     failed = [*failures(dataset)]
     for where, why in failed[:_NAMED]:
         click.echo(f"failed: {where}: {why}", err=True)

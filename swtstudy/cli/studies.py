@@ -8,16 +8,20 @@ from typing import TYPE_CHECKING
 
 import click
 
-from swtstudy.cli.options import examples, with_studies, with_workers
-from swtstudy.cli.terminal import cut, line_length, wrapped
+from swtstudy.archive.paths import archive_paths
+from swtstudy.cli.options import with_studies, with_workers
+from swtstudy.cli.terminal import say
+from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
+from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.wording import duration, unit_words
 
 if TYPE_CHECKING:
-    from swtstudy.runner.work import Work
     from swtstudy.study.definition import Study
 
 
-@click.command(epilog=examples("swtstudy new mine", "swtstudy plan mine.toml", "swtstudy run mine.toml"))
+@click.command()
 @click.argument("name")
 @click.option("--units", is_flag=True, help="A study of real contacts, in N, mm and MPa.")
 def new(name: str, units: bool) -> None:
@@ -25,10 +29,15 @@ def new(name: str, units: bool) -> None:
 
     Beside it goes the schema that editors use to complete and check studies. An existing study is never
     replaced.
+
+    \b
+    Examples:
+      swtstudy new mine
+      swtstudy plan mine.toml
+      swtstudy run mine.toml
     """
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
     from swtstudy.study.template import template, template_with_units
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     if Path(name).name in ("", ".toml"):
         raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
@@ -50,33 +59,36 @@ def new(name: str, units: bool) -> None:
         click.echo(str(schema))
 
 
-@click.command(epilog=examples("swtstudy validate mine.toml", "swtstudy validate studies"))
+@click.command()
 @with_studies
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything.
 
     Says, too, which limits of the model points exceed, as far as their loads alone tell.
+
+    \b
+    Examples:
+      swtstudy validate mine.toml
+      swtstudy validate studies
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.points.labelled import foreseen_lines
     from swtstudy.study.definition import sound_studies
 
     report = Report()
     defined = sound_studies(studies, report)
     for source, study in defined.items():
-        sizes = " × ".join(
-            f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True)
-        )
-        words = f"{source}: valid, {study.grid.size} points" + (f" = {sizes}" if sizes else "")
+        grid = study.grid
+        sizes = " × ".join(f"{n} {name}" for name, n in zip(grid.dims, grid.shape, strict=True))
+        words = f"{source}: valid, {grid.size} points" + (f" = {sizes}" if sizes else "")
         with report:
             archive_paths([source], "")
-            click.echo(wrapped(words, line_length(), 2))
-            for line in foreseen_lines(study.grid):
+            say(words, 2)
+            for line in foreseen_lines(grid):
                 click.echo(f"validity: {line}", err=True)
     report.refuse()
 
 
-@click.command(epilog=examples("swtstudy plan figure3", "swtstudy plan mine.toml --workers 8"))
+@click.command()
 @with_studies
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
 @with_workers
@@ -84,112 +96,97 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     """Show what a run of each STUDY would compute, and how long it would take.
 
     A few points are computed to time them, loops of many vertices with fewer; nothing is written.
+
+    \b
+    Examples:
+      swtstudy plan figure3
+      swtstudy plan mine.toml --workers 8
     """
-    from swtstudy.archive.paths import archive_paths
     from swtstudy.study.definition import read_studies
 
     defined = read_studies(studies)
     targets = archive_paths(defined, results)
     for source, study in defined.items():
         for line in describe(study, targets[source], workers):
-            click.echo(wrapped(line, line_length(), 21))
+            say(line, 21)
 
 
-def describe(study: Study, target: Path, workers: int) -> list[str]:
-    """Describe in lines what a run would do."""
-    from swtstudy.runner.work import assess
+def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
+    """Describe in lines what a run would do, with its time from a few points that are solved."""
+    from swtstudy.points.chunk import solve_points
+    from swtstudy.runner.work import assess, estimate
 
     work = assess(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
-    panels = study.figure.panels if study.figure else None
-    count = len(grid.values(panels)) if panels else 1
-    return [
-        study.title,
-        f"  prescribed         {grid.control.name}",
-        f"  archive            {target}{'' if target.exists() else ' (does not exist yet)'}",
-        f"  points             {grid.size}" + (f" in {count} panels" if count > 1 else ""),
-        *_quantities(study),
-        f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)",
-        f"  already computed   {distinct - todo}",
-        f"  to be computed     {todo}",
-        *_again(work),
-        *(_time(work, study.rtol, workers) if todo else ()),
-    ]
-
-
-def _quantities(study: Study) -> Iterator[str]:
-    from swtstudy.vocabulary.quantities import DISTANCE
-    from swtstudy.vocabulary.wording import unit_words
-
+    count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
+    panels = f" in {count} panels" if count > 1 else ""
+    yield study.title
+    for label, words in (
+        ("prescribed", grid.control.name),
+        ("archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"),
+        ("points", f"{grid.size}{panels}"),
+    ):
+        yield f"  {label:<19}{words}"
     if study.asked.items:
-        unit = unit_words(study.grid.row(DISTANCE).units)
+        unit = unit_words(grid.row(DISTANCE).units)
         asked = [item for item in study.asked.items if item != DISTANCE]
         asked += [f"{DISTANCE}={distance:.6g}{unit}" for distance in study.asked.distances]
         yield f"  quantities         {', '.join(asked)}"
-
-
-def _again(work: Work) -> Iterator[str]:
-    """Which of the points to be computed are known in part."""
+    yield f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)"
+    yield f"  already computed   {distinct - todo}"
+    yield f"  to be computed     {todo}"
     if work.incomplete.any():
         yield f"  incomplete         {int(work.incomplete.sum())} of them lack quantities"
     if work.outdated:
         yield f"  recomputed         {work.outdated} come from another version of the solver"
     if work.coarse:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
+    if todo:
+        seconds, timed = estimate(work, study.rtol, solve_points)
+        each = f"{1e3 * seconds / todo:.3g} ms a point, from {timed} point{'s' * (timed > 1)} timed"
+        yield f"  time               about {duration(seconds / workers)} with {workers} workers ({each})"
 
 
-def _time(work: Work, rtol: float, workers: int) -> Iterator[str]:
-    """Estimate the time of a run from a few points that are solved."""
-    from swtstudy.points.chunk import solve_points
-    from swtstudy.runner.work import estimate
-    from swtstudy.vocabulary.wording import duration
-
-    seconds, timed = estimate(work, rtol, solve_points)
-    of = f"{timed} point" + "s" * (timed > 1)
-    yield (
-        f"  time               about {duration(seconds / workers)} with {workers} workers "
-        f"({1e3 * seconds / work.todo.sum():.3g} ms a point, from {of} timed)"
-    )
-
-
-@click.command("list", epilog=examples("swtstudy list", "swtstudy run figure3"))
+@click.command("list")
 def list_studies() -> None:
     """List the studies of the paper.
 
     They come with the package; other commands accept their names as STUDY.
+
+    \b
+    Examples:
+      swtstudy list
+      swtstudy run figure3
     """
+    from swtstudy.points.canonical import LARGEST_GRID
     from swtstudy.study.definition import Study
-    from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 
     studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))
-    room = line_length()
     for group, names in in_groups(studies).items():
         click.echo(group)
         for name in names:
-            title = studies[name].title
-            click.echo(cut(f"  {name:<{width}}  {_points(studies[name]):>12}  {title}", room))
+            size = studies[name].grid.size
+            points = "random" if size > LARGEST_GRID else f"{size} points"  # random boxes are drawn
+            say(f"  {name:<{width}}  {points:>12}  {studies[name].title}", indent=width + 18)
         click.echo()
     click.echo(f"files: {shipped_folder()}")
 
 
-def _points(study: Study) -> str:
-    """Number of points to be computed; those of random boxes are drawn."""
-    from swtstudy.points.canonical import LARGEST_GRID
-
-    return "random" if study.grid.size > LARGEST_GRID else f"{study.grid.size} points"
-
-
-@click.command(epilog=examples("swtstudy schema", "swtstudy schema -o study.schema.json"))
+@click.command()
 @click.option("--output", "-o", help="File for the schema; by default it is printed.")
 def schema(output: str | None) -> None:
     """Write the JSON schema of study files.
 
     Editors that know TOML schemas (Even Better TOML in VS Code, Taplo) use it to complete, explain and check
     a study whose first line is "#:schema study.schema.json".
+
+    \b
+    Examples:
+      swtstudy schema
+      swtstudy schema -o study.schema.json
     """
     from swtstudy.study.schema import schema_text
-    from swtstudy.vocabulary.files import check_writable, write_text
 
     if output is None:
         click.echo(schema_text(), nl=False)

@@ -125,30 +125,35 @@ def evaluate_history(
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = given["stress"].transpose("point", STEP, "component").values
     unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
-    gamma = own.get("walker_exponent", 0.5)
+    gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
+
+    def add(names: tuple[str, str], value: FloatArray, normal: FloatArray, words: Any = None) -> None:
+        found[names[0]], found[names[1]] = ("point", value, words), (("point", "axis"), normal)
+
+    def add_lives(name: str, constants: Any, value: FloatArray, shares: list[FloatArray]) -> None:
+        one = np.zeros((1, 1))
+        lives = [float(constants.rounds(v, one + n, one + 1.0)) for v, n in zip(value, shares, strict=True)]
+        found[name] = "point", np.array(lives)
+
     value, normal = swt_of_history(stress, poisson, young, gamma)
-    found = found.assign(SWT=("point", value, unit), SWT_normal=(("point", "axis"), normal))
+    add(("SWT", "SWT_normal"), value, normal, unit)
     if details.materials:
         counted = cycle_shares(stress, normal, SWT, poisson, walker_exponent=gamma)
-        found["cycles"] = "point", _lives(details.materials[body - 1].rounds, value, counted)
-    sensitivity = own.get("normal_sensitivity")
+        add_lives("cycles", details.materials[body - 1], value, counted)
     if sensitivity is None:
         return found
-    value, normal = criterion_of_history(stress, FINDLEY, sensitivity)
-    found = found.assign(findley_stress=("point", value, unit), findley_normal=(("point", "axis"), normal))
+    add(("findley_stress", "findley_normal"), *criterion_of_history(stress, FINDLEY, sensitivity), unit)
     if details.findley_limits:
         found["findley_usage"] = found.findley_stress / details.findley_limits[body - 1]
     if details.yield_strengths:
         kappa = sensitivity / details.yield_strengths[body - 1]
         value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)
         strain = value * (2.0 + 2.0 * poisson) / young
-        found = found.assign(FS=("point", strain), FS_normal=(("point", "axis"), normal))
-        torsion = details.shear_materials or tuple(
-            ShearConstants.estimated(each, poisson) for each in details.materials
-        )
-        if torsion:
+        add(("FS", "FS_normal"), strain, normal)
+        estimated = tuple(ShearConstants.estimated(each, poisson) for each in details.materials)
+        if torsion := details.shear_materials or estimated:
             counted = cycle_shares(stress, normal, FATEMI_SOCIE, poisson, normal_sensitivity=kappa)
-            found["FS_cycles"] = "point", _lives(torsion[body - 1].rounds, strain, counted)
+            add_lives("FS_cycles", torsion[body - 1], strain, counted)
     return found
 
 
@@ -212,12 +217,6 @@ def cycle_shares(
         sound = np.isfinite(normal).all() and values.size and values.max() > 0.0
         found.append(values / values.max() if sound else np.ones(1))
     return found
-
-
-def _lives(rounds: Any, value: FloatArray, shares: list[FloatArray]) -> FloatArray:
-    """Load cycles to a crack of points with their cycles."""
-    one = np.zeros((1, 1))
-    return np.array([float(rounds(v, one + own, one + 1.0)) for v, own in zip(value, shares, strict=True)])
 
 
 def write_history(found: xr.Dataset, path: Path) -> None:

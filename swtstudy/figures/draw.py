@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
-import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
-from swtstudy.figures.legend import add_legend, loops_of
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
-from swtstudy.figures.marks import mark_borders, mark_cells
-from swtstudy.figures.quantity_words import flag_words, part_words, quantity_words, slices, title_words
 from swtstudy.figures.samples import draw_histogram, draw_scatter
-from swtstudy.figures.sheet import Figure, Sheet, Width, check_width, wrap_texts
+from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.surfaces import draw_surfaces
+from swtstudy.figures.surfaces import draw_surfaces, mark_borders, mark_cells
+from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
+from swtstudy.loads.loop import Loop
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
@@ -112,36 +110,23 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
+    """A row of panels for each quantity, a column for each value of the panels' dimension."""
     parts = slices(dataset, layout.panels)
-    lines = layout.kind in LINE_KINDS
+    lines, upright = layout.kind in LINE_KINDS, layout.kind == "life"
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), len(parts), width)
     figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
-    upright = layout.kind == "life"
-    axes = sheet.panels(
-        figure, share_x="row" if upright else "all", share_y="row" if lines and not upright else "all"
-    )
+    shared = {"share_x": "row", "share_y": "all"} if upright else {"share_y": "row" if lines else "all"}
+    axes = sheet.panels(figure, **shared)
     for row, y in enumerate(layout.y):
         values = quantity(dataset, y)
-        panels = slices(_shown(dataset, y, values, layout.validity), layout.panels)
         words = quantity_words(values, y)
+        panels = slices(_shown(dataset, y, values, layout.validity), layout.panels)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
                 draw_lines(one, panel, y, layout, scale)
         else:
-            flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
-            surfaces = [panel.value.rename(values.name) for panel in flat]
-            if layout.regimes:  # first: labels of contours keep away from borders
-                for one, panel in zip(axes[row], flat, strict=True):
-                    mark_borders(one, panel.regime)
-            draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-            if layout.validity:
-                for one, panel in zip(axes[row], flat, strict=True):
-                    right, up = (
-                        np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
-                        for name in (layout.x, layout.vertical)
-                    )
-                    mark_cells(one, right, up, panel.outside.values, panel.outside.attrs["long_name"])
+            _draw_maps(figure, axes[row], panels, layout, values.name, words)
         across = axis_words(layout.x, dataset[layout.x].attrs)
         if upright:
             across, words = words, across
@@ -151,15 +136,32 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             bottom.set_xlabel(across)
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(words)
-        title = [title_words(values, y)] if len(layout.y) > 1 else []
         for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
-            _title_panel(one, part, layout.panels, title, axes.size > 1, row * len(parts) + column)
+            # The letter of a panel, the quantity where that differs between rows, and its place.
+            letter = f"({chr(ord('A') + (row * len(parts) + column) % 26)})" if axes.size > 1 else ""
+            title = [title_words(values, y)] if len(layout.y) > 1 else []
+            place = [part_words(part, layout.panels)] if layout.panels else []
+            one.set_title(f"{letter}  {',  '.join([*title, *place])}".strip(), loc="left")
     if layout.title:
         figure.suptitle(layout.title)
     if scale and layout.hue:
         add_scale(figure, axes, scale, dataset[layout.hue])
     add_legend(figure, axes, loops_of(dataset) if layout.hue == "load" else {})
     return figure
+
+
+def _draw_maps(
+    figure: Figure, axes: Any, panels: list[xr.Dataset], layout: FigureLayout, name: object, words: str
+) -> None:
+    """A row of contours or cells with their marks."""
+    flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
+    if layout.regimes:
+        for one, panel in zip(axes, flat, strict=True):
+            mark_borders(one, panel.regime)
+    draw_surfaces(figure, axes, [panel.value.rename(name) for panel in flat], layout.kind, words)
+    if layout.validity:
+        for one, panel in zip(axes, flat, strict=True):
+            mark_cells(one, panel, layout.kind)
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
@@ -176,10 +178,9 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
     return xr.Dataset({name: values for name, values in shown.items() if values is not None})
 
 
-def _title_panel(
-    axes: Axes, part: xr.Dataset, panels: str | None, words: list[str], several: bool, index: int
-) -> None:
-    """The letter of a panel, what it shows where that differs between rows, and its place."""
-    letter = [f"({chr(ord('A') + index % 26)})"] if several else []
-    place = [part_words(part, panels)] if panels else []
-    axes.set_title("  ".join([*letter, ",  ".join([*words, *place])]).strip(), loc="left")
+def loops_of(dataset: xr.Dataset) -> dict[str, Loop]:
+    """The loops among the loads of results, by the words of their lines."""
+    from swtstudy.archive.attributes import defined_in
+
+    loads = defined_in(dataset.attrs).get("load", {})
+    return {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, Loop)}

@@ -8,15 +8,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from swtstudy.figures.legend import add_legend
-from swtstudy.figures.sheet import Figure, Sheet, Width, wrap_texts
+from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.style import COLOURS, Style, stroke, styled
 from swtstudy.study.figure import wrong_formula
-from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, place_words
 
-#: Size of a panel, inches: its width grows with the number of parameters.
-_BAR_WIDTH, _MARGIN, _PANEL_HEIGHT = 0.75, 1.0, 3.0
 _WORDS = {"first_order": "alone (first order)", "total": "alone and with others (total)"}
 
 
@@ -37,8 +33,8 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
     """
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     columns = indices.stack(place=axes).transpose("place", ...) if axes else indices.expand_dims("place")
-    panel_size = (_MARGIN + _BAR_WIDTH * indices.sizes["parameter"], _PANEL_HEIGHT)
-    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, panel_size)
+    size = (1.0 + 0.75 * indices.sizes["parameter"], 3.0)
+    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, size)
     with styled(style, width):
         figure = sheet.figure()
         panels = sheet.panels(figure, share_y="all")
@@ -68,18 +64,10 @@ def _draw_one(axes: Axes, indices: xr.Dataset, first: bool) -> None:
             at, value, error, linestyle="none", marker="", color="black", elinewidth=1.2, capsize=2.5
         )
     axes.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
-    # Indices of before do not say how their study, which may have units, calls them.
-    symbols = indices.symbol.values if "symbol" in indices.coords else [AXES[name].symbol for name in names]
-    axes.set_xticks(places, [f"${symbol}$" for symbol in symbols])
+    axes.set_xticks(places, [f"${symbol}$" for symbol in indices.symbol.values])
     axes.grid(False, axis="x")
     if first:
         axes.set_ylabel(f"share of the variance of {indices.quantity.item()}".replace("_", " "))
-
-
-#: Size of the panel, inches.
-_PANEL = (4.6, 4.4)
-#: Factors with their lines.
-_FACTORS = {1: "-", 2: "--", 5: ":"}
 
 
 def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
@@ -92,15 +80,14 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     """
-    sheet = Sheet(1, 1, width, _PANEL)
+    sheet = Sheet(1, 1, width, (4.6, 4.4))
     with styled(style, width):
         figure = sheet.figure()
         axes: Any = sheet.panels(figure, share_x="none", share_y="none")[0][0]
         both = np.concatenate([fitted.observed.values, fitted.predicted.values])
         ends = np.array([both.min() / 8.0, both.max() * 8.0])
-        for factor, dashes in _FACTORS.items():
+        for factor, dashes, label in ((1, "-", "equal"), (2, "--", "factor of 2"), (5, ":", "factor of 5")):
             look = stroke("0.4", dashes, linewidth=0.8)
-            label = "equal" if factor == 1 else f"factor of {factor}"
             axes.plot(ends, ends * factor, label=label, **look)
             if factor > 1:
                 axes.plot(ends, ends / factor, **look)
@@ -113,8 +100,7 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
                 look = {"color": COLOURS[0], "linestyle": "none", "label": words, **marker}
                 axes.plot(fitted.observed[some], fitted.predicted[some], **look)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
-        axes.set_xlabel("observed rounds")
-        axes.set_ylabel("predicted rounds")
+        axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")
         axes.legend(loc="upper left")
         figure.suptitle("\n".join(fit_lines(fitted, math=True)))
         wrap_texts(figure)

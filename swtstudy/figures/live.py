@@ -11,7 +11,6 @@ from fractions import Fraction
 from io import BytesIO
 from math import pi
 from os import PathLike
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -20,11 +19,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import load_and_springs
-from swtstudy.figures.force_panels import draw_load_plane
-from swtstudy.figures.inspection_panels import draw_load, draw_springs
+from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
-from swtstudy.figures.ticks import tick_in_pi
+from swtstudy.figures.words import tick_in_pi
 from swtstudy.points.values import read_value
 from swtstudy.solving import solve
 from swtstudy.vocabulary.arrays import FloatArray
@@ -36,12 +34,6 @@ from swtstudy.vocabulary.wording import axis_words
 _PHASES, _LEAST, _RTOL = 24, 12, 1e-3
 #: Times as many phases for the curve when nothing moves: few of them miss its least value by some per cent.
 _FINER = 8
-#: Dots per inch of a picture that is saved.
-_SAVED = 300.0
-#: Phases nearer than this, rad, are the same.
-_ROUNDING = 1e-6
-#: Size in inches, and dots per inch.
-_SIZE, _DOTS = (13.5, 4.2), 80
 
 
 class LiveFigure:
@@ -56,7 +48,7 @@ class LiveFigure:
     def __init__(self) -> None:
         with styled():
             # Its own layout: matplotlib's would cost as much as everything else that is drawn.
-            self.figure = Figure(_SIZE, dpi=_DOTS)
+            self.figure = Figure((13.5, 4.2), dpi=80)
             self.figure.subplots(1, 3)
             self.figure.subplots_adjust(left=0.055, right=0.99, bottom=0.13, top=0.93, wspace=0.25)
         self._canvas = FigureCanvasAgg(self.figure)
@@ -86,7 +78,7 @@ class LiveFigure:
         phase = float(read_value(row, parameters.get("phase", row.default)))  # type: ignore[arg-type]
         curve = phases(parameters.get("frequency_ratio", 1), _FINER if fine else 1)
         # A phase that is one of these but for rounding takes its place.
-        over = {"phase": np.union1d(curve[np.abs(curve - phase) > _ROUNDING], phase)}
+        over = {"phase": np.union1d(curve[np.abs(curve - phase) > 1e-6], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
         load, springs, over_phase = self.figure.axes
         with styled():
@@ -94,7 +86,7 @@ class LiveFigure:
                 axes.clear()
             (draw_load if "displacement" in dataset else draw_load_plane)(load, dataset)
             draw_springs(springs, dataset)
-            draw_over_phase(over_phase, solved.s, phase)
+            _draw_over_phase(over_phase, solved.s, phase)
             for axes in (load, springs):
                 # Half of the ticks: their labels are most of the time that drawing takes.
                 axes.locator_params(nbins=4)
@@ -109,7 +101,7 @@ class LiveFigure:
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the figure as SVG or PDF, or as PNG with 300 dots per inch; by the ending of the name."""
-        save_figure(self.figure, path, {"savefig.dpi": _SAVED})
+        save_figure(self.figure, path, {"savefig.dpi": 300.0})
 
 
 def phases(frequency_ratio: object, finer: int = 1) -> FloatArray:
@@ -117,24 +109,22 @@ def phases(frequency_ratio: object, finer: int = 1) -> FloatArray:
     ratio = read_value(PARAMETERS["frequency_ratio"], frequency_ratio)
     assert isinstance(ratio, Fraction)
     periods = ratio.numerator * (2 if ratio.denominator % 2 else 1)
-    return np.linspace(0.0, 2.0 * np.pi, periods * max(_LEAST, _PHASES // periods) * finer + 1)
+    return np.linspace(0.0, 2.0 * pi, periods * max(_LEAST, _PHASES // periods) * finer + 1)
 
 
-def draw_over_phase(axes: Axes, s: xr.DataArray, phase: float) -> None:
+def _draw_over_phase(axes: Axes, s: xr.DataArray, phase: float) -> None:
     """s over the phase, with gaps where it is not finite, and one of its points."""
     finite = s.where(np.isfinite(s))
     (line,) = axes.plot(s.phase, finite)
     axes.plot(phase, finite.sel(phase=phase), marker="o", markersize=9, color="black", linestyle="")
     axes.axvline(phase, color=line.get_color(), linewidth=0.9, alpha=0.5)
     highest = float(finite.max())
-    axes.set_xlim(0.0, 2.0 * np.pi)
-    axes.set_ylim(0.0, 1.15 * highest if highest > 0.0 else 1.0)
+    axes.set(xlim=(0.0, 2.0 * pi), ylim=(0.0, 1.15 * highest if highest > 0.0 else 1.0))
     if not np.isfinite(highest):
         axes.text(0.5, 0.5, "$s$ is not finite", transform=axes.transAxes, ha="center")
-    tick_in_pi(axes.xaxis, 0.0, 2.0 * np.pi)
+    tick_in_pi(axes.xaxis, 0.0, 2.0 * pi)
     axes.locator_params(axis="y", nbins=4)
-    axes.set_xlabel(axis_words("phase"))
-    axes.set_ylabel("$s$")
+    axes.set(xlabel=axis_words("phase"), ylabel="$s$")
     axes.set_title("$s$ over the phase", loc="left")
 
 
@@ -158,7 +148,6 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
 }
 #: Ratios of the frequencies to choose from.
 RATIOS = ("1/3", "1/2", "2/3", "3/4", "1", "4/3", "3/2", "2", "3")
-_WIDE = {"description_width": "19em"}
 #: Seconds without a movement after which the curve is drawn with all phases that it needs.
 _IDLE = 0.4
 
@@ -186,12 +175,24 @@ class Explorer:
     """
 
     def __init__(self) -> None:
-        widgets = _widgets()
+        try:
+            import ipywidgets as widgets
+        except ImportError:
+            words = 'sliders need the extra "live": pip install "swtstudy[live]"'
+            raise ImportError(words) from None
         self.live = LiveFigure()
-        self.controls = _controls(widgets)
-        self.picture = widgets.Image(format="png")
-        self.caption = widgets.HTML()
-        for each in self.controls.values():
+        self.picture, self.caption = widgets.Image(format="png"), widgets.HTML()
+        self.controls: dict[str, Any] = {
+            "profile": widgets.Dropdown(options=list(FAMILIES), value="paraboloid"),
+            "control": widgets.Dropdown(options=list(CONTROLS.values()), value="displacements"),
+            "frequency_ratio": widgets.Dropdown(options=RATIOS, value="1"),
+        }
+        for name, (low, high, step, begin) in SLIDERS.items():
+            slider = widgets.FloatSlider(begin, min=low, max=high, step=step, readout_format=".3g")
+            slider.tooltip, self.controls[name] = PARAMETERS[name].meaning, slider
+        for name, each in self.controls.items():
+            each.description = "prescribed" if name == "control" else _words(name)
+            each.style, each.layout.width = {"description_width": "19em"}, "98%"
             each.observe(self._follow, names="value")
         controls, half = list(self.controls.values()), -(-len(self.controls) // 2)
         wide = widgets.Layout(width="50%")
@@ -247,28 +248,3 @@ class Explorer:
 def _words(name: str) -> str:
     """The name of a parameter with its symbol."""
     return ", ".join(filter(None, (name.replace("_", " "), PARAMETERS[name].notation)))
-
-
-def _widgets() -> ModuleType:
-    try:
-        import ipywidgets
-    except ImportError:
-        words = 'sliders need the extra "live": pip install "swtstudy[live]"'
-        raise ImportError(words) from None
-    return ipywidgets
-
-
-def _controls(widgets: ModuleType) -> dict[str, Any]:
-    """A widget for each parameter."""
-    chosen: dict[str, Any] = {
-        "profile": widgets.Dropdown(options=list(FAMILIES), value="paraboloid"),
-        "control": widgets.Dropdown(options=list(CONTROLS.values()), value="displacements"),
-        "frequency_ratio": widgets.Dropdown(options=RATIOS, value="1"),
-    }
-    for name, (low, high, step, begin) in SLIDERS.items():
-        chosen[name] = widgets.FloatSlider(begin, min=low, max=high, step=step, readout_format=".3g")
-        chosen[name].tooltip = PARAMETERS[name].meaning
-    for name, each in chosen.items():
-        words = "prescribed" if name == "control" else _words(name)
-        each.description, each.style, each.layout.width = words, _WIDE, "98%"
-    return chosen

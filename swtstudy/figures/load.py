@@ -23,9 +23,6 @@ if TYPE_CHECKING:
     from swtstudy.study.definition import Study
     from swtstudy.study.signal import Signal
 
-#: Instants of a smooth loop.
-_INSTANTS = 720
-
 
 def draw_load(
     study: Study,
@@ -66,18 +63,23 @@ def draw_load(
     if signal is not None and signal.is_absolute:
         loads = _at_begin(loads, signal.mean_cycle)  # a polygon begins at another vertex than its record
     phase = np.linspace(0.0, 1.0, len(loads))
-    forces = _control(study) == Control(True, True)
+    forces, units = _control(study) == Control(True, True), _units(study)
+    # Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0.
+    slope = _first(study, "friction", 1.0) if any(units) else 1.0
     with styled(style, width):
         sheet = Sheet(1, 3 if forces else 2, width)
         figure = sheet.figure()
         course, path, *margin = sheet.panels(figure, share_x="none", share_y="none")[0]
-        units = _units(study)
         _draw_course(course, phase, loads, signal, units)
-        _draw_path(path, study, loads, forces, units)
-        for axes in margin:
-            _draw_margin(axes, phase, study, loads)
-        words = f"{name}: {signal.words}" if signal else name
-        figure.suptitle(as_text(words))
+        path.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
+        path.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
+        path.set_title("path", loc="left")
+        if forces:
+            ends = np.array([0.0, 1.05 * loads[:, 0].max()])
+            for sign in (1.0, -1.0):
+                path.plot(ends, sign * slope * ends, **stroke("0.5", "--", linewidth=0.8))
+            _draw_margin(margin[0], phase, loads, slope, f" at $\\mu$ = {slope:g}" * any(units))
+        figure.suptitle(as_text(f"{name}: {signal.words}" if signal else name))
         wrap_texts(figure)
     return figure
 
@@ -94,53 +96,54 @@ def _control(study: Study) -> Control:
     return control if moves or not grid.values("normal_force") else replace(control, normal_force=True)
 
 
-def _units(study: Study) -> tuple[str, str, str]:
+def _units(study: Study) -> list[str]:
     """Units of both loads and of the bulk stress as words of a figure; empty where there are none."""
     given = _control(study).given_for
     names = (given("normal_amplitude"), given("tangential_amplitude"), "bulk_stress_amplitude")
     labels = (study.grid.row(name).units for name in names)
-    one, two, three = ("" if label in ("", "1") else f" ({as_text(label)})" for label in labels)
-    return one, two, three
+    return ["" if label in ("", "1") else f" ({as_text(label)})" for label in labels]
 
 
 def _loads(study: Study, loop: Loop) -> FloatArray:
     """Both loads and the bulk stress over a cycle, the first instant again at the end, shape (k, 2 or 3)."""
-    control = study.grid.control
-    normal, tangential = (
-        _first(study, control.given_for(f"{each}_amplitude"), 1.0) for each in ("normal", "tangential")
-    )
-    course = loop.course()
-    columns = [_mean(study, loop) + normal * course[:, 0], tangential * course[:, 1]]
-    if loop.bulk_ends is not None:
-        amplitude = _first(study, "bulk_stress_amplitude", 1.0)
-        columns.append(_first(study, "bulk_stress_mean", 0.0) + amplitude * course[:, 2])
-    return np.stack(columns, axis=1)
-
-
-def _mean(study: Study, loop: Loop) -> float:
-    """The mean normal load that a study has with a loop; 1 where nothing has units."""
+    grid, course = study.grid, loop.course()
+    # The mean normal load that a study has with a loop; 1 where nothing has units.
     kind = "normal_force" if _control(study).normal_force else "depth"
-    values = study.grid.values(kind)
-    along = len(values) > 1 and study.grid.dimension(kind) == "load"
-    at = list(study.grid.values("load")).index(loop) if along else 0
-    return as_number(values[at]) if values else 1.0
+    means = grid.values(kind)
+    along = len(means) > 1 and grid.dimension(kind) == "load"
+    mean = as_number(means[list(grid.values("load")).index(loop) if along else 0]) if means else 1.0
+    names = [grid.control.given_for(f"{each}_amplitude") for each in ("normal", "tangential")]
+    factors = [_first(study, each, 1.0) for each in (*names, "bulk_stress_amplitude")]
+    shift = np.array([mean, 0.0, _first(study, "bulk_stress_mean", 0.0)])
+    columns = 2 if loop.bulk_ends is None else 3
+    return np.asarray(shift[:columns] + np.array(factors)[:columns] * course[:, :columns])
 
 
 def _draw_course(
     axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signal | None, units: Sequence[str]
 ) -> None:
     """Both loads and the bulk stress over the cycle, and the record as far as it is the load itself."""
-    names = ("normal", "tangential", "bulk stress")
     if signal is not None and signal.is_absolute:
         cycles = signal.cycles
         share = np.arange(cycles.shape[1]) / cycles.shape[1]
         for column in range(cycles.shape[2]):
             axes.plot(share, cycles[..., column].T, **stroke(f"C{column}", linewidth=0.5, alpha=0.25))
-    for column, (name, unit) in enumerate(zip(names[: loads.shape[1]], units, strict=False)):
-        axes.plot(phase, loads[:, column], **stroke(f"C{column}", label=name + unit))
+    names = ("normal", "tangential", "bulk stress")
+    for column, (values, name, unit) in enumerate(zip(loads.T, names, units, strict=False)):
+        axes.plot(phase, values, **stroke(f"C{column}", label=name + unit))
     axes.set(xlabel="share of a cycle", ylabel="loads")
     axes.set_title("course", loc="left")
     axes.legend(frameon=False)
+
+
+def _draw_margin(axes: Axes, phase: FloatArray, loads: FloatArray, slope: float, which: str) -> None:
+    """|Q|/(μP) over the cycle."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        margin = np.abs(loads[:, 1]) / (slope * loads[:, 0])
+    axes.plot(phase, margin, **stroke("C3"))
+    axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
+    axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
+    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}{which}", loc="left")
 
 
 def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
@@ -149,32 +152,3 @@ def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
     first = int((((loads[:-1] - cycle[0]) / size) ** 2).sum(axis=1).argmin())
     rolled = np.roll(loads[:-1], -first, axis=0)
     return np.concatenate([rolled, rolled[:1]])
-
-
-def _draw_path(axes: Axes, study: Study, loads: FloatArray, forces: bool, units: Sequence[str]) -> None:
-    """The path in the plane of both loads, and where friction ends."""
-    axes.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
-    axes.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
-    axes.set_title("path", loc="left")
-    if forces:
-        ends = np.array([0.0, 1.05 * loads[:, 0].max()])
-        for sign in (1.0, -1.0):
-            axes.plot(ends, sign * _slope(study) * ends, **stroke("0.5", "--", linewidth=0.8))
-
-
-def _draw_margin(axes: Axes, phase: FloatArray, study: Study, loads: FloatArray) -> None:
-    """|Q|/(μP) over the cycle."""
-    slope = _slope(study)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        margin = np.abs(loads[:, 1]) / (slope * loads[:, 0])
-    axes.plot(phase, margin, **stroke("C3"))
-    axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
-    axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
-    # Loads without units are over μ F0 and F0, whatever μ is.
-    which = f" at $\\mu$ = {slope:g}" if any(_units(study)) else ""
-    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}{which}", loc="left")
-
-
-def _slope(study: Study) -> float:
-    """Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0."""
-    return _first(study, "friction", 1.0) if any(_units(study)) else 1.0

@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.figures.quantity_words import NO_LABELS, Labels, show_units
 from swtstudy.figures.sheet import Sheet, Width, wrap_texts
 from swtstudy.figures.style import Style, stroke, styled
+from swtstudy.figures.words import NO_LABELS, Labels, show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.profiles.at_rest import AtRest
@@ -24,8 +24,6 @@ from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.wording import place_words
 
-#: Size of a panel on a screen, inches.
-_PANEL = (4.8, 4.0)
 #: Radii of the curves, over the contact radius at δ0.
 _RADII, _REACH = 1201, 1.45
 
@@ -82,60 +80,61 @@ def draw_shape(
     grid, mistakes = read_grid({**still, **parameters}, {})
     if grid is None:
         raise StudyError(mistakes)
-    pressed = grid.fixed["profile"]
-    shape = {name: np.array([as_number(grid.fixed[name])]) for name in family_of(pressed).shape}
-    profile = AtRest(pressed, shape)  # type: ignore[arg-type]
+    pressed: Any = grid.fixed["profile"]
+    shape = {name: as_number(grid.fixed[name]) for name in family_of(pressed).shape}
+    profile = AtRest(pressed, {name: np.array([value]) for name, value in shape.items()})
     edge = float(profile.radius(np.ones((1, 1)))[0, 0])
     with styled(style, width):
-        sheet = Sheet(1, 2, width, _PANEL)
+        sheet = Sheet(1, 2, width, (4.8, 4.0))
         figure = sheet.figure()
         sketch, springs = sheet.panels(figure, share_x="none", share_y="none")[0]
-        _draw_sketch(sketch, profile, edge)
-        _draw_lengths(sketch, profile, {name: float(value[0]) for name, value in shape.items()}, labels)
+        _draw_sketch(sketch, profile, _REACH * edge)
+        _draw_lengths(sketch, profile, shape, labels)
         _draw_springs(springs, profile, edge, labels)
         show_units(sketch, ("x", "height"), labels)
-        numbers = (place_words(name, float(value[0])) for name, value in shape.items())
+        numbers = (place_words(name, value) for name, value in shape.items())
         words = [given] if given else [place_words("profile", str(pressed)), *numbers]
         if isinstance(pressed, TabulatedProfile):
             sketch.plot(pressed.radius, pressed.height - 1.0, ".", ms=3, color="C1", label="table")
-            missed = f"{pressed.deviation:.1e} δ0"
-            if labels:
-                missed = labels["height"].number(pressed.deviation, 2)
+            off = pressed.deviation
+            missed = labels["height"].number(off, 2) if labels else f"{off:.1e} δ0"
             words.append(f"{pressed.radius.size} points, missed by {missed} at most")
         figure.suptitle(("\n" if labels else ",  ").join(words))
         wrap_texts(figure)
     return figure
 
 
-def _draw_sketch(axes: Axes, profile: AtRest, edge: float) -> None:
+def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
     """The indenter at δ0 over the undeformed half-space, the coordinates and the loads."""
-    r = np.linspace(0.0, _REACH * edge, _RADII)
+    r = np.linspace(0.0, reach, _RADII)
     height = _height(profile, r) - 1.0
-    x = np.concatenate([-r[::-1], r])
-    lower = np.concatenate([height[::-1], height])
+    x, lower = np.concatenate([-r[::-1], r]), np.concatenate([height[::-1], height])
     top = max(0.9, float(height.max()))
     axes.fill_between(x, lower, top, color="0.8", lw=0.0)
     axes.plot(x, lower, color="0.2")
     axes.axhline(0.0, color="C0", lw=1.0)
     axes.fill_between(x, -1.35, 0.0, color="C0", alpha=0.12, lw=0.0)
     arrow = {"arrowstyle": "-|>", "color": "k", "lw": 1.4, "shrinkA": 0.0, "shrinkB": 0.0}
-    reach = _REACH * edge
     for end, word, offset in (((0.45 * reach, 0.0), "$x$", (3, 4)), ((0.0, -1.3), "$z$", (5, 0))):
         axes.annotate("", end, (0.0, 0.0), arrowprops=arrow)
         axes.annotate(word, end, offset, textcoords="offset points")
-    load = {**arrow, "color": "C3", "lw": 2.0}
-    axes.annotate("", (0.0, 0.5 * top), (0.0, top), arrowprops=load)
-    words: dict[str, Any] = {"color": "C3", "fontsize": "small"}
-    normal, tangential = (
-        ("line load $P$", "$Q$") if profile.plane else ("depth $\\delta$, force", "$u$, force")
+    plane = profile.plane
+    loads = (
+        (
+            (0.0, 0.5),
+            (0.0, 1.0),
+            (0.04, 0.8),
+            "normal load: " + ("line load $P$" if plane else "depth $\\delta$, force"),
+        ),
+        ((-0.45, 0.3), (-0.85, 0.3), (-0.97, 0.38), "tangential: " + ("$Q$" if plane else "$u$, force")),
     )
-    axes.annotate(f"normal load: {normal}", (0.04 * reach, 0.8 * top), **words)
-    axes.annotate("", (-0.45 * reach, 0.3 * top), (-0.85 * reach, 0.3 * top), arrowprops=load)
-    axes.annotate(f"tangential: {tangential}", (-0.97 * reach, 0.38 * top), **words)
+    for *places, words in loads:
+        end, start, at = ((reach * x, top * y) for x, y in places)
+        axes.annotate("", end, start, arrowprops={**arrow, "color": "C3", "lw": 2.0})
+        axes.annotate(words, at, color="C3", fontsize="small")
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
-    at = "sunk by δ0" if profile.plane else "at the depth δ0"
-    axes.set_title(f"f, undeformed, {at}", loc="left")
+    axes.set_title(f"f, undeformed, {'sunk by δ0' if plane else 'at the depth δ0'}", loc="left")
 
 
 def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], labels: Labels) -> None:
@@ -153,12 +152,11 @@ def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], label
     if length:
         # The waves are −h cos kx about the paraboloid: crests half a wave from the axis.
         first = length * (0.5 + math.floor(0.5 * right / length))
-        crests = np.array([first, first + length])
-        level = float(_height(profile, crests).max()) - 1.0 + 0.12
-        axes.annotate("", (crests[1], level), (crests[0], level), arrowprops={**look, "mutation_scale": 6.0})
+        level = float(_height(profile, np.array([first, first + length])).max()) - 1.0 + 0.12
+        axes.annotate("", (first + length, level), (first, level), arrowprops={**look, "mutation_scale": 6.0})
         tall = labels["height"].number(2.0 * height, 3) if labels else f"{2.0 * height:.3g} $\\delta_0$"
         words = f"$\\lambda$, height $2h$ = {tall}"
-        axes.annotate(words, (crests[0], level + 0.03), ha="center", va="bottom", fontsize="small")
+        axes.annotate(words, (first, level + 0.03), ha="center", va="bottom", fontsize="small")
 
 
 def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> None:
@@ -171,9 +169,8 @@ def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> N
     inside = r[:, r[0] < edge]
     pressure = profile.pressure(inside, np.array([[edge]]))
     axes.plot(inside[0], pressure[0], color="C3", label="$p$" if labels else "$p\\,a_H/(E^*\\delta_0)$")
-    axes.set(
-        xlim=(0.0, r.max()), ylim=(0.0, 2.2), xlabel="half-width$/a_H$" if profile.plane else "radius$/a_H$"
-    )
+    axes.set(xlim=(0.0, r.max()), ylim=(0.0, 2.2))
+    axes.set_xlabel("half-width$/a_H$" if profile.plane else "radius$/a_H$")
     if labels:
         show_units(axes, ("r", None if profile.plane else "spring_depth"), labels)
         other = axes.twinx()

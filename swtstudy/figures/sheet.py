@@ -1,23 +1,30 @@
-"""The sheet that a figure fills: a screen, a journal's column, or its page.
+"""The sheet that a figure fills, and what stands around its panels: titles, labels and a legend.
 
-Notebooks display its figures. Titles and labels are broken into lines where they are longer than there is
-room.
+A sheet is a screen, a journal's column, or its page. Titles and labels are broken into lines where they are
+longer than there is room; a legend stands below all panels.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from io import BytesIO
 from typing import Any, Literal
 
 import matplotlib.figure
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.layout_engine import ConstrainedLayoutEngine
+from matplotlib.legend import Legend
+from matplotlib.legend_handler import HandlerLine2D
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
+from swtstudy.figures.style import stroke
+from swtstudy.loads.loop import Loop
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 
 
@@ -173,34 +180,128 @@ _LONG = 30
 
 def wrap_texts(figure: Figure) -> None:
     """Break titles and labels that are longer than their panels, or than the figure; a word stays whole."""
-    whole = figure._suptitle  # type: ignore[attr-defined]
-    labels = [label for axes in figure.axes for label in (axes.xaxis.label, axes.yaxis.label)]
-    titles = [(axes, each) for axes in figure.axes for each in (axes.title, axes._left_title)]  # type: ignore[attr-defined]
-    texts = [*labels, *(title for _, title in titles), *([whole] if whole else [])]
-    if figure.width is None and all(len(text.get_text()) <= _LONG for text in texts):
+    whole: Text | None = figure._suptitle  # type: ignore[attr-defined]
+    texts: list[tuple[Text, Axes, str]] = []
+    for axes in figure.axes:
+        titles = (axes.title, axes._left_title)  # type: ignore[attr-defined]
+        texts += [(title, axes, "title") for title in titles]
+        texts += [(axes.xaxis.label, axes, "across"), (axes.yaxis.label, axes, "up")]
+    longest = max(
+        (len(text.get_text()) for text in [*(each for each, *_ in texts), whole] if text), default=0
+    )
+    if figure.width is None and longest <= _LONG:
         return
     figure.draw_without_rendering()
-
-    def wrap(text: Text, room: float, upright: bool = False) -> None:
-        lines = []
-        for given in text.get_text().splitlines():
-            line = ""
-            for word in _WORD.findall(given):
-                text.set_text(line + word)
-                box = text.get_window_extent()
-                if line and (box.height if upright else box.width) > room:
-                    lines.append(line)
-                    line, word = "", word.lstrip()
-                line += word
-            lines.append(line)
-        text.set_text("\n".join(lines))
-
-    for axes, title in titles:
-        ticks = axes.xaxis.get_tightbbox()
-        wide = max(axes.bbox.width, (ticks.x1 if ticks else 0.0) - axes.bbox.x0)
-        wrap(title, min(wide, figure.bbox.width - axes.bbox.x0))
-    for axes in figure.axes:
-        wrap(axes.xaxis.label, (1.0 if figure.width is None else 1.15) * axes.bbox.width)
-        wrap(axes.yaxis.label, axes.bbox.height, upright=True)
+    for text, axes, place in texts:
+        box = axes.bbox
+        if place == "title":
+            ticks = axes.xaxis.get_tightbbox()
+            wide = max(box.width, (ticks.x1 if ticks else 0.0) - box.x0)
+            _wrap(text, min(wide, figure.bbox.width - box.x0), "width")
+        elif place == "across":
+            _wrap(text, (1.0 if figure.width is None else 1.15) * box.width, "width")
+        else:
+            _wrap(text, box.height, "height")
     if whole:
-        wrap(whole, 0.98 * figure.bbox.width)
+        _wrap(whole, 0.98 * figure.bbox.width, "width")
+
+
+def _wrap(text: Text, room: float, along: str) -> None:
+    """Break a text into lines that are no longer than there is room."""
+    lines = []
+    for given in text.get_text().splitlines():
+        line = ""
+        for word in _WORD.findall(given):
+            text.set_text(line + word)
+            if line and getattr(text.get_window_extent(), along) > room:
+                lines.append(line)
+                line, word = "", word.lstrip()
+            line += word
+        lines.append(line)
+    text.set_text("\n".join(lines))
+
+
+class LoopHandler(HandlerLine2D):
+    """A line's sample, and beside it the loop that the line is about: tangential across, normal upwards."""
+
+    def __init__(self, loops: Mapping[str, Loop]) -> None:
+        super().__init__()
+        self._loops = loops
+
+    def create_artists(  # type: ignore[override]
+        self,
+        legend: Legend,
+        handle: Line2D,
+        left: float,
+        down: float,
+        width: float,
+        height: float,
+        *more: Any,
+    ) -> list[Artist]:
+        sample = super().create_artists(legend, handle, left, down, 0.52 * width, height, *more)
+        loop, side = self._loops.get(str(handle.get_label())), 0.85 * height
+        if loop is None:
+            return [*sample]
+        path = loop.course()[:, 1::-1]  # tangential across
+        spread = np.ptp(path, axis=0)
+        # A load that rests is in the middle.
+        share = np.where(spread > 0.0, (path - path.min(axis=0)) / np.where(spread > 0.0, spread, 1.0), 0.5)
+        corner = np.array([width - side - left, -down + 0.5 * (height - side)])
+        drawn = stroke(handle.get_color(), linewidth=1.0, transform=more[-1])
+        return [*sample, Line2D(*(corner + side * share).T, **drawn)]
+
+
+def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] | None = None) -> None:
+    """Add one legend for all panels, lines before bands beneath them and markers; no entry is cut off.
+
+    Parameters
+    ----------
+    figure
+        The figure, which grows by the height of the legend. On a screen it gets wider where an entry is wider
+        than all panels; in print the letters of the legend get smaller there.
+    axes
+        Its panels.
+    loops
+        What lines are about, by their labels, if loops: drawn beside their samples.
+    """
+    handles: dict[str, Any] = {}
+    for one in axes.flat:
+        for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    if not handles:
+        return
+    ranks = {
+        label: (each.get_linestyle() == "None", each.get_zorder() < Line2D.zorder)
+        for label, each in handles.items()
+    }
+    labels = sorted(handles, key=ranks.__getitem__)
+    look: dict[str, Any] = {}
+    if loops:
+        look = {"handler_map": {Line2D: LoopHandler(loops)}}
+        look |= {"handlelength": 4.6, "handleheight": 1.9, "labelspacing": 0.7}
+    place_legend(figure, [handles[label] for label in labels], labels, **look)
+
+
+def place_legend(figure: Figure, handles: list[Any], labels: list[str], **look: Any) -> None:
+    """Add a legend of these entries in as many columns as fit; see `add_legend`."""
+    look |= {"handles": handles, "labels": labels, "loc": "outside lower center"}
+    room = figure.get_figwidth()
+    for columns in range(len(labels), 0, -1):
+        legend = figure.legend(ncols=columns, **look)
+        width, height = _size(legend)
+        if width <= room or columns == 1:
+            break
+        legend.remove()
+    if width > room and figure.width is not None:
+        size = float(legend.get_texts()[0].get_fontsize()) * room / width
+        legend.remove()
+        width, height = _size(figure.legend(fontsize=size, **look))
+    figure.set_size_inches(room if figure.width else max(room, width), figure.get_figheight() + height)
+
+
+def _size(legend: Legend) -> tuple[float, float]:
+    """Width and height of a legend, inches, padding included."""
+    dots = legend.figure.dpi
+    around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / 72.0
+    box = legend.get_window_extent()
+    return box.width / dots + around, box.height / dots + around

@@ -9,6 +9,7 @@ import math
 import re
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from functools import cache
 from io import BytesIO
 from os import PathLike
 from pathlib import Path
@@ -32,62 +33,22 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
 #: One marker for each repetition of the dashes.
 MARKERS = ("", "o", "s", "^", "D", "v", "X")
-
 _LINES = range(math.lcm(len(COLOURS), len(DASHES)))
 
-#: rcParams of every figure, except those that the user has changed.
-STYLE: dict[str, Any] = {
-    "axes.prop_cycle": cycler(
-        color=[COLOURS[i % len(COLOURS)] for i in _LINES],
-        linestyle=[DASHES[i % len(DASHES)] for i in _LINES],
-        marker=[MARKERS[i // len(DASHES)] for i in _LINES],
-    ),
-    "axes.axisbelow": True,
-    "axes.formatter.limits": (-3, 6),  # lengths of micrometres in mm: a power at the end of the axis
-    "axes.formatter.use_mathtext": True,
-    "axes.grid": True,
-    "axes.titlelocation": "left",
-    "axes.titlesize": "medium",
-    "grid.color": "0.9",
-    "grid.linewidth": 0.6,
-    "image.cmap": "cividis",
-    "legend.frameon": False,
-    "legend.handlelength": 2.8,
-    "lines.linewidth": 1.6,
-    "lines.markersize": 4.0,
-    "pdf.fonttype": 42,  # publishers refuse the default, Type 3
-    "savefig.dpi": 150,
-    "svg.hashsalt": "swtstudy",  # the same figure gives the same file
-}
 
-#: Further rcParams for print: 8 pt, and thinner lines. Other letters are relative to a user's font.size.
-PRINT: dict[str, Any] = {
-    "axes.labelpad": 2.0,
-    "axes.linewidth": 0.6,
-    "axes.titlepad": 4.0,
-    "figure.titlesize": "medium",
-    "font.size": 8.0,
-    "grid.linewidth": 0.4,
-    "legend.columnspacing": 1.4,
-    "legend.fontsize": "small",
-    "legend.handlelength": 2.6,
-    "legend.handletextpad": 0.5,
-    "legend.labelspacing": 0.3,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 3.0,
-    "patch.linewidth": 0.6,
-    "savefig.dpi": 300,
-    "xtick.labelsize": "small",
-    "xtick.major.size": 2.5,
-    "xtick.major.width": 0.6,
-    "xtick.minor.size": 1.5,
-    "xtick.minor.width": 0.4,
-    "ytick.labelsize": "small",
-    "ytick.major.size": 2.5,
-    "ytick.major.width": 0.6,
-    "ytick.minor.size": 1.5,
-    "ytick.minor.width": 0.4,
-}
+@cache
+def style_of(name: str) -> dict[str, Any]:
+    """The rcParams of "screen" or of "print", which go with those of a screen."""
+    path = Path(__file__).with_name(f"{name}.mplstyle")
+    own = dict(matplotlib.rc_params_from_file(path, use_default_template=False))
+    if name == "print":
+        return style_of("screen") | own
+    cycle = {
+        "color": [COLOURS[i % len(COLOURS)] for i in _LINES],
+        "linestyle": [DASHES[i % len(DASHES)] for i in _LINES],
+        "marker": [MARKERS[i // len(DASHES)] for i in _LINES],
+    }
+    return own | {"axes.prop_cycle": cycler(**cycle)}
 
 
 def stroke(color: Any = "black", dashes: Any = "-", **own: Any) -> dict[str, Any]:
@@ -116,8 +77,9 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
         if isinstance(each, str | Path) and each not in matplotlib.style.library and Path(each).exists():
             _check_file(each)
 
-    wanted = STYLE if width is None else STYLE | PRINT
-    own: Any = {name: value for name, value in wanted.items() if _untouched(name)}
+    known: Any = matplotlib.rcParams
+    wanted: Any = style_of("screen" if width is None else "print").items()
+    own: Any = {name: value for name, value in wanted if known[name] == rcParamsDefault[name]}
     own["text.usetex"] = False  # our words are not LaTeX: it would stop at the first % or _
     with ExitStack() as stack:
         stack.enter_context(matplotlib.rc_context(own))
@@ -146,12 +108,8 @@ def _check_file(path: str | Path) -> None:
             raise StudyError([Mistake(f"line {number}", literal(line), allowed, str(path))]) from None
 
 
-def _untouched(name: Any) -> bool:
-    return bool(matplotlib.rcParams[name] == rcParamsDefault[name])
-
-
 #: Time stamps, left out so that the same results give the same file.
-_NO_DATE: dict[str, dict[str, None]] = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}
+_NO_DATE: dict[str, dict[str, None]] = {"pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 FORMATS = (".png", ".pdf", ".svg")
 
@@ -173,9 +131,9 @@ def save_figure(figure: Figure, path: str | PathLike[str], style: Style | None =
         temporary.write_bytes(content)
 
 
-def picture(figure: Figure, ending: str, style: Style | None = None) -> bytes:
-    """The content of a file with a figure: png, pdf or svg; `figure` and `style` as for `save_figure`."""
+def picture(figure: Figure, ending: str, style: Style | None = None, **options: Any) -> bytes:
+    """The content of a file with a figure: png, pdf, svg or webp; ``options`` as of ``savefig``."""
     content = BytesIO()
     with styled(style, getattr(figure, "width", None)):
-        figure.savefig(content, format=ending, metadata=_NO_DATE.get(f".{ending}"))
+        figure.savefig(content, format=ending, metadata=_NO_DATE.get(ending), **options)
     return content.getvalue()

@@ -5,7 +5,6 @@ Where it is least and greatest along x is found between the points of its grid.
 
 from __future__ import annotations
 
-import itertools
 import math
 from itertools import pairwise
 from typing import Any
@@ -13,107 +12,30 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps, rcParams
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
 from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.path import Path
+from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
 
-from swtstudy.figures.quantity_words import flag_words, is_life
-from swtstudy.figures.ticks import power_words, tick_cells, tick_in_pi
+from swtstudy.figures.lines import mark_points
+from swtstudy.figures.words import flag_words, is_life, power_words, tick_in_pi, tick_names
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, coordinate_words
 
-#: A row whose range is a smaller share of the whole surface's is flat: it has no place of an extremum.
-_FLAT = 0.02
-#: Ends that differ by a smaller share of the range are one place of a period.
-_SAME_ENDS = 1e-3
-#: A step along x that is a larger share of its range leads to another extremum.
-_JUMP = 0.1
-#: A smaller share of the rows is no line.
-_LEAST_SHARE = 0.08
-
-
-def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
-    """Place of the least value in each row, as the vertex of the parabola through it and its neighbours.
-
-    Parameters
-    ----------
-    x
-        Shape (nx,), ascending.
-    values
-        Shape (ny, nx); NaN where unknown.
-    angle
-        Whether x may close to a turn: it does if both ends of all rows are equal.
-
-    Returns
-    -------
-    numpy.ndarray
-        Shape (ny,): NaN where a row is flat, and for runs of few rows between two jumps.
-    """
-    known = np.where(np.isfinite(values), values, np.inf)
-    heights = np.array([np.ptp(row[np.isfinite(row)]) if np.isfinite(row).any() else 0.0 for row in values])
-    whole, turn, last = float(heights.max(initial=0.0)), float(x[-1] - x[0]), len(x) - 1
-    closed = angle and last >= 2 and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= _SAME_ENDS * whole))
-    places = np.full(len(values), np.nan)
-    for k in np.flatnonzero(heights > _FLAT * whole):
-        least = int(known[k].argmin())
-        places[k] = x[least]
-        if 0 < least < last:
-            at, (a, b, c) = x[least - 1 : least + 2], known[k, least - 1 : least + 2]
-        elif closed:
-            at = np.array([x[-2] - turn, x[0], x[1]]) + (turn if least == last else 0.0)
-            a, b, c = known[k, [-2, least, 1]]
-        else:
-            continue
-        left, right = (b - a) / (at[1] - at[0]), (c - b) / (at[2] - at[1])
-        if np.isfinite(left) and np.isfinite(right) and right > left:
-            # The slope of the parabola falls linearly from the middle of one step to that of the other.
-            first, second = 0.5 * (at[:-1] + at[1:])
-            vertex = float(np.clip(first - left * (second - first) / (right - left), first, second))
-            places[k] = x[0] + (vertex - x[0]) % turn if closed else vertex
-    ends = [*jumps(places, turn), len(places)]
-    for begin, end in pairwise(ends):
-        if end - begin < _LEAST_SHARE * len(places):
-            places[begin:end] = np.nan
-    return places
-
-
-def jumps(places: FloatArray, turn: float) -> IndexArray:
-    """The rows at which another run begins."""
-    step = np.abs(np.diff(places, prepend=np.nan))
-    return np.flatnonzero(~(step <= _JUMP * turn))
-
-
-#: Most ticks of a heat map's axes.
-_TICKS_ACROSS, _TICKS_UP = 9, 20
-
-#: More rows have smaller words.
-_MANY_ROWS = 16
-
 #: Approximate number of contours: as many as are legible with labels.
 _LEVELS = 13
-
 #: Panels have a scale of colours each where one fills less than this share of their common one.
 _COMMON = 0.15
-
-#: Colours of a lower luminance have white letters.
-_DARK = 0.18
-
-#: All in shares of a panel: a label is so far inside the frame; so far, across and up, from lines and from
-#: other labels; and a contour has one from this length on.
-_INSIDE, _BESIDE, _APART, _SHORTEST = 0.08, (0.07, 0.05), (0.2, 0.12), 0.16
-#: A contour bends where its direction changes by more from point to point, rad.
-_BENT = 0.25
-
-#: Contours that are smaller than this share of a panel in both directions are left out.
-_ISLAND = 0.05
+#: Most dots across a map, and up: more would hide it.
+_MOST = 32
 
 
 def draw_surfaces(
@@ -138,16 +60,15 @@ def draw_surfaces(
         for one, surface in zip(axes, surfaces, strict=True):
             draw_surfaces(figure, np.array([one]), [surface], kind, words)
         return
-    look = (
-        _flag_colours(names) if names else {"norm": _scale_of(surfaces, kind), "cmap": _colours(surfaces[0])}
-    )
+    look: dict[str, Any] = {"norm": _scale_of(surfaces, kind), "cmap": _colours(surfaces[0])}
+    if names:  # a colour for each flag, in order from dark to light
+        look = {"cmap": colormaps[rcParams["image.cmap"]].resampled(len(names))}
+        look["norm"] = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
+    draw = _draw_cells if kind == "heatmap" else _draw_areas if names else draw_contours
     for one, surface in zip(axes, surfaces, strict=True):
-        if kind == "heatmap":
-            filled = draw_cells(one, surface, look)
-        elif names:
-            filled = draw_areas(one, surface, look)
-        else:
-            filled = draw_contours(one, surface, look)
+        one.set_facecolor("0.8")  # where nothing is known
+        one.grid(False)
+        filled = draw(one, surface, look)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
     if is_life(surfaces[0].attrs) and kind == "contour":
         bar.ax.yaxis.set_major_formatter(lambda value, _: power_words(value))
@@ -158,13 +79,13 @@ def draw_surfaces(
 
 def _colours(surface: xr.DataArray) -> str:
     """The colour map of a quantity: dark is kind, so that long lives are; a ratio is pale where it is 1."""
-    if is_ratio(surface):
+    if _is_ratio(surface):
         return "PuOr_r"
     own = str(rcParams["image.cmap"])
     return (own[:-2] if own.endswith("_r") else f"{own}_r") if is_life(surface.attrs) else own
 
 
-def is_ratio(surface: xr.DataArray) -> bool:
+def _is_ratio(surface: xr.DataArray) -> bool:
     """Return whether a quantity is s over s at one place."""
     return str(surface.attrs.get("symbol", "")) == "s/s_0"
 
@@ -177,13 +98,22 @@ def _in_common(surfaces: list[xr.DataArray]) -> bool:
 
 
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
-    """One colour scale for all panels of a row, in steps for contours."""
+    """One colour scale for all panels of a row, in steps for contours; of lives in decades."""
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     if is_life(surfaces[0].attrs) and low > 0.0:
-        return LogNorm(low, high) if kind == "heatmap" else _decades(low, high)
-    if is_ratio(surfaces[0]):
+        if kind == "heatmap":
+            return LogNorm(low, high)
+        first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+        digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
+        levels = np.array([digit * 10.0**power for power in range(first, last + 1) for digit in digits])
+        begin, end = (
+            levels[levels <= low].max(initial=levels[0]),
+            levels[levels >= high].min(initial=levels[-1]),
+        )
+        return BoundaryNorm(levels[(levels >= begin) & (levels <= end)], 256)
+    if _is_ratio(surfaces[0]):
         most = max(high - 1.0, 1.0 - low, 1e-3)
         low, high = 1.0 - most, 1.0 + most
     if kind == "heatmap":
@@ -191,137 +121,151 @@ def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
 
 
-def _decades(low: float, high: float) -> Normalize:
-    """Levels in equal ratios, whole or broken parts of decades."""
-    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-    digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
-    levels = [digit * 10.0**power for power in range(first, last + 1) for digit in digits]
-    inner = [level for level in levels if low < level < high]
-    begin = max((level for level in levels if level <= low), default=low)
-    end = min((level for level in levels if level >= high), default=high)
-    return BoundaryNorm([begin, *inner, end], 256)
-
-
-def _flag_colours(names: list[str]) -> dict[str, Any]:
-    """A colour for each flag, in order from dark to light."""
-    colours = colormaps[rcParams["image.cmap"]].resampled(len(names))
-    return {"cmap": colours, "norm": BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))}
-
-
-def draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Draw areas of flags over (vertical, x), with borders half way between points; grey where NaN."""
-    vertical, x = map(str, surface.dims)
-    axes.set_facecolor("0.8")
-    surface = surface.sortby([vertical, x])
-    at = surface[x], surface[vertical]
-    mesh = axes.pcolormesh(*at, surface, shading="nearest", rasterized=True, **look)
-    axes.set(xlim=surface[x].values[[0, -1]], ylim=surface[vertical].values[[0, -1]])
-    axes.grid(False)
+def _draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
+    """Draw areas of flags over (vertical, x), with borders half way between points."""
+    at, up, surface = _sorted(surface)
+    mesh = axes.pcolormesh(at, up, surface, shading="nearest", rasterized=True, **look)
+    axes.set(xlim=at[[0, -1]], ylim=up[[0, -1]])
     _tick_angles(axes, surface)
     return mesh
 
 
 def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
     """Draw contours of a surface over (vertical, x); for s also where it is least and greatest along x."""
-    vertical, x = map(str, surface.dims)
     levels, life = look["norm"].boundaries, is_life(surface.attrs)
-    surface = surface.sortby([vertical, x])
-    at = surface[x], surface[vertical]
-    axes.set_facecolor("0.8")
-    filled = axes.contourf(*at, surface, levels=levels, **look)
-    lines = axes.contour(*at, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
+    at, up, surface = _sorted(surface)
+    filled = axes.contourf(at, up, surface, levels=levels, **look)
+    lines = axes.contour(at, up, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
     if bool(surface.notnull().all()):
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
     if surface.name == "s":
         _draw_extrema(axes, surface)
     shown = levels if life else levels[::2]
-    labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small"}
-    places = _room_for_labels(axes, filled, lines, shown)
-    labels |= {"manual": places, "colors": [_ink(filled, float(level)) for level in shown]}
-    for words in axes.clabel(lines, shown, **labels) if places else ():
-        words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
-    axes.grid(False)
+    inks = [_ink(filled, float(level)) for level in shown]
+    labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small", "colors": inks}
+    tried = axes.clabel(lines, shown, inline=False, **labels)
+    if places := _apart(axes, tried):
+        for words in axes.clabel(lines, shown, manual=places, **labels):
+            words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
     _tick_angles(axes, surface)
     return filled
-
-
-def _room_for_labels(axes: Axes, filled: Artist, lines: ContourSet, shown: Any) -> list[tuple[float, float]]:
-    """Where labels have most room on their contours, apart from the frame, lines and one another.
-
-    Returns
-    -------
-    list of (x, y)
-        In data coordinates; at most one for each connected part of a contour.
-    """
-    axes.autoscale_view()
-    to_panel = axes.transData - axes.transAxes
-    borders = [each for each in axes.collections if isinstance(each, ContourSet)]
-    paths = [path for each in borders if each not in (filled, lines) for path in each.get_paths()]
-    taken = [*(line.get_xydata() for line in axes.lines), *(path.vertices for path in paths)]
-    beside = to_panel.transform(np.concatenate([np.empty((0, 2)), *taken]))
-    beside = beside[np.isfinite(beside).all(axis=1)]
-    names = [label.get_position() for label in axes.texts]
-    placed = to_panel.transform(np.array(names).reshape(-1, 2))
-    for path in itertools.compress(lines.get_paths(), np.isin(np.asarray(lines.levels), shown)):
-        for part in _parts(path):
-            at = to_panel.transform(part)
-            if np.ptp(at, axis=0).max() < _SHORTEST:
-                continue
-            step = np.gradient(at, axis=0)
-            bend = np.abs(np.angle(np.exp(1j * np.diff(np.arctan2(step[:, 1], step[:, 0])))))
-            room = np.minimum(at, 1.0 - at).min(axis=1) / _INSIDE
-            for others, apart in ((beside, _BESIDE), (placed, _APART)):
-                near = np.abs(at[:, None] - others[None]) / np.array(apart)
-                room = np.minimum(room, near.max(axis=2).min(axis=1, initial=np.inf))
-            room[1:][bend > _BENT] = 0.0
-            if room.max() >= 1.0:
-                placed = np.vstack([placed, at[room.argmax()]])
-    found = to_panel.inverted().transform(placed[len(names) :])
-    return [(float(x), float(y)) for x, y in found]
-
-
-def _parts(path: Path) -> list[FloatArray]:
-    """The points of each connected part of a path, shapes (n, 2)."""
-    if path.codes is None:
-        return []
-    parts = np.split(np.asarray(path.vertices), np.flatnonzero(path.codes == Path.MOVETO)[1:])
-    return [part for part in parts if len(part) > 2]
-
-
-def _ink(colours: ScalarMappable, level: float) -> str:
-    """Black or white, whichever is read on the colours beside a level."""
-    red, green, blue, _ = colours.to_rgba(level)  # type: ignore[arg-type]
-    return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > _DARK else "white"
 
 
 def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
     """Remove what is too small to be labelled: between two points of a grid a level may come and go."""
 
-    def island(part: NDArray[Any]) -> bool:
+    def is_island(part: FloatArray) -> bool:
         low, high = part.min(axis=0), part.max(axis=0)
-        inside = np.all((panel.min < low) & (high < panel.max))
-        return bool(inside and np.all(high - low < _ISLAND * np.array([panel.width, panel.height])))
+        small = np.all(high - low < 0.05 * np.array([panel.width, panel.height]))
+        return bool(small and np.all((panel.min < low) & (high < panel.max)))
 
-    kept = [[Path(part) for part in _parts(path) if not island(part)] for path in contours.get_paths()]
-    contours.set_paths([Path.make_compound_path(*parts) for parts in kept])
+    kept = []
+    for path in contours.get_paths():
+        begins = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)[1:]
+        parts = [part for part in np.split(np.asarray(path.vertices), begins) if len(part) > 2]
+        kept.append(Path.make_compound_path(*(Path(part) for part in parts if not is_island(part))))
+    contours.set_paths(kept)
+
+
+def _apart(axes: Axes, tried: list[Text]) -> list[tuple[float, float]]:
+    """Places of labels inside of the frame and apart from one another, names and lines; the labels go."""
+    frame, names = axes.get_window_extent(), [each for each in axes.texts if each not in tried]
+    taken = [each.get_window_extent() for each in names]
+    over = [path.vertices for each in axes.collections if each.get_zorder() == 3 for path in each.get_paths()]
+    lines = axes.transData.transform(
+        np.concatenate([np.empty((0, 2)), *map(Line2D.get_xydata, axes.lines), *over])
+    )
+    kept = []
+    for each in tried:
+        # The layout, which comes later, leaves a panel less room.
+        box = each.get_window_extent().expanded(1.5, 1.5)
+        inside = frame.contains(box.x0, box.y0) and frame.contains(box.x1, box.y1)
+        if inside and not box.count_overlaps(taken) and not box.count_contains(lines):
+            taken.append(box)
+            kept.append(each.get_position())
+        each.remove()
+    return kept
+
+
+def _sorted(surface: xr.DataArray) -> tuple[FloatArray, FloatArray, xr.DataArray]:
+    """Places across and up of a surface, ascending, and the surface."""
+    vertical, x = map(str, surface.dims)
+    surface = surface.sortby([vertical, x])
+    return surface[x].values, surface[vertical].values, surface
+
+
+def _ink(colours: ScalarMappable, level: float) -> str:
+    """Black or white, whichever is read on the colours beside a level."""
+    red, green, blue, _ = colours.to_rgba(level)  # type: ignore[arg-type]
+    return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > 0.18 else "white"
 
 
 def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
     """Lines where the surface is least and greatest along x; with a gap where another extremum takes over."""
-    vertical, x = map(str, surface.dims)
-    at, heights = surface[x].values, surface[vertical].values
-    dashes: Any = (0, (4, 2))
+    at, up, surface = _sorted(surface)
     width = 1.2 * rcParams["lines.linewidth"]
-    for words, sign, look in (("least", 1.0, "-"), ("greatest", -1.0, dashes)):
-        places = lowest(at, sign * surface.values, AXES[x].units == "rad")
-        # A gap before each run; not clipped, since an extremum may lie on the frame.
-        gaps = jumps(places, float(np.ptp(at)))
-        path = np.insert(places, gaps, np.nan), np.insert(heights, gaps, np.nan)
-        over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}
+    for words, sign, dashes in (("least", 1.0, "-"), ("greatest", -1.0, (0, (4, 2)))):
+        places = lowest(at, sign * surface.values, AXES[str(surface.dims[1])].units == "rad")
+        gaps = _jumps(places, float(np.ptp(at)))  # a gap before each run
+        path = np.insert(places, gaps, np.nan), np.insert(up, gaps, np.nan)
+        over: dict[str, Any] = {
+            "marker": "",
+            "clip_on": False,
+            "zorder": 3,
+        }  # an extremum may be on the frame
         axes.plot(*path, color="white", linestyle="-", linewidth=2.0 * width, **over)
         label = f"{words} ${surface.name}$"
-        axes.plot(*path, color="#B22222", linestyle=look, linewidth=width, label=label, **over)
+        axes.plot(*path, color="#B22222", linestyle=dashes, linewidth=width, label=label, **over)
+
+
+def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
+    """Place of the least value in each row, as the vertex of the parabola through it and its neighbours.
+
+    Parameters
+    ----------
+    x
+        Shape (nx,), ascending.
+    values
+        Shape (ny, nx); NaN where unknown.
+    angle
+        Whether x may close to a turn: it does if both ends of all rows are equal.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (ny,): NaN where a row is flat, and for runs of few rows between two jumps.
+    """
+    known = np.where(np.isfinite(values), values, np.inf)
+    heights = np.array([np.ptp(row[np.isfinite(row)]) if np.isfinite(row).any() else 0.0 for row in values])
+    whole, turn, last = float(heights.max(initial=0.0)), float(x[-1] - x[0]), len(x) - 1
+    closed = angle and last >= 2 and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= 1e-3 * whole))
+    places = np.full(len(values), np.nan)
+    for k in np.flatnonzero(heights > 0.02 * whole):
+        least = int(known[k].argmin())
+        places[k] = x[least]
+        if 0 < least < last:
+            at, (a, b, c) = x[least - 1 : least + 2], known[k, least - 1 : least + 2]
+        elif closed:
+            at = np.array([x[-2] - turn, x[0], x[1]]) + (turn if least == last else 0.0)
+            a, b, c = known[k, [-2, least, 1]]
+        else:
+            continue
+        left, right = (b - a) / (at[1] - at[0]), (c - b) / (at[2] - at[1])
+        if np.isfinite(left) and np.isfinite(right) and right > left:
+            # The slope of the parabola falls linearly from the middle of one step to that of the other.
+            first, second = 0.5 * (at[:-1] + at[1:])
+            vertex = float(np.clip(first - left * (second - first) / (right - left), first, second))
+            places[k] = x[0] + (vertex - x[0]) % turn if closed else vertex
+    for begin, end in pairwise([*_jumps(places, turn), len(places)]):
+        if end - begin < 0.08 * len(places):
+            places[begin:end] = np.nan
+    return places
+
+
+def _jumps(places: FloatArray, turn: float) -> IndexArray:
+    """The rows at which another run begins: a step that is a larger share of the range of x."""
+    return np.flatnonzero(~(np.abs(np.diff(places, prepend=np.nan)) <= 0.1 * turn))
 
 
 def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
@@ -330,17 +274,61 @@ def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
             tick_in_pi(axis, float(surface[name].min()), float(surface[name].max()))
 
 
-def draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Draw a cell for each point of a surface over (vertical, x), in the order of values; grey where NaN."""
+def _draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
+    """Draw a cell for each point of a surface over (vertical, x), in the order of values."""
     vertical, x = map(str, surface.dims)
-    axes.set_facecolor("0.8")
     columns, rows = (np.arange(surface.sizes[name]) for name in (x, vertical))
     mesh = axes.pcolormesh(columns, rows, surface, shading="nearest", rasterized=True, **look)
-    axes.grid(False)
-    for axis, name, most in ((axes.xaxis, x, _TICKS_ACROSS), (axes.yaxis, vertical, _TICKS_UP)):
-        words = (
+    for axis, name, most in ((axes.xaxis, x, 9), (axes.yaxis, vertical, 20)):
+        words = [
             coordinate_words(name, value, surface[name].attrs) for value in surface[name].values.tolist()
-        )
-        tick_cells(axis, [as_text(each.replace("_", " ")) for each in words], most)
-    axes.tick_params(axis="y", labelsize="small" if len(rows) <= _MANY_ROWS else "x-small")
+        ]
+        tick_names(axis, [as_text(each.replace("_", " ")) for each in words], most)
+    axes.tick_params(axis="y", labelsize="small" if len(rows) <= 16 else "x-small")
     return mesh
+
+
+def mark_cells(axes: Axes, panel: xr.Dataset, kind: str) -> None:
+    """Dots on the points of a panel over (vertical, x) that are outside, thinned where they are many."""
+    outside = panel.outside
+    up, across = (
+        np.arange(size) if kind == "heatmap" else panel[name].values for name, size in outside.sizes.items()
+    )
+    rows, columns = np.nonzero(outside.values)
+    blocks = np.stack(
+        [places // -(-n // _MOST) for places, n in zip((rows, columns), outside.shape, strict=True)]
+    )
+    _, kept = np.unique(blocks, axis=1, return_index=True)
+    mark_points(axes, across[columns[kept]], up[rows[kept]], outside.attrs["long_name"])
+
+
+def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
+    """Draw the borders between regimes over (vertical, x), and name each where it has most room.
+
+    Parameters
+    ----------
+    axes
+        A panel with contours.
+    regime
+        Flags, NaN where unknown.
+    """
+    from scipy.ndimage import distance_transform_edt, gaussian_filter
+
+    at, up, regime = _sorted(regime)
+    names = flag_words(regime)
+    width = 1.6 * rcParams["lines.linewidth"]
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}
+    look: dict[str, Any] = {"ha": "center", "va": "center", "fontsize": "small", "bbox": box, "zorder": 5}
+    for code in np.unique(regime.values[np.isfinite(regime.values)]).astype(int):
+        inside = regime.values == code
+        if inside.all():
+            continue
+        # Flags alone give a border in steps from point to point.
+        smooth = gaussian_filter(inside.astype(float), 1.0, mode="nearest")
+        for colour, wide in (("white", 2.0 * width), ("black", width)):
+            axes.contour(at, up, smooth, levels=[0.5], colors=colour, linewidths=wide, zorder=3)
+        if inside.mean() > 0.03:
+            # The point furthest from what is not inside. Words are wider than high: points count less across.
+            distance = distance_transform_edt(np.pad(inside, 1), sampling=(1.0, 0.4))[1:-1, 1:-1]
+            row, column = np.unravel_index(int(distance.argmax()), inside.shape)
+            axes.text(at[column], up[row], names[code], **look)

@@ -1,1 +1,1 @@
-"""Checks of the paper and of this package: statements, an audit, the textbook method."""
+"""Checks of the paper and of this package: statements, and an audit."""

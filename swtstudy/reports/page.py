@@ -1,45 +1,108 @@
-"""One archive as a page."""
+"""One archive as a page: what is shown, and in which words; ``page.html`` is its form."""
 
 from __future__ import annotations
 
-from html import escape
-from typing import Any
+import base64
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, NamedTuple
 
+import numpy as np
 import xarray as xr
+from jinja2.utils import htmlsafe_json_dumps
+from markupsafe import Markup, escape
+from matplotlib.figure import Figure
 
-from swtstudy.archive.describe import facts
+from swtstudy.archive import describe
+from swtstudy.contacts import contact_of
+from swtstudy.figures.draw import draw, layout_of
+from swtstudy.figures.evaluated import draw_sensitivity
+from swtstudy.figures.point import inspect
+from swtstudy.figures.sheet import PANEL
+from swtstudy.figures.style import picture
+from swtstudy.figures.words import is_life
 from swtstudy.paper.statements.check import about_archive
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside_words, validity_lines
-from swtstudy.reports.findings import CRITERION, indices_of, sentences, worst_place
-from swtstudy.reports.parts import Section, code, data, derived, figure, section, study_figure, table, whole
-from swtstudy.reports.sections import (
-    extrema_section,
-    points_section,
-    sensitivity_section,
-    settings_section,
-    sureness_section,
-    tiles,
+from swtstudy.points.values import index_at
+from swtstudy.reports.findings import (
+    extreme_places,
+    extreme_points,
+    indices_of,
+    levers,
+    measured,
+    measured_at,
+    parameters_of,
+    sentences,
 )
-from swtstudy.reports.values import about, packed, rows_of, symbol_of, table_of
+from swtstudy.reports.values import (
+    about,
+    along,
+    packed,
+    place_html,
+    rendered,
+    rows_of,
+    share,
+    symbol_html,
+    symbol_of,
+    table_of,
+    value_text,
+    with_unit,
+)
+from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import LINE_KINDS, FigureLayout
 from swtstudy.study.shipped import shipped_studies
-from swtstudy.vocabulary.variables import has_units
+from swtstudy.units.reading import read_contact
+from swtstudy.units.results import KINDS, measures
+from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
+from swtstudy.vocabulary.wording import number_words
 
-#: What the model is, for whoever is sent a page.
-_MEANING = (
-    "{symbol} is the largest Smith–Watson–Topper parameter (largest normal stress of a cycle times "
-    "amplitude of the normal strain, over all planes and places) of a frictional contact of elastic "
-    "bodies{over}. The larger, the sooner a crack begins."
-)
+#: Larger drawings are pictures of pixels, bytes; so many in an inch.
+_LARGEST_DRAWING, _DPI, _DPI_SMALL = 400_000, 150, 96
+#: Coordinates in a drawing; their digits behind the point, in 1/72 inch; what is for who reads its source.
+_COORDINATES, _LONG = re.compile(rb' (?:d|x|y|x1|x2|y1|y2|points)="[^"]*"'), re.compile(rb"(\.\d\d)\d+")
+_SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
+#: Most rows of a table of extrema, and values of an axis that are listed one by one.
+_ROWS, _LISTED = 12, 8
 #: What the figures of a sample are over.
 _SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
-_HINT = " <span data-script hidden>Point at it, or use the arrow keys, for values.</span>"
-_SLICE = """<div class="controls"></div>
-<p class="up"></p>
-<div class="stage"></div>
-<p class="across"></p>
-<div class="legend"></div>"""
+
+
+class Picture(NamedTuple):
+    """A picture as HTML needs it: a data URI, and its size in CSS pixels."""
+
+    source: str
+    width: int
+    height: int
+
+
+def embedded(figure: Figure, dpi: float = _DPI, drawing: bool = True) -> Picture:
+    """A figure as a drawing, or as pixels where that is smaller or asked for."""
+    width, height = (round(96.0 * inches) for inches in figure.get_size_inches())
+    kind, content = "svg+xml", b""
+    if drawing:
+        whole = _SOURCE.sub(b" ", picture(figure, "svg"))
+        content = _COORDINATES.sub(lambda found: _LONG.sub(rb"\1", found[0]), whole)
+    if not drawing or len(content) > _LARGEST_DRAWING:
+        kind, content = "webp", picture(figure, "webp", dpi=dpi, pil_kwargs={"lossless": True})
+    return Picture(f"data:image/{kind};base64,{base64.b64encode(content).decode()}", width, height)
+
+
+def thumbnail(dataset: xr.Dataset) -> Picture:
+    """A small picture of the study's figure: its first quantity where it is largest, without words around."""
+    layout = layout_of(dataset)
+    if layout.panels:
+        worst = extreme_places(dataset).get("worst", {})
+        dataset = dataset.isel({layout.panels: worst.get(layout.panels, 0)})
+    figure = draw(dataset, replace(layout, panels=None, y=layout.y[:1], title=None))
+    for legend in figure.legends:
+        legend.remove()
+    if layout.kind != "scatter":
+        figure.set_size_inches(*PANEL)
+    return embedded(figure, _DPI_SMALL, drawing=False)
 
 
 def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
@@ -59,126 +122,232 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
     str
         HTML. It shows everything without JavaScript but values under the pointer and slices.
     """
-    title = str(dataset.attrs["title"])
     indices = indices_of(dataset)
-    first, *others = [*sentences(dataset, indices), ""]
-    outside = outside_words(dataset)
-    shown, values = _figure_and_values(dataset, name)
-    sections = [
-        *shown,
-        extrema_section(dataset),
-        sensitivity_section(dataset, indices),
-        points_section(dataset),
-        settings_section(dataset),
-        sureness_section(dataset, list(validity_lines(dataset, inside=True))),
-        _paper(dataset, name),
-        _origin(dataset, name),
-    ]
-    known = [each for each in sections if each.body]
-    back = f'<a href="{escape(home)}">All reports</a> · ' if home else ""
-    body = f"""<header class="top">
-<p class="kicker">{back}{escape(name)}</p>
-<h1>{escape(title)}</h1>
-<p class="lead">{first}</p>
-{f'<p class="outside">{escape(outside)}</p>' if outside else ""}
-<p class="also">{" ".join(filter(None, others))}</p>
-{tiles(dataset)}
-<p class="note">{_meaning(dataset)}</p>
-</header>
-<nav aria-label="Contents"><div>{"".join(each.link for each in known)}</div></nav>
-<main>
-{chr(10).join(each.html for each in known)}
-</main>
-<footer>Made by {escape(str(dataset.attrs["source"]))} from {escape(name)}.nc.</footer>
-{values}"""
-    return whole(title, body, script=True)
-
-
-def _meaning(dataset: xr.Dataset) -> str:
-    """Say what s is; by criteria other than SWT the results say it."""
-    if CRITERION not in dataset.coords:
-        if has_units(dataset):
-            return _MEANING.format(symbol="SWT", over="")
-        return _MEANING.format(symbol="<i>s</i>", over=", over <i>E</i>*<i>δ</i><sub>0</sub>/<i>R</i>")
-    return f"<i>s</i> by its criterion: {escape(str(dataset.s.attrs.get('comment', '')))}."
-
-
-def _figure_and_values(dataset: xr.Dataset, name: str) -> tuple[list[Section], str]:
-    """The study's figure, slices of the table, the table itself; and what their scripts must know."""
-    sections: list[Section] = []
     rows = table_of(dataset)
-    known: dict[str, Any] = about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
-    if "figure" in dataset.attrs:
-        shown, known["panels"], layout = study_figure(dataset)
-        known["derived"] = derived(dataset, layout, rows_of(dataset))
-        known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue}
-        known["start"]["fixed"] = worst_place(dataset)
-        words = f"{', '.join(layout.y)} {_SAMPLED.get(layout.kind, f'over {layout.x}')}"
-        caption = _caption(dataset, layout) + _HINT * bool(known["panels"])
-        sections.append(section("figure", "Figure", figure(shown, words, caption, name="plot")))
-    source = packed(rows)
-    if not source:
-        how = "<code>swtstudy.open_results(…).swt.to_table()</code>"
-        note = f'<p class="note">{len(rows)} rows are too many for a page; in Python {how} has them.</p>'
-        return [*sections, section("values", "Values", note)], data("about", known)
-    sections.append(Section("slice", "Any slice", _SLICE, live=True))
-    words = f'download="{escape(name)}.csv.gz" href="{source}">{escape(name)}.csv'
-    link = f'<a class="button" id="table" {words}</a>'
-    size = ", ".join(
-        f"{n} {word}{'s' * (n != 1)}" for n, word in zip(rows.shape, ("row", "column"), strict=True)
+    known = about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
+    shown = _study_figure(dataset, known) if "figure" in dataset.attrs else None
+    shipped, ends = shipped_studies().get(name), [*_ends(dataset)]
+    text = str(dataset.attrs.get("study", ""))
+    return rendered(
+        "page.html",
+        ds=dataset,
+        name=name,
+        home=home,
+        title=str(dataset.attrs["title"]),
+        sentences=sentences(dataset, indices),
+        outside=outside_words(dataset),
+        tiles=tiles(dataset, ends),
+        contact=read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None,
+        stress=str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else "",
+        figure=shown,
+        source=packed(rows),
+        size=rows.shape,
+        extremes=[*_extremes(dataset)],
+        indices=_indices(dataset, indices),
+        points=points_of(dataset, ends),
+        settings=_settings(dataset),
+        validity=validity_lines(dataset, inside=True),
+        paper=[each for each in about_archive(name, dataset) if each.finding is not None],
+        own=name if shipped and shipped.read_text("utf-8") == text else f"{name}.toml",
+        about=htmlsafe_json_dumps(known, separators=(",", ":"), ensure_ascii=False),
     )
-    note = f"{size}, to seven digits; all digits are in the archive."
-    sections.append(section("values", "Values", f'<p>{link}</p><p class="note">{note}</p>'))
-    return sections, data("about", known)
 
 
-def _caption(dataset: xr.Dataset, layout: FigureLayout) -> str:
+def _study_figure(dataset: xr.Dataset, known: dict[str, Any]) -> dict[str, Any]:
+    """The figure of a study with its words; what scripts must know of it goes to ``known``."""
+    layout = layout_of(dataset)
+    figure = draw(dataset, layout)
+    shown = embedded(figure)
+    known["panels"] = [*_panels(figure, dataset, layout)]
+    known["derived"] = derived(dataset, layout, rows_of(dataset))
+    fixed = extreme_places(dataset).get("worst", {})
+    known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue, "fixed": fixed}
+    words = f"{', '.join(layout.y)} {_SAMPLED.get(layout.kind, f'over {layout.x}')}"
+    live = bool(known["panels"])
+    return {"picture": shown, "words": words, "caption": caption_of(dataset, layout), "live": live}
+
+
+def _panels(figure: Figure, dataset: xr.Dataset, layout: FigureLayout) -> Iterator[dict[str, Any]]:
+    """The panels as scripts need them; the kinds of a sample's figures have none.
+
+    A panel is where it is, as shares of the picture from its upper left corner; the ends of its axes; and the
+    columns of the table that it shows.
+    """
+    lines = layout.kind in LINE_KINDS
+    count = dataset.sizes[layout.panels] if layout.panels else 1
+    known = lines or layout.kind in ("contour", "heatmap")
+    for index, axes in enumerate(figure.axes[: count * len(layout.y)] if known else ()):
+        row, column = divmod(index, count)
+        box = axes.get_position()
+        yield {
+            "box": [round(v, 5) for v in (box.x0, 1.0 - box.y1, box.width, box.height)],
+            "ends": [float(end) for end in (*axes.get_xlim(), *axes.get_ylim())],
+            "log": [axes.get_xscale() == "log", axes.get_yscale() == "log"],
+            "x": layout.x,
+            "y": layout.y[row] if lines else layout.vertical,
+            "value": layout.y[row],
+            "upright": layout.kind == "life",
+            "lines": lines,
+            "cells": layout.kind == "heatmap",
+            "hue": layout.hue if lines else None,
+            "fixed": {layout.panels: column} if layout.panels else {},
+        }
+
+
+def derived(dataset: xr.Dataset, layout: FigureLayout, dims: list[str]) -> dict[str, Any]:
+    """Quantities of a figure that are no columns of the table, over its rows, with their errors."""
+    found: dict[str, Any] = {}
+    for y in (y for y in layout.y if y not in dataset.data_vars):
+        for name, values in ((y, quantity(dataset, y)), (f"{y}_error", quantity_error(dataset, y))):
+            if values is not None:
+                flat = values.transpose(*dims).values.ravel()
+                found[name] = [float(f"{v:.6g}") if np.isfinite(v) else None for v in flat.tolist()]
+    return found
+
+
+def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
     """Caption of a figure: its quantities and parameters in symbols."""
-    words = ", ".join(escape(y) if "/" in y else symbol_of(dataset[y]) for y in layout.y)
+    words = Markup(", ").join(y if "/" in y else symbol_of(dataset[y]) for y in layout.y)
     mark = "a line" if layout.kind in LINE_KINDS else "a colour"
-    along = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
+    role_words = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
     parts = [
-        _SAMPLED[layout.kind] if each == SAMPLE else f"{along[role]} {symbol_of(dataset[each])}"
+        escape(_SAMPLED[layout.kind])
+        if each == SAMPLE
+        else Markup("{} {}").format(role_words[role], symbol_of(dataset[each]))
         for role, each in layout.roles()
         if each in dataset
     ]
-    own = f" {escape(layout.caption)}" if layout.caption else ""
-    return f"{words} {', '.join(parts)}.".replace(", and", " and") + own
+    said = Markup("{} {}.").format(words, Markup(", ").join(parts)).replace(", and", " and")
+    return said + escape(f" {layout.caption}" if layout.caption else "")
 
 
-def _paper(dataset: xr.Dataset, name: str) -> Section:
-    """List the statements of the paper on its own study, checked."""
+def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[tuple[Any, str, Any]]:
+    """The numbers that one asks for first: what each is, its value, and a note."""
+    relative, values = describe.relative_errors(dataset), measured(dataset)
+    beside = [dim for dim in values.dims if dim not in dataset.s.dims]
+    known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(beside)
+    shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
+    yield "points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value"
+    lives = [kind.life for kind in KINDS.values() if kind.life]
+    for end, one in ends:
+        own = dict.fromkeys((*measures(one), *(n for n in one if n in lives), measured(one).name))
+        for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:
+            label = Markup("{} {}").format(end, symbol_of(value)).strip()
+            yield label, with_unit(number_words(float(value)), value), _where(dataset, one)
+    if relative.size:
+        largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
+        words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
+        yield "relative error, at most", largest, words
+
+
+def _ends(dataset: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """The points of `extreme_points`, each with its word; none where all points have one value."""
+    points, life = extreme_points(dataset), is_life(measured(dataset).attrs)
+    words = {"best": "longest", "worst": "shortest"} if life else {"best": "lowest", "worst": "highest"}
+    for word, one in points.items():
+        yield words[word] if len(points) > 1 else "", one
+
+
+def _where(dataset: xr.Dataset, one: xr.Dataset) -> Markup:
+    """The parameters of a point that differ from point to point."""
+    dims = {*dataset.s.dims}
+    own = [name for name in map(str, dataset.coords) if name in AXES and {*dataset[name].dims} & dims]
+    return Markup(", ").join(place_html(one[name]) for name in own if dataset[name].size > 1)
+
+
+def _extremes(dataset: xr.Dataset) -> Iterator[dict[str, Any]]:
+    """Tables of the lowest and highest values along every dimension, for each place of the others."""
+    symbol = symbol_of(measured(dataset))
+    for lever in levers(dataset):
+        ratio = lever.table.ratio
+        others, flat = [str(name) for name in ratio.dims], ratio.values.ravel()
+        order = np.argsort(-np.nan_to_num(flat, nan=-1.0, posinf=-0.5), kind="stable")
+        known = order[np.isfinite(flat[order])]
+        chosen = order if len(order) <= _ROWS else known[[0, len(known) // 2, -1]]
+        rows = []
+        for place in chosen:
+            one = lever.table.isel(index_at(ratio, int(place)))
+            cells = [along(one[name]) for name in others]
+            for end in ("minimum", "maximum"):
+                value = with_unit(number_words(float(one[end])), measured_at(dataset, one))
+                cells += [value, along(one[f"at_{end}"].rename(lever.name))]
+            rows.append([*cells, number_words(float(one.ratio), 3)])
+        yield {
+            "symbol": symbol_of(dataset[lever.name]),
+            "meaning": AXES[lever.name].meaning,
+            "of": ratio.size if ratio.size > len(rows) else 0,
+            "others": [symbol_of(dataset[name]) for name in others],
+            "quantity": symbol,
+            "rows": rows,
+        }
+
+
+def _indices(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> Any:
+    """Sobol indices of a sample whose design has them, or in words why there are none."""
+    if not isinstance(indices, xr.Dataset):
+        return str(indices or "")
+    axes = [str(dim) for dim in indices.total.dims if dim not in ("quantity", "parameter")]
+    flat = indices.isel(quantity=0).stack(row=[*axes, "parameter"]).transpose("row", ...)
     rows = []
-    for outcome in about_archive(name, dataset):
-        if outcome.finding is not None:
-            mark = '<span class="yes">yes</span>' if outcome.finding.holds else '<span class="no">no</span>'
-            said = outcome.statement
-            rows.append((escape(said.place), escape(said.sentence), escape(outcome.finding.measured), mark))
-    body = table(("place", "the paper says", "found", "holds"), rows, wide=True) if rows else ""
-    return section("paper", "The paper", body)
+    for k in range(flat.sizes["row"]):
+        one = flat.isel(row=k)
+        cells = [along(dataset[name].sel({name: one[name].item()})) for name in axes]
+        cells += [symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning]
+        for name in ("first_order", "total"):
+            value, low, high = (float(one[f"{name}{end}"]) for end in ("", "_low", "_high"))
+            cells.append(f"{value:.2f} ({low:.2f} to {high:.2f})")
+        rows.append(cells)
+    y = str(indices["quantity"].values[0])
+    return {
+        "quantity": Markup("<i>s</i>") if y == "s" else symbol_of(dataset[y]),
+        "picture": embedded(draw_sensitivity(indices)),
+        "head": [symbol_of(dataset[name]) for name in axes],
+        "rows": rows,
+    }
 
 
-def _origin(dataset: xr.Dataset, name: str) -> Section:
-    """Where the values come from, and how to make them again."""
-    attributes = dataset.attrs
-    rows = [
-        (escape(a), escape(b)) for a, b in facts(dataset) if a.split(" ")[0] in ("made", "history", "run")
-    ]
-    text = str(attributes.get("study", ""))
-    own = name if _is_shipped(text, name) else f"{name}.toml"
-    again = code(f"swtstudy run {own}\nswtstudy report results/{name}.nc")
-    cited = f"{attributes.get('references', '')}; {attributes['source']}."
-    return section(
-        "origin",
-        "Origin",
-        table(("", ""), rows, wide=True),
-        f"<h3>To make it again</h3>{again}" if text else "",
-        f"<details><summary>The study, {escape(name)}.toml</summary>{code(text)}</details>" if text else "",
-        f"<h3>To cite</h3><p>{escape(cited)}</p>",
-    )
+def points_of(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> list[dict[str, Any]]:
+    """The best and the worst point with their pictures, as `swtstudy.inspect` draws them."""
+    parts = []
+    for end, one in ends:
+        part: dict[str, Any] = {"end": end, "symbol": symbol_of(measured(one)), "where": _where(dataset, one)}
+        try:
+            part |= {"picture": _of_point(one), "line": Markup("; ").join(_point_line(one))}
+        except StudyError as error:
+            part["problem"] = str(error)
+        parts.append(part)
+    return parts
 
 
-def _is_shipped(text: str, name: str) -> bool:
-    """Return whether a study comes with the package, so that its name is enough."""
-    path = shipped_studies().get(name)
-    return path is not None and path.read_text("utf-8") == text
+def _of_point(one: xr.Dataset) -> Picture:
+    """The picture of a point; of a real contact in its units."""
+    if has_units(one):
+        body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
+        return embedded(contact_of(one).inspect(body), _DPI_SMALL, drawing=False)
+    return embedded(inspect(**parameters_of(one)), _DPI_SMALL, drawing=False)
+
+
+def _point_line(one: xr.Dataset) -> Iterator[Any]:
+    """The results of one point."""
+    s, error = number_words(float(one.s)), number_words(float(one.s_error), 2)
+    yield Markup("<i>s</i> = {} ± {}").format(s, error)
+    place = "critical_position" if "critical_position" in one else "critical_x"
+    lives = [n for n in map(str, one) if is_life(one[n].attrs) or n.startswith("failure_probability")]
+    for name in (*measures(one), *lives, place, "critical_angle"):
+        if name in one and not one[name].ndim and np.isfinite(one[name].item()):
+            yield place_html(one[name])
+    yield one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")
+
+
+def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
+    """Every parameter that there is something to say of: coordinate, meaning, and values with their unit."""
+    hidden = ("body", "direction", *describe.unsaid(dataset))
+    for name in dict.fromkeys([*map(str, dataset.s.dims), *map(str, dataset.coords)]):
+        if name in AXES and name not in hidden:
+            values = dataset[name]
+            known = np.atleast_1d(values.values)
+            said = list(dict.fromkeys(value_text(name, each, values.attrs) for each in known.tolist()))
+            if len(known) > _LISTED and known.dtype.kind in "fiu":
+                ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
+                said = [f"{' to '.join(ends)} ({len(np.unique(known))} values)"]
+            yield values, AXES[name].meaning, with_unit(", ".join(said), values)

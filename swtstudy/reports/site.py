@@ -4,34 +4,31 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from html import escape
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 from urllib.parse import quote
 
 import xarray as xr
+from markupsafe import Markup
 
 from swtstudy.archive.archive import open_results
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.reports.findings import sentences
-from swtstudy.reports.page import page
-from swtstudy.reports.parts import Picture, thumbnail, whole
+from swtstudy.reports.page import Picture, page, rendered, thumbnail
 from swtstudy.runner.workers import LocalPool
 from swtstudy.study.shipped import in_groups
 from swtstudy.vocabulary.files import check_writable, write_text
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Report
 from swtstudy.vocabulary.version import __version__
 
 #: The page that lists the others.
 INDEX = "index.html"
-_PAGES = (".html", ".htm")
 #: So many archives are worth the seconds that processes take to begin.
 _SEVERAL = 4
 
 
-@dataclass(frozen=True)
-class Entry:
+class Entry(NamedTuple):
     """An archive in a list of several.
 
     Attributes
@@ -48,7 +45,7 @@ class Entry:
 
     name: str
     title: str
-    sentence: str
+    sentence: Markup
     picture: Picture | None
 
 
@@ -81,30 +78,49 @@ def write_reports(
         A ValueError, if none of the files is an archive.
     """
     paths = [Path(each) for each in archives]
-    if output is not None and not _is_folder(output) and Path(output).suffix.lower() not in _PAGES:
-        raise StudyError([Mistake("--output", str(output), "a file that ends with .html, or a folder")])
-    if len(paths) > 1 or (output is not None and _is_folder(output)):
-        yield from _write_several(paths, _checked_folder(paths, output), workers)
-        return
+    report, is_folder = Report(), output is not None and _is_folder(output)
+    several = len(paths) > 1 or is_folder
+    names = [path.stem for path in paths]
+    for name in dict.fromkeys(names) if several else ():
+        same = [str(path) for path in paths if path.stem == name]
+        if len(same) > 1:
+            report("ARCHIVE", ", ".join(same), "names that differ: each has a page")
+        if f"{name}.html" == INDEX:
+            report("ARCHIVE", same[0], f"another name: {INDEX} lists the others")
+    if several and output is None:
+        report("--output", "nothing", f"a folder for {len(paths)} pages, such as -o site/")
+    elif several and (not is_folder or Path(str(output)).is_file()):
+        report("--output", str(output), f"a folder for {len(paths)} pages")
+    elif output is not None and not is_folder and Path(output).suffix.lower() not in (".html", ".htm"):
+        report("--output", str(output), "a file that ends with .html, or a folder")
+    report.refuse()
     target = paths[0].with_suffix(".html") if output is None else Path(output)
-    check_writable(target)
-    write_text(target, page(open_results(paths[0]), paths[0].stem))
-    yield target, ""
+    check_writable(target / INDEX if several else target)
+    if several:
+        yield from _write_several(paths, target, workers)
+    else:
+        write_text(target, page(open_results(paths[0]), paths[0].stem))
+        yield target, ""
+
+
+def _is_folder(output: str | PathLike[str]) -> bool:
+    path = os.fspath(output)
+    return Path(path).is_dir() or not Path(path).suffix or path.endswith(("/", os.sep))
 
 
 def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[tuple[Path, str]]:
     """A page for each archive, and one that lists them; see `write_reports`."""
     entries: list[Entry] = []
-    problems: list[ArchiveError] = []
+    problem: ArchiveError | None = None
     for path, made in zip(paths, _made(paths, folder, workers), strict=True):
         if isinstance(made, ArchiveError):
-            problems.append(made)
+            problem = problem or made
             yield path, str(made)
-            continue
-        entries.append(made)
-        yield folder / f"{path.stem}.html", ""
-    if not entries:
-        raise problems[0]
+        else:
+            entries.append(made)
+            yield folder / f"{path.stem}.html", ""
+    if not entries and problem:
+        raise problem
     write_text(folder / INDEX, listing(entries))
     yield folder / INDEX, ""
 
@@ -132,64 +148,22 @@ def _write_one(path: Path, folder: Path) -> Entry | ArchiveError:
 def entry(dataset: xr.Dataset, name: str) -> Entry:
     """Summarise an archive for a list."""
     picture = thumbnail(dataset) if "figure" in dataset.attrs else None
-    return Entry(name, str(dataset.attrs["title"]), next(iter(sentences(dataset)), ""), picture)
+    return Entry(name, str(dataset.attrs["title"]), next(iter(sentences(dataset)), Markup()), picture)
 
 
 def listing(entries: Sequence[Entry]) -> str:
     """The page that lists archives: a picture and a sentence of each, in groups."""
-    body = f"""<header class="top">
-<p class="kicker">swtstudy</p>
-<h1>{len(entries)} parameter {"study" if len(entries) == 1 else "studies"}</h1>
-<p class="lead">Smith–Watson–Topper parameter in frictional contacts: where a crack begins, how soon, and
-which load is the kindest. Each picture leads to a report.</p>
-</header>
-<main>
-{gallery_of(entries, lambda name: quote(f"{name}.html"))}
-</main>
-<footer>Made by swtstudy {escape(__version__)}.</footer>"""
-    return whole("Parameter studies", body)
+    groups = _cards(entries, lambda name: quote(f"{name}.html"))
+    return rendered(
+        "list.html", title="Parameter studies", entries=entries, groups=groups, version=__version__
+    )
 
 
 def gallery_of(entries: Sequence[Entry], address: Callable[[str], str]) -> str:
     """Cards in groups, as HTML; each leads to the address of its name."""
+    return rendered("gallery.html", groups=_cards(entries, address))
+
+
+def _cards(entries: Sequence[Entry], address: Callable[[str], str]) -> dict[str, list[tuple[Entry, str]]]:
     own = {each.name: each for each in entries}
-    groups = in_groups(own)
-    parts = []
-    for title, names in groups.items():
-        cards = "\n".join(_card(own[name], address(name)) for name in names)
-        heading = f"<h2>{escape(title)}</h2>\n" if len(groups) > 1 else ""
-        parts.append(f'<section>\n{heading}<ul class="gallery">\n{cards}\n</ul>\n</section>')
-    return "\n".join(parts)
-
-
-def _card(one: Entry, address: str) -> str:
-    image = ""
-    if one.picture:
-        image = f'<img src="{one.picture.source}" {one.picture.size} alt="" loading="lazy">'
-    words = f'<span class="name">{escape(one.title)}</span><p>{one.sentence}</p>'
-    return f'<li><a href="{escape(address)}"><div class="frame">{image}</div>{words}</a></li>'
-
-
-def _is_folder(output: str | PathLike[str]) -> bool:
-    path = os.fspath(output)
-    return Path(path).is_dir() or not Path(path).suffix or path.endswith(("/", os.sep))
-
-
-def _checked_folder(paths: Sequence[Path], output: str | PathLike[str] | None) -> Path:
-    """The folder for several pages, with room for each."""
-    mistakes = []
-    names = [path.stem for path in paths]
-    for name in dict.fromkeys(names):
-        same = [str(path) for path in paths if path.stem == name]
-        if len(same) > 1:
-            mistakes.append(Mistake("ARCHIVE", ", ".join(same), "names that differ: each has a page"))
-        if f"{name}.html" == INDEX:
-            mistakes.append(Mistake("ARCHIVE", same[0], f"another name: {INDEX} lists the others"))
-    if output is None:
-        mistakes.append(Mistake("--output", "nothing", f"a folder for {len(paths)} pages, such as -o site/"))
-    elif not _is_folder(output) or Path(output).is_file():
-        mistakes.append(Mistake("--output", str(output), f"a folder for {len(paths)} pages"))
-    if mistakes or output is None:
-        raise StudyError(mistakes)
-    check_writable(Path(output) / INDEX)
-    return Path(output)
+    return {title: [(own[name], address(name)) for name in names] for title, names in in_groups(own).items()}

@@ -6,7 +6,7 @@ place.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -63,33 +63,27 @@ def require_points(dataset: xr.Dataset) -> None:
 
 def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -> int:
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
-    name = str(there.name)
+    name, known = str(there.name), np.atleast_1d(there.values).tolist()
+    meanings = str(there.attrs.get("flag_meanings", "")).split()
+    # What has a name, such as a body, by its number; a name with blanks, as in figures, as it is typed.
+    word = "_".join(raw.split()) if isinstance(raw, str) else ""
+    if word in meanings:
+        raw = int(there.attrs["flag_values"][meanings.index(word)])
+    elif word in known and raw not in known:
+        raw = word
     value: Value
-    raw = _named(there, raw)
     try:
         # A name is known by its place in the results, whatever it stood for.
-        named = AXES[name].kind == "name" and isinstance(raw, str) and raw in np.atleast_1d(there.values)
+        named = AXES[name].kind == "name" and isinstance(raw, str) and raw in known
         sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
         value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
     except ValueError as error:
-        allowed = _listed(there) if "flag_meanings" in there.attrs else AXES[name].allowed
-        report(name, f"{literal(raw)} ({error})", allowed)
+        report(name, f"{literal(raw)} ({error})", _listed(there) if meanings else AXES[name].allowed)
         return 0
-    index = index_of(value, np.atleast_1d(there.values).tolist(), tolerance)
+    index = index_of(value, known, tolerance)
     if index is None:
         report(name, f"{literal(raw)}, which is not in these results", _listed(there))
-        return 0
-    return index
-
-
-def _named(there: xr.DataArray, raw: object) -> object:
-    """The number of what has a name, such as a body; a name with blanks, as in figures, as it is typed."""
-    meanings = str(there.attrs.get("flag_meanings", "")).split()
-    word = "_".join(raw.split()) if isinstance(raw, str) else ""
-    if word in meanings:
-        return int(there.attrs["flag_values"][meanings.index(word)])
-    names = np.atleast_1d(there.values).tolist()
-    return word if word in names and raw not in names else raw
+    return index or 0
 
 
 def _listed(there: xr.DataArray) -> str:
@@ -168,24 +162,21 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
         raise ValueError(
             f"found {dim!r}, not a dimension of {y}; allowed: {nearest(dim, map(str, values.dims))}"
         )
-    symbol, units = values.attrs.get("symbol", y), values.attrs.get("units", "1")
-    parts: dict[str, xr.DataArray] = {}
-    for name, index in (
-        ("minimum", values.fillna(np.inf).argmin(dim)),
-        ("maximum", values.fillna(-np.inf).argmax(dim)),
-    ):
-        # Parameters of a sample, too, are along the dimension, and differ between the two places.
-        along = [str(name) for name, each in values.coords.items() if dim in each.dims]
+    own = {"units": values.attrs.get("units", "1"), "symbol": values.attrs.get("symbol", y)}
+    # Parameters of a sample, too, are along the dimension, and differ between the two places.
+    along = [str(name) for name, each in values.coords.items() if dim in each.dims]
+    found = xr.Dataset()
+    for name, filled, find in (("minimum", np.inf, "argmin"), ("maximum", -np.inf, "argmax")):
+        index = getattr(values.fillna(filled), find)(dim)
         value = values.isel({dim: index}).drop_vars(along)
         place = values[dim].isel({dim: index}).drop_vars(along)
         place = place.where(value.notnull()) if place.dtype.kind == "f" else place
-        words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", "units": units, "symbol": symbol}
-        parts[name] = value.drop_attrs().assign_attrs(words)
+        words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", **own}
+        found[name] = value.drop_attrs().assign_attrs(words)
         words = {"long_name": f"{dim.replace('_', ' ')} of {name} {y}"}
-        parts[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
+        found[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
     words = {"long_name": f"maximum over minimum of {y}", "comment": f"along {dim}", "units": "1"}
-    parts["ratio"] = (parts["maximum"] / parts["minimum"]).drop_attrs().assign_attrs(words)
-    found = xr.Dataset(parts)
+    found["ratio"] = (found.maximum / found.minimum).drop_attrs().assign_attrs(words)
     # The places that xarray indexes by bring coordinates without attributes.
     return found.assign_coords({name: found[name].assign_attrs(dataset[name].attrs) for name in found.coords})
 
@@ -202,10 +193,13 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     shape = tuple(rows.sizes[name] for name in dims)
     columns = {}
     for name in [*dims, *others, *map(str, dataset.data_vars)]:
-        for column, values in _columns(name, dataset[name], beside):
+        own = next((dim for dim in beside if dim in dataset[name].dims), None)
+        places = dataset[own].values.tolist() if own else [""]
+        for index, place in enumerate(places):
+            values = dataset[name].isel({own: index}, drop=True) if own else dataset[name]
             whole = values.broadcast_like(rows) if dims else values
             flat = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
-            columns[column] = _as_words(flat, values.attrs)
+            columns[f"{name}[{place}]" if own else name] = _as_words(flat, values.attrs)
     return pd.DataFrame(columns).rename_axis("point")
 
 
@@ -217,15 +211,6 @@ def dims_beside(dataset: xr.Dataset) -> list[str]:
     along = {str(dim) for values in dataset.data_vars.values() for dim in values.dims}
     beside = ["direction"] + ["body"] * ("body" not in along)
     return [name for name in beside if name in dataset.dims]
-
-
-def _columns(name: str, values: xr.DataArray, beside: list[str]) -> Iterator[tuple[str, xr.DataArray]]:
-    own = next((dim for dim in beside if dim in values.dims), None)
-    if own is None:
-        yield name, values
-        return
-    for index, place in enumerate(values[own].values.tolist()):
-        yield f"{name}[{place}]", values.isel({own: index}, drop=True)
 
 
 def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
@@ -245,7 +230,5 @@ def _as_words(flat: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
     if "flag_meanings" not in attributes:
         return flat
     # xarray's operations leave NaN where a flag is missing.
-    codes = np.full(flat.shape, -1)
-    for code, flag in enumerate(np.atleast_1d(attributes["flag_values"])):
-        codes[flat == flag] = code
+    codes = pd.Index(np.atleast_1d(attributes["flag_values"])).get_indexer(flat)
     return pd.Categorical.from_codes(codes, attributes["flag_meanings"].split())

@@ -6,11 +6,11 @@ import math
 import re
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -18,6 +18,7 @@ import xarray as xr
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
+from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid
 from swtstudy.study.columns import number
 from swtstudy.study.definition import Study, study_from, tables_of
@@ -51,16 +52,14 @@ YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n"
 MISSPELT = 0.8
 #: log10 of a life that counts as unbounded, for tests that survived.
 UNBOUNDED = 20.0
-#: Least scatter of log10 N: lives are not computed closer. Rounds in which it is found, to a thousandth.
-LEAST_SCATTER, ROUNDS, CLOSE = 1e-3, 100, 1e-3
+#: Least scatter of log10 N: lives are not computed closer.
+LEAST_SCATTER = 1e-3
 #: Critical distances tried, over the smallest contact radius, as far as all lives are finite; lives between
 #: them are interpolated.
 DISTANCES = np.geomspace(0.004, 1.2, 17)
 #: Relative accuracy of s: means are known to 1e-3.
 RTOL = 1e-3
-#: At relative changes of parameters, and of the sum of squares, below this the fit is done.
-XTOL = 1e-4
-#: Relative step of friction in difference quotients, well above what means are off by; its upper bound.
+#: Step of logarithms in second differences, well above what means are off by; upper bound of friction.
 STEP, MOST_FRICTION = 0.02, 3.0
 #: Nonlocal lives; the strictly local one knows no distance.
 NONLOCAL_LIVES = tuple(name for name in LIVES if not name.endswith("cycles"))
@@ -77,8 +76,8 @@ def fit(
     """The critical distance with which predicted lives are nearest to those of tests.
 
     Maximum likelihood with normally distributed log10 N: least squares of log10 of predicted over observed
-    life, by `scipy.optimize.least_squares`, if all tests ended with a crack. The life of a run-out is known
-    to be above its number of cycles: it counts by the probability of that.
+    life if all tests ended with a crack. The life of a run-out is known to be above its number of cycles: it
+    counts by the probability of that.
 
     Parameters
     ----------
@@ -124,19 +123,18 @@ def fit(
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
     with Progress(None, "fit"):
-        model = _Model.of(grid, np.log10(observed), runout, y, friction)
-        low, high = model.bounds()
-        best, scatter = model.fitted(low, high)
-    if not low[0] + STEP < best[0] < high[0] - STEP:
-        ends = " to ".join(f"{math.exp(end):.3g}" for end in (low[0], high[0]))
+        tests_of = _Tests.of(grid, np.log10(observed), runout, y)
+        best = _likeliest(tests_of, own if friction else None)
+    low, high = np.log(tests_of.distances[[0, -1]])
+    if not low + STEP < best[0] < high - STEP:
+        ends = " to ".join(f"{math.exp(end):.3g}" for end in (low, high))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
         raise StudyError([Mistake(DISTANCE, words, "tests whose lives depend on it within that range")])
-    return _labelled(model, best, scatter, float(confidence))
+    return _labelled(tests_of, best, float(confidence))
 
 
-@dataclass(frozen=True)
-class _Model:
-    """Predicted lives of n tests.
+class _Tests(NamedTuple):
+    """Observed and predicted lives of n tests.
 
     Attributes
     ----------
@@ -148,26 +146,21 @@ class _Model:
         Shape (n,): True for lives that are lower bounds.
     y
         The data variable.
-    friction
-        Logarithm of the study's friction, where a fit of it begins; None if it is not fitted.
     distances
         Critical distances at which lives are computed.
     known
-        log10 of the lives at all distances, by the logarithm of friction.
+        log10 of the lives over the logarithm of the distance, by friction; None is the study's.
     """
 
     grid: PhysicalGrid
     observed: FloatArray
     runout: BoolArray
     y: str
-    friction: float | None
     distances: FloatArray
-    known: dict[float | None, FloatArray]
+    known: dict[float | None, CubicSpline]
 
     @classmethod
-    def of(
-        cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str, with_friction: bool
-    ) -> _Model:
+    def of(cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> _Tests:
         """Distances are those up to the first at which a test has no finite life at the study's friction.
 
         Deep beneath the surface there may be no tension.
@@ -176,123 +169,80 @@ class _Model:
         lives = _bounded(_lives(grid, y, distances, None), runout)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
-        own = math.log(float(grid.values("friction")[0])) if with_friction else None  # type: ignore[arg-type]
-        return cls(grid, observed, runout, y, own, distances[:many], {own: _finite(lives[:, :many])})
+        found = cls(grid, observed, runout, y, distances[:many], {})
+        found.known[None] = found.spline(lives[:, :many])
+        return found
 
-    def start(self) -> FloatArray:
-        """Logarithms of the parameters at the best distance that is computed."""
-        own = np.array([] if self.friction is None else [self.friction])
-        tried = [np.append(logarithm, own) for logarithm in np.log(self.distances)]
-        return min(tried, key=lambda each: float((self.deviations(each, 1.0) ** 2).sum()))
-
-    def bounds(self) -> tuple[FloatArray, FloatArray]:
-        """Least and greatest logarithms: friction must bear the tangential forces."""
-        low, high = [self.distances[0]], [self.distances[-1]]
-        if self.friction is not None:
-            ratios = margins(Distinct.of(self.grid), self.grid).get("prescribed_force_ratio", np.zeros(1))
-            least = max(1.001 * float(np.max(ratios)) * math.exp(self.friction), 1e-3)
-            if not least < MOST_FRICTION:
-                found = f"tangential forces that need {least:.3g} at least"
-                raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
-            low.append(least)
-            high.append(MOST_FRICTION)
-        return np.log(np.array(low)), np.log(np.array(high))
-
-    def lives(self, logarithms: FloatArray) -> CubicSpline:
-        """log10 of the lives over the logarithm of the distance, at that of friction."""
+    def spline(self, lives: FloatArray) -> CubicSpline:
+        """Lives, shape (n, k), between the distances."""
         from scipy.interpolate import CubicSpline
 
-        own = None if self.friction is None else float(logarithms[1])
+        return CubicSpline(np.log(self.distances), _finite(lives), axis=1)
+
+    def residuals(self, logarithms: Any) -> FloatArray:
+        """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction."""
+        own = math.exp(logarithms[1]) if len(logarithms) > 1 else None
         if own not in self.known:
-            friction = None if own is None else math.exp(own)
-            lives = _lives(self.grid, self.y, self.distances, friction)
-            self.known[own] = _finite(_bounded(lives, self.runout))
-        return CubicSpline(np.log(self.distances), self.known[own], axis=1)
+            lives = _lives(self.grid, self.y, self.distances, own)
+            self.known[own] = self.spline(_bounded(lives, self.runout))
+        return np.asarray(self.known[own](logarithms[0])) - self.observed
 
-    def residuals(self, logarithms: FloatArray) -> FloatArray:
-        """log10 of predicted over observed lives, shape (n,), at logarithms of the parameters."""
-        return np.asarray(self.lives(logarithms)(logarithms[0])) - self.observed
-
-    def slopes(self, logarithms: FloatArray) -> FloatArray:
-        """Their derivatives, shape (n, number of parameters)."""
-        columns = [self.lives(logarithms)(logarithms[0], 1)]
-        if self.friction is not None:
-            columns.append(
-                (self.residuals(logarithms + np.array([0.0, STEP])) - self.residuals(logarithms)) / STEP
-            )
-        return np.stack(columns, axis=1)
-
-    def fitted(self, low: FloatArray, high: FloatArray) -> tuple[FloatArray, float]:
-        """Logarithms of the parameters between bounds, and the scatter, of the largest likelihood.
-
-        The scatter follows from expected squares of what is left, those of run-outs above their bounds
-        (expectation and maximisation).
-        """
-        from scipy.optimize import least_squares
-
-        best = np.clip(self.start(), low, high)
-        scatter = self.scatter(best, 1.0)
-        for _ in range(ROUNDS):
-            best = least_squares(
-                lambda each, size: self.deviations(each, size),
-                best,
-                lambda each, size: self.deviation_slopes(each, size),
-                bounds=(low, high),
-                xtol=XTOL,
-                ftol=XTOL,
-                args=(scatter,),
-            ).x
-            last, scatter = scatter, self.scatter(best, scatter)
-            if abs(math.log(scatter / last)) < CLOSE:
-                break
-        return best, scatter
-
-    def deviations(self, logarithms: FloatArray, scatter: float) -> FloatArray:
-        """Residuals over a scatter, shape (n,); of run-outs the root of −2 ln of the chance to survive."""
+    def misfit(self, x: Any) -> float:
+        """−ln of the likelihood at logarithms of distance, friction if it is fitted, and scatter."""
         from scipy.stats import norm
 
-        z = self.residuals(logarithms) / scatter
-        return np.where(self.runout, np.sqrt(-2.0 * norm.logcdf(z)), z)
-
-    def deviation_slopes(self, logarithms: FloatArray, scatter: float) -> FloatArray:
-        """Their derivatives, shape (n, number of parameters)."""
-        z = self.residuals(logarithms) / scatter
-        of_runouts = -_hazard(z) / np.maximum(self.deviations(logarithms, scatter), 1e-300)
-        return self.slopes(logarithms) * (np.where(self.runout, of_runouts, 1.0) / scatter)[:, None]
-
-    def scatter(self, logarithms: FloatArray, scatter: float) -> float:
-        """Standard deviation of log10 N whose expected squares are those at another one."""
-        residuals = self.residuals(logarithms)
-        z = residuals / scatter
-        squares = np.where(self.runout, scatter**2 * (1.0 - z * _hazard(z)), residuals**2)
-        return max(float(np.sqrt(squares.mean())), LEAST_SCATTER)
-
-    def freedom(self) -> int:
-        """Number of cracked tests beyond that of parameters."""
-        return int((~self.runout).sum()) - (1 if self.friction is None else 2)
-
-    def spread(self, logarithms: FloatArray, scatter: float, confidence: float) -> FloatArray:
-        """Half widths of the intervals of the logarithms, shape (number of parameters,).
-
-        From the second derivatives of the likelihood by the parameters and the logarithm of the scatter.
-        """
-        from scipy.stats import t
-
-        z, slopes = self.residuals(logarithms) / scatter, self.slopes(logarithms) / scatter
-        hazard = _hazard(z)
-        steep = np.where(self.runout, hazard * (hazard + z), 1.0)
-        mixed = np.where(self.runout, hazard - z * steep, -2.0 * z)
-        both = slopes.T @ mixed[:, None]
-        whole = np.block([[slopes.T @ (steep[:, None] * slopes), both], [both.T, -(z * mixed).sum()]])
-        variance = np.maximum(np.diag(np.linalg.pinv(whole))[:-1], 0.0)
-        return np.asarray(t.ppf(0.5 + 0.5 * confidence, self.freedom()) * np.sqrt(variance))
+        z = self.residuals(x[:-1]) / math.exp(x[-1])
+        return float(np.where(self.runout, -norm.logcdf(z), 0.5 * z * z + x[-1]).sum())
 
 
-def _hazard(z: FloatArray) -> FloatArray:
-    """φ(z)/Φ(z) of the normal distribution."""
-    from scipy.stats import norm
+def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
+    """Arguments of the least misfit; ``friction`` is the study's, None if it is not fitted."""
+    from scipy.optimize import minimize, minimize_scalar
 
-    return np.asarray(np.exp(norm.logpdf(z) - norm.logcdf(z)))
+    ends = np.log(tests.distances[[0, -1]])
+
+    def at(own: list[float]) -> Any:
+        """The best distance and scatter at a friction."""
+        starts = [
+            (each, math.log(max(float(np.std(tests.residuals([each, *own]))), LEAST_SCATTER)))
+            for each in np.log(tests.distances)
+        ]
+        return minimize(
+            lambda x: tests.misfit([x[0], *own, x[1]]),
+            min(starts, key=lambda x: tests.misfit([x[0], *own, x[1]])),
+            method="Nelder-Mead",
+            bounds=[ends, (math.log(LEAST_SCATTER), 5.0)],
+            options={"xatol": 1e-6, "fatol": 1e-9, "maxiter": 4000},
+        )
+
+    own: list[float] = []
+    if friction is not None:
+        bounds = np.log([_least_friction(tests.grid, friction), MOST_FRICTION])
+        own = [
+            minimize_scalar(lambda x: at([x]).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}).x
+        ]
+    distance, scatter = at(own).x
+    return np.array([distance, *own, scatter])
+
+
+def _least_friction(grid: PhysicalGrid, friction: float) -> float:
+    """The least friction that bears the tangential forces; a StudyError if there is none."""
+    ratios = margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1))
+    least = max(1.001 * float(np.max(ratios)) * friction, 1e-3)
+    if not least < MOST_FRICTION:
+        found = f"tangential forces that need {least:.3g} at least"
+        raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
+    return least
+
+
+def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) -> FloatArray:
+    """Half widths of the intervals of the logarithms, from the curvature of the likelihood."""
+    from scipy.stats import t
+
+    f, steps = tests.misfit, STEP * np.eye(len(x))
+    rows = [[f(x + a + b) - f(x + a - b) - f(x - a + b) + f(x - a - b) for b in steps] for a in steps]
+    variance = np.maximum(np.diag(np.linalg.pinv(np.array(rows) / (4.0 * STEP**2)))[:-1], 0.0)
+    return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(variance))
 
 
 def _bounded(lives: FloatArray, runout: BoolArray) -> FloatArray:
@@ -327,36 +277,34 @@ def _asked(distances: FloatArray) -> Request:
     return Request((), tuple(distances.tolist()), is_axis=True, counts=True)
 
 
-def _labelled(model: _Model, best: FloatArray, scatter: float, confidence: float) -> xr.Dataset:
+def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
     """The fit as a Dataset; the scatter is that of the likelihood, which is lower than the sample's."""
-    residuals, freedom = model.residuals(best), model.freedom()
-    scatter *= math.sqrt((freedom + len(best)) / freedom)
-    spread = model.spread(best, scatter, confidence)
+    residuals, runout, grid = tests.residuals(best[:-1]), tests.runout, tests.grid
+    cracked = int((~runout).sum())
+    freedom = cracked - len(best) + 1
+    best = best + np.append(np.zeros(len(best) - 1), 0.5 * math.log(cracked / freedom))
+    spread = _half_widths(tests, best, confidence, freedom)
     found: dict[str, Any] = {}
     for name, value, half in zip((DISTANCE, "friction"), best, spread, strict=False):
-        row = model.grid.row(name)
+        row = grid.row(name)
         words = {"long_name": row.meaning, "symbol": row.symbol, "units": row.units}
         for end, logarithm in (("", value), ("_low", value - half), ("_high", value + half)):
             with np.errstate(over="ignore"):
                 found[f"{name}{end}"] = (), float(np.exp(logarithm)), words
-    lives = {"observed": 10.0**model.observed, "predicted": 10.0 ** (model.observed + residuals)}
-    found |= {
-        name: ("test", values, {"long_name": f"{name} load cycles to a crack", "symbol": "N"})
-        for name, values in lives.items()
-    }
-    found[RUNOUT] = "test", model.runout.astype("i1"), {"long_name": "1 for tests without a crack"}
-    found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N"}
+    for name, lives in (("observed", tests.observed), ("predicted", tests.observed + residuals)):
+        words = {"long_name": f"{name} load cycles to a crack", "symbol": "N"}
+        found[name] = "test", 10.0**lives, words
+    found[RUNOUT] = "test", runout.astype("i1"), {"long_name": "1 for tests without a crack"}
+    found["scatter"] = (), math.exp(best[-1]), {"long_name": "standard deviation of log10 N"}
+    off = np.where(runout, np.maximum(-residuals, 0.0), np.abs(residuals))
     for factor in (2, 5):
-        off = np.where(model.runout, np.maximum(-residuals, 0.0), np.abs(residuals))
         within = int((off <= math.log10(factor)).sum())
         found[f"within_{factor}"] = (), within, {"long_name": f"tests within a factor of {factor}"}
-    samples = {
-        name: ("test", np.array(list(map(float, values))), {"units": model.grid.row(name).units})  # type: ignore[arg-type]
-        for name, values in model.grid.samples.items()
-        if model.grid.row(name).kind != "name"
-    }
-    numbers = {"test": np.arange(1, len(residuals) + 1)}
-    return xr.Dataset(found, numbers | samples, {"y": model.y, "confidence": confidence})
+    coordinates: dict[str, Any] = {"test": np.arange(1, len(residuals) + 1)}
+    for name, values in grid.samples.items():
+        if grid.row(name).kind != "name":
+            coordinates[name] = "test", np.array([*map(as_number, values)]), {"units": grid.row(name).units}
+    return xr.Dataset(found, coordinates, {"y": tests.y, "confidence": confidence})
 
 
 def _read(

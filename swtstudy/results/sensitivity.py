@@ -78,44 +78,35 @@ def sensitivity(
     names, size = _design(dataset)
     own = measures(dataset)
     quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])
-    values = [quantity(dataset, each) for each in quantities]
     report = Report()
-    for name, each in zip(quantities, values, strict=True):
+    values = {name: quantity(dataset, name) for name in quantities}
+    for name, each in values.items():
         _check(name, each, dataset, report)
     report.refuse()
-    parts = []
-    for each in values:
-        axes = [str(dim) for dim in each.dims if dim != SAMPLE]
-        flat = each.transpose(*axes, SAMPLE).values.astype(float)
-        rows = flat.reshape(-1, len(names) + 2, size)
-        with Progress(len(rows) * (_RESAMPLES + 2), "sensitivity", "resamples") as progress:
-            found = np.array([_indices(row, float(confidence), seed, progress) for row in rows])
-        shape = flat.shape[:-1]
-        keys = [(name, end) for end in _ENDS for name in _MEANINGS]
-        indices = {
-            f"{name}{end}": ((*axes, "parameter"), found[:, i].reshape(*shape, -1), _words(name, end))
-            for i, (name, end) in enumerate(keys)
-        }
-        both = flat[..., : 2 * size]  # independent points; the others are mixed from these
-        moments = {
-            "mean": (axes, both.mean(-1), {"long_name": "mean of the quantity"}),
-            "variance": (axes, both.var(-1), {"long_name": "variance of the quantity"}),
-        }
-        coordinates: dict[str, Any] = {axis: each[axis] for axis in axes}
-        symbols = ("parameter", [dataset[name].attrs.get("symbol", AXES[name].symbol) for name in names])
-        coordinates |= {"parameter": names, "symbol": symbols}
-        parts.append(xr.Dataset({**indices, **moments}, coordinates))
+    parts = [_of_one(each, len(names), size, float(confidence), seed) for each in values.values()]
+    symbols = ("parameter", [dataset[name].attrs.get("symbol", AXES[name].symbol) for name in names])
     whole = xr.concat(parts, xr.Variable("quantity", quantities))
     title = f"Sobol indices: {dataset.attrs['title']}" if "title" in dataset.attrs else "Sobol indices"
-    return whole.assign_attrs(title=title, size=size, confidence=float(confidence), seed=seed)
+    found = whole.assign_coords(parameter=names, symbol=symbols)
+    return found.assign_attrs(title=title, size=size, confidence=float(confidence), seed=seed)
 
 
-def _words(name: str, end: str) -> dict[str, str]:
-    return {
-        "long_name": f"Sobol index, {name}{_ENDS[end]}".replace("_", " "),
-        "comment": _MEANINGS[name],
-        "units": "1",
-    }
+def _of_one(values: xr.DataArray, count: int, size: int, confidence: float, seed: int) -> xr.Dataset:
+    """Indices and moments of one quantity over the axes."""
+    axes = [str(dim) for dim in values.dims if dim != SAMPLE]
+    flat = values.transpose(*axes, SAMPLE).values.astype(float)
+    rows = flat.reshape(-1, count + 2, size)
+    with Progress(len(rows) * (_RESAMPLES + 2), "sensitivity", "resamples") as progress:
+        found = np.array([_indices(row, confidence, seed, progress) for row in rows])
+    variables: dict[str, Any] = {}
+    for i, (name, end) in enumerate((name, end) for end in _ENDS for name in _MEANINGS):
+        words = {"long_name": f"Sobol index, {name}{_ENDS[end]}".replace("_", " ")}
+        words |= {"comment": _MEANINGS[name], "units": "1"}
+        variables[f"{name}{end}"] = (*axes, "parameter"), found[:, i].reshape(*flat.shape[:-1], -1), words
+    both = flat[..., : 2 * size]  # independent points; the others are mixed from these
+    variables["mean"] = axes, both.mean(-1), {"long_name": "mean of the quantity"}
+    variables["variance"] = axes, both.var(-1), {"long_name": "variance of the quantity"}
+    return xr.Dataset(variables, {axis: values[axis] for axis in axes})
 
 
 def _design(dataset: xr.Dataset) -> tuple[list[str], int]:

@@ -6,8 +6,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import swtstudy
-from swtstudy.figures import force_panels as panels
-from swtstudy.figures.maps import STATE_COLOURS
+from swtstudy.figures import point as panels
+from swtstudy.figures.point import STATE_COLOURS
 from swtstudy.paper.reference import march_springs
 
 SQUARE = swtstudy.LoadPath("square", [[1, 1], [1, -1], [-1, -1], [-1, 1]])

@@ -1,17 +1,14 @@
 """Figures that designers read: lives in decades, S–N-like curves, maps with the regimes."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from drawn import draw, keys
 from folders import RESULTS
 from made_up import made_up
 from solved import REGIMES
 
 import swtstudy
 from swtstudy import Study, open_results
-from swtstudy.figures.draw import draw
-from swtstudy.study.figure import FigureLayout
 
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 19), np.linspace(0.1, 0.9, 17)
 
@@ -37,7 +34,7 @@ def regime_of(gross):
 
 def test_lives_stand_upright_under_their_amplitude(results):
     some = results.isel(friction=[0, 8])
-    layout = FigureLayout("tangential_amplitude", "friction", y=("cycles", "s"), kind="life")
+    layout = keys("tangential_amplitude", "friction", y=("cycles", "s"), kind="life")
     cycles, s = draw(some, layout).axes
     for line, friction in zip(cycles.lines, some.friction.values, strict=True):
         np.testing.assert_array_equal(line.get_ydata(), AMPLITUDE)
@@ -51,24 +48,22 @@ def test_lives_stand_upright_under_their_amplitude(results):
     ]
     assert {axes.get_ylabel() for axes in (cycles, s)} == {r"$G^* u_A/(\mu E^* \delta_0)$"}
     with pytest.raises(ValueError, match="regimes"):
-        draw(some, FigureLayout("tangential_amplitude", "friction", kind="life", regimes=True))
+        draw(some, keys("tangential_amplitude", "friction", kind="life", regimes=True))
 
 
 def test_lives_are_in_decades(results):
-    (axes,) = draw(results.isel(friction=0), FigureLayout("tangential_amplitude", y=("cycles",))).axes
+    (axes,) = draw(results.isel(friction=0), keys("tangential_amplitude", y=("cycles",))).axes
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")
     short = results.isel(friction=0).assign(
         cycles=lambda found: (1e-6 * found.cycles).assign_attrs(found.cycles.attrs)
     )
-    assert draw(short, FigureLayout("tangential_amplitude", y=("cycles",))).axes[0].get_yscale() == "log"
-    (axes,) = draw(results.isel(friction=0), FigureLayout("tangential_amplitude")).axes
+    assert draw(short, keys("tangential_amplitude", y=("cycles",))).axes[0].get_yscale() == "log"
+    (axes,) = draw(results.isel(friction=0), keys("tangential_amplitude")).axes
     assert axes.get_yscale() == "linear"
 
 
 def test_a_map_of_lives_has_decades_and_the_border_of_regimes(results):
-    layout = FigureLayout(
-        "tangential_amplitude", y=("cycles",), kind="contour", vertical="friction", regimes=True
-    )
+    layout = keys("tangential_amplitude", y=("cycles",), kind="contour", vertical="friction", regimes=True)
     axes, bar = draw(results, layout).axes
     outline, *_, filled, _ = axes.collections
     # From 10⁴ to 9·10⁸.
@@ -84,7 +79,7 @@ def test_a_map_of_lives_has_decades_and_the_border_of_regimes(results):
     assert len(inner) > 5
     assert np.ptp(inner[:, 0] - inner[:, 1]) < 0.02
     assert np.abs(inner[:, 0] - inner[:, 1]).max() < 0.05
-    plain = draw(results, replace(layout, regimes=False)).axes[0]
+    plain = draw(results, {**layout, "regimes": False}).axes[0]
     assert not [text for text in plain.texts if "slip" in text.get_text()]
 
 
@@ -110,7 +105,7 @@ def test_values_over_critical_distances_are_logarithmic():
     distance = np.geomspace(0.001, 0.1, 5)
     dataset = made_up(lambda friction: friction, friction=[0.3]).isel(friction=0)
     means = dataset.s.expand_dims(critical_distance=distance).rename("s_volume") / (1 + 30 * distance)
-    (axes,) = draw(dataset.assign(s_volume=means), FigureLayout("critical_distance", y=("s_volume",))).axes
+    (axes,) = draw(dataset.assign(s_volume=means), keys("critical_distance", y=("s_volume",))).axes
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
     np.testing.assert_allclose(axes.lines[0].get_ydata(), 0.3 / (1 + 30 * distance))
 
@@ -118,7 +113,7 @@ def test_values_over_critical_distances_are_logarithmic():
 @pytest.mark.parametrize(("amplitudes", "plain"), [([0.1, 0.4, 1.6], True), ([0.01, 0.1, 1.0, 10.0], False)])
 def test_amplitudes_in_equal_ratios_are_in_decades_of_their_own(amplitudes, plain):
     results = made_up(lambda tangential_amplitude: tangential_amplitude, tangential_amplitude=amplitudes)
-    (axes,) = draw(results, FigureLayout("tangential_amplitude", kind="life")).axes
+    (axes,) = draw(results, keys("tangential_amplitude", kind="life")).axes
     assert axes.get_yscale() == "log"
     assert axes.get_ylim() == (amplitudes[0], amplitudes[-1])
     words = axes.yaxis.get_major_formatter()(0.2, 0)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import xarray as xr
+from drawn import draw, keys
 from made_up import made_up
 from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -11,12 +12,10 @@ from matplotlib.figure import Figure
 from solved import REGIMES
 
 import swtstudy
-from swtstudy.figures.draw import draw
-from swtstudy.figures.lines import hue_scale, in_equal_ratios, mark_regimes
-from swtstudy.figures.maps import draw_slip_map, draw_stress_cycle, draw_swt_map
-from swtstudy.figures.style import STYLE
-from swtstudy.figures.ticks import tick_in_pi
-from swtstudy.study.figure import FigureLayout
+from swtstudy.figures.lines import _mark_regimes as mark_regimes
+from swtstudy.figures.lines import hue_scale, in_equal_ratios
+from swtstudy.figures.point import draw_slip_map
+from swtstudy.figures.words import tick_in_pi
 
 
 @pytest.fixture
@@ -32,7 +31,7 @@ def results(function, **values):
 
 def test_a_line_is_drawn_in_the_order_of_x():
     dataset = results(lambda friction, phase: friction + phase, friction=[0.3, 0.1, 0.2], phase=[0.0, 1.0])
-    (axes,) = draw(dataset, FigureLayout("friction", "phase")).axes
+    (axes,) = draw(dataset, keys("friction", "phase")).axes
     for line, phase in zip(axes.lines, (0.0, 1.0), strict=True):
         assert line.get_xdata().tolist() == [0.1, 0.2, 0.3]
         np.testing.assert_allclose(line.get_ydata(), phase + np.array([0.1, 0.2, 0.3]))
@@ -44,7 +43,7 @@ def test_a_line_is_drawn_in_the_order_of_x():
 def test_an_error_is_a_band_from_a_share_of_the_range_on(share, seen):
     dataset = results(lambda friction: friction, friction=[0.5, 1.0, 2.5])
     dataset["s_error"] = 0 * dataset.s + share * 2.0
-    (axes,) = draw(dataset, FigureLayout("friction")).axes
+    (axes,) = draw(dataset, keys("friction")).axes
     assert bool(axes.collections) == seen
     if seen:
         corners = axes.collections[0].get_paths()[0].vertices
@@ -58,7 +57,7 @@ def test_long_ranges_are_logarithmic(top, scale):
     x = np.geomspace(1.0, 1000.0, 7)
     dataset = results(lambda tangential_amplitude: tangential_amplitude, tangential_amplitude=x)
     dataset["s"] = dataset.s.copy(data=np.linspace(1.0, top, 7))
-    (axes,) = draw(dataset, FigureLayout("tangential_amplitude")).axes
+    (axes,) = draw(dataset, keys("tangential_amplitude")).axes
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", scale)
 
 
@@ -101,7 +100,7 @@ def test_where_no_line_has_a_value_is_said(end, rotation):
     )
     dataset.regime[0, 3:] = dataset.regime[1, end + 1 :] = REGIMES.index("not_finite")
     dataset["s"] = dataset.s.where(dataset.regime == 1)
-    layout = FigureLayout("phase", "frequency_ratio", regimes=True)
+    layout = keys("phase", "frequency_ratio", regimes=True)
     (axes,) = draw(dataset, layout).axes
     (zone,) = axes.patches
     box = zone.get_extents().transformed(axes.transData.inverted())
@@ -130,7 +129,7 @@ def test_a_place_on_the_axis_of_lines_or_panels(role, kind):
     dataset = dataset.isel(normal_amplitude=0) if kind == "lines" else dataset
     y = "s/s(friction=0.5)"
     vertical = "normal_amplitude" if kind == "heatmap" else None
-    layout = FigureLayout("phase", y=(y,), kind=kind, vertical=vertical, **{role: "friction"})
+    layout = keys("phase", y=(y,), kind=kind, vertical=vertical, **{role: "friction"})
     panels = draw(dataset, layout).axes
     expected = dataset.swt.normalised("friction=0.5")
     assert float(expected.max()) > 2.0
@@ -150,13 +149,13 @@ def test_a_profile_is_named_with_its_shape():
         "rounded punch, $b/a_H$ = 0.5",
         r"wavy paraboloid, $h/\delta_0$ = 0.01, $\lambda/\sqrt{hR}$ = √20",
     ]
-    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", "profile"))
+    figure = draw(dataset.assign_coords(fixed), keys("phase", "profile"))
     assert [text.get_text() for text in figure.legends[0].get_texts()] == expected
-    figure = draw(dataset.assign_coords(fixed), FigureLayout("phase", panels="profile"))
+    figure = draw(dataset.assign_coords(fixed), keys("phase", panels="profile"))
     titles = [axes.get_title("left") for axes in figure.axes]
     assert titles == [f"({letter})  {words}" for letter, words in zip("ABC", expected, strict=True)]
     # A shape along another axis is no part of the name.
-    figure = draw(dataset, FigureLayout("phase", "profile"))
+    figure = draw(dataset, keys("phase", "profile"))
     assert figure.legends[0].get_texts()[1].get_text() == "rounded punch"
 
 
@@ -172,7 +171,7 @@ def test_ticks_of_a_logarithmic_axis(low, high, words):
     """A short one has plain numbers, so that it shows where it begins."""
     x = np.geomspace(low, high, 5)
     dataset = results(lambda waviness_amplitude: waviness_amplitude, waviness_amplitude=x)
-    (axes,) = draw(dataset, FigureLayout("waviness_amplitude")).axes
+    (axes,) = draw(dataset, keys("waviness_amplitude")).axes
     assert axes.get_xscale() == "log"
     shown = [
         t.get_text() for t in axes.get_xticklabels() if low * 0.999 <= t.get_position()[0] <= high * 1.001
@@ -183,7 +182,7 @@ def test_ticks_of_a_logarithmic_axis(low, high, words):
 def test_flags_are_steps_with_their_meanings():
     dataset = results(lambda friction: friction, friction=[0.1, 0.2, 0.3])
     dataset.regime[:] = [1, 2, 2]
-    (axes,) = draw(dataset, FigureLayout("friction", y=("regime",))).axes
+    (axes,) = draw(dataset, keys("friction", y=("regime",))).axes
     assert axes.lines[0].get_drawstyle() == "steps-mid"
     assert axes.lines[0].get_ydata().tolist() == [1, 2, 2]
     assert [tick.get_text() for tick in axes.get_yticklabels()] == [
@@ -202,11 +201,11 @@ def test_eight_values_have_a_scale():
     assert logarithmic.norm(0.1) == pytest.approx(0.5)
     assert scale.norm(2.5) == pytest.approx(0.5)
     dataset = results(lambda friction, phase: friction + 0 * phase, friction=many.values, phase=[0.0, 1.0])
-    figure = draw(dataset, FigureLayout("phase", "friction"))
+    figure = draw(dataset, keys("phase", "friction"))
     colours = [line.get_color() for line in figure.axes[0].lines]
     assert len({tuple(colour) for colour in colours}) == 8
     # Up to nine tenths of the map: its lightest end cannot be seen on white.
-    expected = colormaps[STYLE["image.cmap"]](0.9 * np.linspace(0.0, 1.0, 8))
+    expected = colormaps["cividis"](0.9 * np.linspace(0.0, 1.0, 8))
     np.testing.assert_allclose(colours, expected, atol=0.01)
 
 
@@ -229,7 +228,7 @@ def test_contours_have_their_values_and_the_optimum():
     dataset = results(
         lambda friction, phase: 1 + (phase - friction) ** 2, friction=v, phase=np.linspace(0.0, 2.0, 9)
     )
-    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
     np.testing.assert_allclose(path_of(axes, "least $s$")[1:], np.stack([v, v], axis=1))
     greatest = [[2.0, each] if each < 1.0 else [0.0, each] for each in v]
     greatest.insert(5, [np.nan, np.nan])
@@ -249,7 +248,7 @@ def test_the_optimum_goes_through_the_end_of_a_period():
     dataset = results(
         lambda friction, phase: 2 - np.cos(2 * (phase - 0.1 + 0.21 * friction)), friction=v, phase=phase
     )
-    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
     path = path_of(axes, "least $s$")
     path = path[np.isfinite(path[:, 0])]
     np.testing.assert_allclose(path[:, 1], v)
@@ -257,7 +256,7 @@ def test_the_optimum_goes_through_the_end_of_a_period():
     np.testing.assert_allclose(path[:, 0], (0.1 - 0.21 * v) % np.pi, atol=1e-3)
     # Of what is no angle an end is an end.
     dataset = dataset.rename(phase="poisson_ratio").assign_coords(poisson_ratio=phase / 10)
-    axes = draw(dataset, FigureLayout("poisson_ratio", kind="contour", vertical="friction")).axes[0]
+    axes = draw(dataset, keys("poisson_ratio", kind="contour", vertical="friction")).axes[0]
     path = path_of(axes, "least $s$")
     assert path[np.abs(path[:, 1] - 0.55) < 0.1, 0].tolist() == [0.0, 0.0]
 
@@ -271,7 +270,7 @@ def test_a_flat_row_and_a_few_rows_have_no_optimum():
         friction=v,
         phase=np.linspace(0.0, 2.0, 21),
     )
-    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
     path = path_of(axes, "least $s$")
     path = path[np.isfinite(path[:, 0])]
     assert path[:, 1] == pytest.approx([*v[1:12], *v[14:]])
@@ -287,7 +286,7 @@ def test_a_tiny_island_is_left_out_and_a_corner_is_not():
     )
     dataset.s[20, 20] += 0.03
     dataset.s[40, 0] += 0.1
-    axes = draw(dataset, FigureLayout("phase", kind="contour", vertical="friction")).axes[0]
+    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
     for contours in axes.collections[:2]:
         places = np.concatenate([path.vertices for path in contours.get_paths() if len(path)])
         near = np.hypot(places[:, 0] - 0.5, places[:, 1] - 0.5) < 0.03
@@ -315,7 +314,7 @@ def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
             phase=np.linspace(0.0, 2.0, 9),
             normal_amplitude=[0.0, 1.0],
         )
-        layout = FigureLayout("phase", panels="normal_amplitude", kind=kind, vertical="friction")
+        layout = keys("phase", panels="normal_amplitude", kind=kind, vertical="friction")
         figure = draw(dataset, layout)
         assert [axes.get_title("left")[:3] for axes in figure.axes[:2]] == ["(A)", "(B)"]
         return [axes.collections[0].norm for axes in figure.axes[:2]], len(figure.axes)
@@ -330,7 +329,7 @@ def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
 
 def test_cells_have_the_values_of_the_points():
     dataset = surface().isel(phase=slice(0, 4))
-    figure = draw(dataset, FigureLayout("phase", kind="heatmap", vertical="friction"))
+    figure = draw(dataset, keys("phase", kind="heatmap", vertical="friction"))
     (mesh,) = figure.axes[0].collections
     np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(3, 4), dataset.s)
     assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset.s.min(), dataset.s.max())
@@ -341,9 +340,9 @@ def test_cells_have_the_values_of_the_points():
 def test_sizes_of_figures():
     dataset = results(lambda friction, phase: friction + phase, friction=[0.1, 0.2, 0.3], phase=[0.0, 1.0])
     for layout, size in (
-        (FigureLayout("friction", None, "phase"), (8.0, 3.2)),
-        (FigureLayout("friction", None, "phase", ("s", "critical_x")), (8.0, 6.4)),
-        (FigureLayout("friction", kind="heatmap", vertical="phase"), (5.5, 3.2)),
+        (keys("friction", None, "phase"), (8.0, 3.2)),
+        (keys("friction", None, "phase", ("s", "critical_x")), (8.0, 6.4)),
+        (keys("friction", kind="heatmap", vertical="phase"), (5.5, 3.2)),
     ):
         assert draw(dataset, layout).get_size_inches() == pytest.approx(size)
 
@@ -362,30 +361,6 @@ def test_sizes_of_figures():
 def test_ticks_in_pi(axes, low, high, words):
     tick_in_pi(axes.xaxis, low * np.pi, high * np.pi)
     assert [tick.get_text() for tick in axes.get_xticklabels()] == words
-
-
-def test_map_of_swt(axes):
-    field = swtstudy.swt_field([-1.0, 0.0, 1.0], 0.0, [0.1, 0.3])
-    mesh = draw_swt_map(axes, field, highest=0.2)
-    drawn = np.asarray(mesh.get_array()).reshape(2, 3)
-    np.testing.assert_array_equal(drawn, field.s_local.transpose("z", "x"))
-    assert mesh.get_clim() == (0.0, 0.2)
-    assert axes.yaxis_inverted()
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("$x/a_H$", "$z/a_H$")
-    assert mesh.get_coordinates()[..., 0].tolist() == [[-1.0, 0.0, 1.0]] * 2
-    with pytest.raises(ValueError, match="found swt over x; allowed: two of x, y and z"):
-        draw_swt_map(axes, field.isel(z=0), 0.2)
-
-
-def test_stress_cycle_leaves_out_what_is_zero(axes):
-    field = swtstudy.stress_field(0.5, 0.0, 0.2, time=np.linspace(0.0, 2 * np.pi, 7))
-    draw_stress_cycle(axes, field)
-    names = ["sigma_xx", "sigma_yy", "sigma_zz", "sigma_xz"]
-    assert len(axes.lines) == 4
-    drawn = {line.get_label(): line.get_ydata() for line in axes.lines}
-    for name in names:
-        np.testing.assert_array_equal(drawn[f"${field[name].attrs['symbol']}$"], field[name])
-    assert axes.get_xlim() == pytest.approx((0.0, 2 * np.pi))
 
 
 def test_slip_map(axes):

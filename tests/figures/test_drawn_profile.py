@@ -10,9 +10,9 @@ from matplotlib.ticker import ScalarFormatter
 from oracles import profiles as oracle
 
 import swtstudy
+from swtstudy import draw_profile
 from swtstudy.cli import main
 from swtstudy.contacts import PhysicalContact
-from swtstudy.figures.profile import draw_profile
 
 
 @pytest.mark.parametrize("indenter", [oracle.rounded_punch(0.5), oracle.power_law(1.5)], ids=str)

@@ -6,14 +6,13 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import stand_in
+from drawn import draw, keys
 from made_up import PANELS
 
 from swtstudy import Study, StudyError, run
-from swtstudy.figures.draw import draw
-from swtstudy.figures.style import STYLE, save_figure
+from swtstudy.figures.style import save_figure, style_of
 from swtstudy.figures.surfaces import _colours
 from swtstudy.results.evaluate import quantity
-from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.wording import value_words
 
 
@@ -84,7 +83,7 @@ def test_other_endings_are_refused(one_panel, tmp_path):
 
 def test_what_cannot_be_drawn_is_refused(panels):
     with pytest.raises(ValueError, match="not an axis of these results"):
-        draw(panels, FigureLayout(x="friction"))
+        draw(panels, keys(x="friction"))
     with pytest.raises(ValueError, match="no figure"):
         draw(panels.drop_attrs())
 
@@ -142,7 +141,7 @@ def test_contours_with_the_optimum(surface):
 
 
 def test_a_heat_map_has_a_cell_for_each_point(surface):
-    layout = FigureLayout("friction", None, "phase", ("s",), None, "heatmap", "normal_amplitude")
+    layout = keys("friction", None, "phase", ("s",), None, "heatmap", "normal_amplitude")
     surface.s[0, 0, 0] = np.nan
     figure = draw(surface.isel(phase=[0, 1]), layout)
     (mesh,) = figure.axes[0].collections
@@ -162,11 +161,11 @@ def test_long_lives_are_dark_as_a_small_s_is(surface, scale, turned):
 @pytest.mark.parametrize(
     ("layout", "words"),
     [
-        (FigureLayout("phase", kind="contour"), "vertical: found nothing"),
-        (FigureLayout("phase", "friction", kind="heatmap", vertical="normal_amplitude"), "hue"),
-        (FigureLayout("phase", vertical="friction"), "vertical"),
-        (FigureLayout("phase", kind="pie"), "found 'pie'"),
-        (FigureLayout("phase", y=()), "figure.y: found an empty list; allowed: at least one of"),
+        (keys("phase", kind="contour"), "vertical: found nothing"),
+        (keys("phase", "friction", kind="heatmap", vertical="normal_amplitude"), "hue"),
+        (keys("phase", vertical="friction"), "vertical"),
+        (keys("phase", kind="pie"), "found 'pie'"),
+        (keys("phase", y=()), "figure.y: found an empty list; allowed: at least one of"),
     ],
 )
 def test_roles_that_do_not_fit_the_kind_are_refused(surface, layout, words):
@@ -187,12 +186,12 @@ def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
 def test_a_value_without_neighbours_is_a_dot_and_without_any_that_is_said(small, tmp_path):
     dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth).isel(normal_amplitude=0)
     one = dataset.isel(phase=[1])
-    (axes,) = draw(one, FigureLayout(x="phase", y=("s",))).axes
+    (axes,) = draw(one, keys(x="phase", y=("s",))).axes
     _, dot = axes.get_lines()
     assert dot.get_marker() == "o"
     np.testing.assert_array_equal(dot.get_ydata(), one.s.values.ravel())
     assert np.mean(axes.get_xlim()) == pytest.approx(float(one.phase[0]))
-    (axes,) = draw(dataset.assign(s=np.nan * dataset.s), FigureLayout(x="phase", y=("s",))).axes
+    (axes,) = draw(dataset.assign(s=np.nan * dataset.s), keys(x="phase", y=("s",))).axes
     assert [text.get_text() for text in axes.texts] == ["no value"]
 
 
@@ -216,7 +215,7 @@ def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
 
 def test_lines_differ_in_greyscale():
     """Of any five neighbours in the cycle none have the same dashes; later ones differ in the marker."""
-    looks = list(STYLE["axes.prop_cycle"])
+    looks = list(style_of("screen")["axes.prop_cycle"])
     assert all(len({str(look["linestyle"]) for look in looks[i : i + 5]}) == 5 for i in range(30))
     assert len({(str(look["linestyle"]), look["marker"]) for look in looks}) == len(looks) == 35
 

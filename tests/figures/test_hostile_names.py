@@ -7,12 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
+from drawn import draw
 from matplotlib.figure import Figure
 
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
-from swtstudy.figures.draw import draw
-from swtstudy.figures.evaluated import draw_sensitivity
-from swtstudy.results.sensitivity import sensitivity
 
 R = np.linspace(0.0, 3.0, 9).tolist()
 LOOPS = """
@@ -106,4 +104,3 @@ y = ["critical_position", "SWT"]
     words = drawn(draw(found)).replace("\n", " ")
     for each in (f"$x$ ({label})", f"$u_A$ ({label})", f"0.001 {label}"):
         assert each in words, words
-    assert rf"$\delta_A$ = 0.001 {label}" in drawn(draw_sensitivity(sensitivity(found, "critical_x")))

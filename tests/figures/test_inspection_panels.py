@@ -6,9 +6,8 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 
 import swtstudy
-from swtstudy.figures import inspection_panels as panels
-from swtstudy.figures.force_panels import draw_forces, limits
-from swtstudy.figures.maps import STATE_COLOURS
+from swtstudy.figures import point as panels
+from swtstudy.figures.point import STATE_COLOURS, draw_forces, limits
 
 #: Cattaneo's: every number in the picture is known. The largest swt is at x = −1, where it trails.
 CATTANEO = {"normal_amplitude": 0, "tangential_amplitude": 0.36, "friction": 0.5}
@@ -220,7 +219,7 @@ def test_swt_along_the_surface(moving, axes):
 @pytest.mark.parametrize("angle", [8.0, -8.0, 65.0, -65.0])
 def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
     """x to the right, z down: the normal (cos φ, sin φ) points down for φ > 0, the plane into the body."""
-    panels._draw_plane(axes, moving.assign(shown_angle=angle))
+    panels._draw_plane(axes, angle)
     (inset,) = axes.child_axes
     cosine, sine = np.cos(np.radians(angle)), np.sin(np.radians(angle))
     plane = inset.lines[1].get_xydata()

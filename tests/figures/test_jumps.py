@@ -8,13 +8,12 @@ import matplotlib.text
 import numpy as np
 import pytest
 import xarray as xr
+from drawn import draw, keys
 from made_up import made_up
 
-from swtstudy.figures.draw import draw
 from swtstudy.figures.lines import may_jump, place_jumps
 from swtstudy.figures.sheet import Figure, wrap_texts
-from swtstudy.figures.ticks import tick_in_ratios
-from swtstudy.study.figure import FigureLayout
+from swtstudy.figures.words import tick_in_ratios
 
 X = np.linspace(0.0, 2.0 * np.pi, 49)
 
@@ -52,19 +51,19 @@ def places() -> xr.Dataset:
 
 
 def test_the_line_of_a_place_breaks_and_both_ends_are_marked() -> None:
-    (axes,) = draw(places(), FigureLayout("phase", y=("critical_x",))).axes
+    (axes,) = draw(places(), keys("phase", y=("critical_x",))).axes
     line, marks = axes.lines
     assert np.isnan(line.get_ydata()).sum() == 1
     assert marks.get_ydata() == pytest.approx([0.9, -0.8])
     assert marks.get_linestyle() == "None"
-    (whole,) = draw(places(), FigureLayout("phase", y=("s",))).axes[0].lines
+    (whole,) = draw(places(), keys("phase", y=("s",))).axes[0].lines
     assert np.isfinite(whole.get_ydata()).all()
 
 
 def test_in_an_upright_figure_the_marks_are_at_the_ends_too() -> None:
     dataset = places()
     dataset["critical_x"] = np.exp(5.0 * dataset.critical_x).assign_attrs(dataset.critical_x.attrs)
-    (axes,) = draw(dataset, FigureLayout("phase", y=("critical_x",), kind="life")).axes
+    (axes,) = draw(dataset, keys("phase", y=("critical_x",), kind="life")).axes
     _, marks = axes.lines
     first = int(np.argmax(X >= 3.0))
     assert marks.get_xdata() == pytest.approx(np.exp([4.5, -4.0]))
@@ -96,7 +95,7 @@ def test_numbers_of_a_life_have_room(low: float, high: float) -> None:
     dataset = places()
     values = np.geomspace(low, high, dataset.critical_x.size)
     dataset["critical_x"] = dataset.critical_x.copy(data=values.reshape(dataset.critical_x.shape))
-    (axes,) = draw(dataset, FigureLayout("phase", y=("critical_x",), kind="life")).axes
+    (axes,) = draw(dataset, keys("phase", y=("critical_x",), kind="life")).axes
     axes.figure.draw_without_rendering()
     ticks = [*axes.xaxis.get_major_ticks(), *axes.xaxis.get_minor_ticks()]
     ends = axes.get_xlim()
@@ -155,7 +154,7 @@ def test_words_on_contours_differ_from_what_is_beneath_them() -> None:
         phase=X,
         normal_amplitude=np.linspace(0.1, 0.9, 20),
     )
-    figure = draw(dataset, FigureLayout("phase", kind="contour", vertical="normal_amplitude"))
+    figure = draw(dataset, keys("phase", kind="contour", vertical="normal_amplitude"))
     filled = next(each for each in figure.axes[0].collections if each.get_array() is not None)
     labels = [
         each
@@ -175,7 +174,7 @@ def test_a_map_of_a_ratio_is_pale_where_it_is_1() -> None:
         phase=X,
         normal_amplitude=np.linspace(0.1, 0.9, 20),
     )
-    layout = FigureLayout("phase", y=("s/s(phase=0)",), kind="heatmap", vertical="normal_amplitude")
+    layout = keys("phase", y=("s/s(phase=0)",), kind="heatmap", vertical="normal_amplitude")
     mesh = draw(dataset, layout).axes[0].collections[0]
     assert mesh.norm.vmin + mesh.norm.vmax == pytest.approx(2.0)
     assert luminance(mesh.to_rgba(1.0)[:3]) > 0.85

@@ -11,8 +11,8 @@ from matplotlib.colors import to_rgba
 from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
 
-from swtstudy.figures.legend import add_legend
 from swtstudy.figures.lines import hue_scale
+from swtstudy.figures.sheet import add_legend
 from swtstudy.figures.style import MARKERS
 from swtstudy.vocabulary.choices import FAMILIES
 from swtstudy.vocabulary.wording import place_words

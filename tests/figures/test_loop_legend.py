@@ -10,7 +10,6 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 
 import swtstudy
-from swtstudy.figures.legend import loops_of
 
 
 def small_lines(legend: Legend) -> list[Line2D]:
@@ -23,7 +22,7 @@ def test_each_loop_is_drawn_beside_its_name_in_its_colour() -> None:
     figure = dataset.swt.figure()
     (legend,) = figure.legends
     lines = {line.get_label(): line for line in figure.axes[0].lines}
-    loops = loops_of(dataset)
+    loops = {str(each).replace("_", " "): each for each in swtstudy.Study.from_toml("loops").grid.loops}
     assert [text.get_text() for text in legend.get_texts()] == [*lines] == [*loops]
     drawn = small_lines(legend)
     assert len(drawn) == len(loops)

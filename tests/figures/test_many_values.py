@@ -12,7 +12,6 @@ from matplotlib.text import Text
 import swtstudy
 from swtstudy import Study
 from swtstudy.cli import main
-from swtstudy.figures.sheet import PANEL
 
 SAMPLE = """
 title = "t"
@@ -43,7 +42,7 @@ def test_ten_panels_are_no_wider_than_three(tmp_path: Path) -> None:
     text = 'title = "t"\n[axes]\nphase = [0, 1]\nfriction = { start = 0.1, stop = 1, num = 10 }\n'
     study = Study.from_text(f'{text}[figure]\nx = "phase"\npanels = "friction"\n')
     figure = swtstudy.run(study, tmp_path / "ten.nc", solver=stand_in.smooth).swt.figure()
-    assert figure.get_size_inches() == pytest.approx((3 * PANEL[0], 4 * PANEL[1]))
+    assert figure.get_size_inches() == pytest.approx((3 * 4.0, 4 * 3.2))
     titles = [axes.get_title("left") for axes in figure.axes]
     assert titles[2] == r"(C)  $\mu$ = 0.3"  # not 3/10, which 0.1 + 0.2 is but for rounding
 

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
+from drawn import draw, keys
 from made_up import made_up
 
 from swtstudy import Study
-from swtstudy.figures.draw import draw
 from swtstudy.points.validity import outside
-from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.variables import CONTACT
 
@@ -50,7 +49,7 @@ def test_outside_of_what_a_quantity_is(results):
 
 @pytest.mark.parametrize("kind", ["lines", "life"])
 def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
-    layout = FigureLayout("tangential_amplitude", "friction", y=("cycles",), kind=kind, validity=True)
+    layout = keys("tangential_amplitude", "friction", y=("cycles",), kind=kind, validity=True)
     axes = draw(results, layout).axes[0]
     bands = marks(axes, "outside: first yield, known lives")
     assert len(bands) == len(FRICTION)
@@ -62,19 +61,19 @@ def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
         assert np.isnan(x.reshape(-1, 2)[~row]).all()
         assert (x[1::2] != x[::2]).all()
         assert band.get_zorder() < min(line.get_zorder() for line in axes.lines if line not in bands)
-    plain = draw(results, FigureLayout("tangential_amplitude", "friction", y=("cycles",), kind=kind))
+    plain = draw(results, keys("tangential_amplitude", "friction", y=("cycles",), kind=kind))
     assert not marks(plain.axes[0], "outside: first yield, known lives")
 
 
 def test_a_map_has_dots_on_the_points_that_are_outside(results):
-    layout = FigureLayout("tangential_amplitude", kind="contour", vertical="friction", validity=True)
+    layout = keys("tangential_amplitude", kind="contour", vertical="friction", validity=True)
     (dots,) = marks(draw(results, layout).axes[0], "outside: first yield")
     rows, columns = np.nonzero(BEYOND)
     np.testing.assert_array_equal(dots.get_xydata(), np.stack([AMPLITUDE[columns], FRICTION[rows]], axis=1))
     (cells,) = marks(
-        draw(
-            results, FigureLayout("tangential_amplitude", kind="heatmap", vertical="friction", validity=True)
-        ).axes[0],
+        draw(results, keys("tangential_amplitude", kind="heatmap", vertical="friction", validity=True)).axes[
+            0
+        ],
         "outside: first yield",
     )
     np.testing.assert_array_equal(cells.get_xydata(), np.stack([columns, rows], axis=1))
@@ -87,7 +86,7 @@ def test_a_fine_map_has_fewer_dots_and_none_that_is_inside():
         tangential_amplitude=np.linspace(0.1, 0.9, 90),
     )
     fine = fine.assign(yield_ratio=3.0 * fine.s)
-    layout = FigureLayout("tangential_amplitude", kind="contour", vertical="friction", validity=True)
+    layout = keys("tangential_amplitude", kind="contour", vertical="friction", validity=True)
     (dots,) = marks(draw(fine, layout).axes[0], "outside: first yield")
     at = np.asarray(dots.get_xydata())
     assert 20 < len(at) < 32**2
@@ -96,17 +95,17 @@ def test_a_fine_map_has_fewer_dots_and_none_that_is_inside():
 
 def test_a_scatter_has_them_and_a_histogram_has_not(results):
     some = results.stack(sample=("friction", "tangential_amplitude")).reset_index("sample")
-    axes = draw(some, FigureLayout("sample", kind="scatter", validity=True)).axes[0]
+    axes = draw(some, keys("sample", kind="scatter", validity=True)).axes[0]
     (dots,) = marks(axes, "outside: first yield")
     assert len(dots.get_xdata()) == BEYOND.sum()
     with pytest.raises(ValueError, match=r"figure\.validity: found True; allowed: False for kind = \"hist"):
-        draw(some, FigureLayout("sample", kind="histogram", validity=True))
+        draw(some, keys("sample", kind="histogram", validity=True))
 
 
 def test_nothing_outside_has_no_mark(results):
     inside = results.assign(yield_ratio=0.0 * results.yield_ratio)
-    layout = FigureLayout("tangential_amplitude", "friction", validity=True)
-    plain = FigureLayout("tangential_amplitude", "friction")
+    layout = keys("tangential_amplitude", "friction", validity=True)
+    plain = keys("tangential_amplitude", "friction")
     assert len(draw(inside, layout).axes[0].lines) == len(draw(inside, plain).axes[0].lines)
 
 
@@ -115,7 +114,7 @@ def test_a_study_may_ask_for_them():
     study = Study.from_text(text)
     assert study.figure is not None
     assert study.figure.validity
-    assert FigureLayout.from_json(study.figure.to_json()) == study.figure
+    assert type(study.figure).from_json(study.figure.to_json()) == study.figure
     with pytest.raises(ValueError, match=r"figure\.validity: found 3; allowed: true or false"):
         Study.from_text(text.replace("true", "3"))
     assert Study.from_text(to_toml("t", 1e-3, study.grid, study.figure)).figure == study.figure

@@ -11,7 +11,6 @@ from matplotlib.transforms import Bbox
 
 import swtstudy
 from swtstudy import Study
-from swtstudy.figures.sheet import Sheet
 from swtstudy.vocabulary.choices import FAMILIES
 
 CM = 2.54
@@ -124,21 +123,23 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
     ],
 )
 def test_panels_side_by_side(rows, count, width, across):
-    sheet = Sheet(rows, count, width)
-    assert sheet.across == across
+    axes = {"phase": PHASE, "normal_amplitude": np.linspace(0.1, 0.9, count)}
+    y = ["s", "critical_angle"][:rows]
+    figure = made_up(wave, **axes).swt.panels("phase", panels="normal_amplitude", y=y, width=width)
+    assert figure.axes[0].get_gridspec().ncols == across
     if width is None:
-        assert sheet.size == pytest.approx((4.0 * across, 3.2 * rows * -(-count // across)))
+        assert figure.get_size_inches() == pytest.approx((4.0 * across, 3.2 * rows * -(-count // across)))
     else:
-        assert sheet.size[0] == WIDTHS[width]
-        assert sheet.size[1] <= 23.0 / CM
-    # On a screen a scale has its own room.
-    assert sheet.figure(beside=1.0).get_figwidth() == pytest.approx(sheet.size[0] + (width is None))
+        assert figure.get_figwidth() == pytest.approx(WIDTHS[width])
+        assert figure.get_figheight() <= 23.0 / CM
 
 
-@pytest.mark.parametrize(("share", "numbered"), [("row", [True, False]), ("none", [True, True])])
-def test_panels_with_an_axis_in_common_have_its_numbers_once(share, numbered):
-    sheet = Sheet(1, 2)
-    panels = sheet.panels(sheet.figure(), share_y=share)[0]
+@pytest.mark.parametrize(
+    ("y", "numbered"), [(["s"], [True, False]), (["s", "critical_angle"], [True, False] * 2)]
+)
+def test_panels_with_an_axis_in_common_have_its_numbers_once(y, numbered):
+    axes = {"phase": PHASE, "normal_amplitude": [0.1, 0.2]}
+    panels = made_up(wave, **axes).swt.panels("phase", panels="normal_amplitude", y=y).axes
     assert [one.yaxis.get_tick_params()["labelleft"] for one in panels] == numbered
 
 
@@ -152,16 +153,6 @@ def test_letters_of_print_unless_the_user_wants_others():
     with matplotlib.rc_context({"font.size": 9.5}):
         assert size() == 9.5
     assert drawn("lines", None).axes[0].xaxis.label.get_fontsize() == 10.0
-
-
-@pytest.mark.slow
-def test_a_picture_of_a_column_has_300_dots_an_inch(tmp_path):
-    from swtstudy.figures.style import save_figure
-
-    for width, dots in (("column", 8.5 / CM * 300), (None, 4.0 * 150)):
-        save_figure(drawn("lines", width), tmp_path / "figure.png")
-        head = (tmp_path / "figure.png").read_bytes()[16:20]
-        assert int.from_bytes(head, "big") == pytest.approx(dots, abs=1)
 
 
 @pytest.mark.slow

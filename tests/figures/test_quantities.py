@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from curves import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
 
-from swtstudy.figures.quantity_words import title_words
-from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
 from swtstudy.vocabulary.variables import ATTRIBUTES
@@ -170,8 +167,6 @@ def test_lines_of_regimes_are_steps_between_names(dataset):
 def test_points_that_are_missing_or_failed_have_no_regime(dataset):
     dataset["status"] = dataset.regime.copy(data=np.zeros((13, 3), np.int8))
     dataset.regime[5:7, 0], dataset.status[5, 0], dataset.status[6, 0] = 4, 1, 2
-    unknown = np.isnan(quantity(dataset, "regime"))
-    np.testing.assert_array_equal(np.argwhere(unknown.values), [[5, 0], [6, 0]])
     figure = dataset.swt.panels("phase", vertical="friction", kind="heatmap", y="regime")
     assert np.argwhere(figure.axes[0].collections[0].get_array().mask).tolist() == [[0, 5], [0, 6]]
     (axes,) = dataset.swt.panels("phase", "friction", regimes=True).axes
@@ -288,9 +283,9 @@ def test_all_mistakes_of_a_layout_come_at_once(dataset):
     assert isinstance(caught.value.mistakes, tuple)
 
 
-def test_the_title_of_a_panel_is_a_whole_symbol() -> None:
-    values = xr.DataArray(
-        1.0, attrs={"long_name": "rounds", "symbol": r"N_{\mathrm{FS, volume}}", "units": "1"}
-    )
-    assert title_words(values.rename("FS_cycles_volume"), "FS_cycles_volume") == r"$N_{\mathrm{FS, volume}}$"
-    assert title_words(values, "s") == "$s$"
+def test_the_title_of_a_panel_is_a_whole_symbol(dataset) -> None:
+    words = {"long_name": "load cycles", "symbol": r"N_{\mathrm{FS, volume}}", "units": "1"}
+    dataset["FS_cycles_volume"] = dataset.s.drop_attrs().assign_attrs(words)
+    figure = dataset.swt.panels("phase", "friction", y=["FS_cycles_volume", "s"])
+    titles = [axes.get_title("left") for axes in figure.axes]
+    assert titles == [r"(A)  $N_{\mathrm{FS, volume}}$", "(B)  $s$"]

@@ -6,11 +6,9 @@ import sys
 
 import matplotlib
 import pytest
+from command import call
 
 import swtstudy
-from swtstudy.figures.draw import draw
-from swtstudy.figures.style import save_figure
-from swtstudy.study.figure import FigureLayout
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -30,8 +28,8 @@ save_figure(Ended(), {str(tmp_path / "figure.png")!r})
 
 
 def test_figures_are_drawn_without_the_users_latex(tmp_path):
-    dataset = swtstudy.solve(phase=[0.0, 1.0, 2.0], rtol=1e-2)
+    study = 'title = "t"\nrtol = 1e-2\naxes.phase = [0, 1, 2]\n[figure]\nx = "phase"\n'
+    swtstudy.run(swtstudy.Study.from_text(study), tmp_path / "phase.nc")
     with matplotlib.rc_context({"text.usetex": True}):
-        figure = draw(dataset, FigureLayout(x="phase"))
-        save_figure(figure, tmp_path / "phase.png")
+        assert call("plot", tmp_path / "phase.nc").exit_code == 0
     assert (tmp_path / "phase.png").stat().st_size > 1000

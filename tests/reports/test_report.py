@@ -27,9 +27,7 @@ from swtstudy import Study
 from swtstudy.cli import main
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, indices_of, levers, parameters_of, sentences
-from swtstudy.reports.page import _caption, page
-from swtstudy.reports.parts import Picture, derived, embedded, section
-from swtstudy.reports.sections import extrema_section, settings_section, sureness_section, tiles
+from swtstudy.reports.page import Picture, caption_of, derived, embedded, page
 from swtstudy.reports.site import entry, write_reports
 from swtstudy.reports.values import about, packed, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
@@ -108,7 +106,15 @@ def read_multiple(words: str) -> float:
 @pytest.fixture
 def without_points(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pages without the pictures of points, which take seconds."""
-    monkeypatch.setattr("swtstudy.reports.page.points_section", lambda _: section("points", "Points"))
+    monkeypatch.setattr("swtstudy.reports.page.points_of", lambda *_: [])
+
+
+def said_in(dataset: xr.Dataset, section: str, name: str = "any") -> str:
+    """One section of a page without its figure, or its head, as HTML."""
+    attributes = {key: value for key, value in dataset.attrs.items() if key != "figure"}
+    text = page(dataset.drop_attrs(deep=False).assign_attrs({"title": "t", "source": "s"} | attributes), name)
+    whole = text.partition(f'id="{section}"')[2] if section != "head" else text.partition("<header")[2]
+    return whole[: whole.index("</section>" if section != "head" else "</header>")]
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +170,7 @@ def test_the_phase_is_the_first_lever_and_others_go_by_their_ratio() -> None:
     assert found[1].ratio > found[2].ratio
 
 
-def test_of_real_contacts_with_lives_the_sentence_is_about_these() -> None:
+def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points: None) -> None:
     dataset = swtstudy.open_results(RESULTS / "sphere_on_flat.nc")
     extremes = {word: float(one.cycles) for word, one in extreme_points(dataset).items()}
     assert extremes == {"best": float(dataset.cycles.max()), "worst": float(dataset.cycles.min())}
@@ -174,18 +180,16 @@ def test_of_real_contacts_with_lives_the_sentence_is_about_these() -> None:
     assert "400 N" in said[0]
     ratio = float((dataset.cycles.max("phase") / dataset.cycles.min("phase")).max())
     assert f"by a factor of {number_words(ratio, 3)} at" in said[0]
-    constants = settings_section(dataset).body.partition("Strain-life constants")[2]
+    constants = said_in(dataset, "settings").partition("Strain-life constants")[2]
     assert re.findall(">([^<]*)</td>", constants)[:4] == ["young modulus", "73100 MPa", "strength", "927 MPa"]
     assert '<td>young modulus</td><td class="n">73100 MPa</td>' in constants
 
 
-def test_limits_of_the_stress_are_said_beside_the_constants() -> None:
-    contact = swtstudy.physical(
-        young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=200.0,
-        tangential_force_amplitude=60.0, yield_strength=(350.0, 420.0),
-    )  # fmt: skip
-    body = settings_section(contact.solve(1e-2)).body.partition("Limits of the stress")[2]
-    assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 ", "yield strength", "420 "]
+def test_limits_of_the_stress_are_said_beside_the_constants(tmp_path: Path, without_points: None) -> None:
+    text = RECORD.format(alloy=ALLOY).replace("yield_strength = 100", "yield_strength = [350, 420]")
+    found = swtstudy.run(Study.from_text(text), tmp_path / "rig.nc")
+    body = said_in(found, "settings").partition("Limits of the stress")[2]
+    assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 MPa", "yield strength", "420 MPa"]
 
 
 @pytest.mark.parametrize(
@@ -225,7 +229,7 @@ def test_values_of_several_criteria_are_not_compared() -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.* has no effect:UserWarning")
-def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
+def test_criteria_in_units_are_each_in_their_own(tmp_path: Path, without_points: None) -> None:
     """A phase moves nothing where the normal load is constant."""
     still = swtstudy.run(Study.from_text(f"{CRITERIA}phase = [0, 1]\n"), tmp_path / "still.nc")
     values = {"SWT": " MPa", "f": " MPa", "FS": ""}
@@ -236,7 +240,7 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
         word = criterion.replace("_", " ")
         assert line == f"{word}: At all 2 points {symbol} is {own}{unit}: nothing that was varied changes it."
     assert [line.partition(" = ")[0] for line in said[3:]] == ["N by SWT", "N by FS"]
-    assert "none without a value" in tiles(still)
+    assert "none without a value" in said_in(still, "head")
     # The sensitivity is that of the others: SWT is drawn without it.
     (worst,) = extreme_points(still).values()
     assert "normal_sensitivity" not in worst.swt.contact().parameters()
@@ -244,14 +248,16 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path) -> None:
     assert float(again.s) == pytest.approx(float(worst.s), rel=1e-6)
 
 
-def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(tmp_path: Path) -> None:
+def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(
+    tmp_path: Path, without_points: None
+) -> None:
     text = CRITERIA.replace("tangential_force_amplitude = 60\n", "")
     text += "tangential_force_amplitude = [40, 60]\n"
     both = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
     said = re.sub("<[^>]*>", "", sentences(both)[0])
     assert " QA changes SWT by a factor of " in said
     assert said.endswith(" for criterion swt: best at 40 N, worst at 60 N.")
-    rows = re.findall(r"<tr>(.*?)</tr>", extrema_section(both).body)[1:]
+    rows = re.findall(r"<tr>(.*?)</tr>", said_in(both, "extremes"))[1:]
     cells = {each[0]: each for each in (re.sub("<[^>]*>", "|", row).strip("|").split("||") for row in rows)}
     for criterion, name, unit in (("findley", "findley_stress", " MPa"), ("fatemi socie", "FS", "")):
         least = both[name].sel(criterion=criterion.replace(" ", "_")).min().item()
@@ -312,12 +318,11 @@ def test_every_symbol_is_html(row: object) -> None:
 
 
 def test_what_is_sure_has_regimes_where_points_have_one(
-    small: xr.Dataset, monkeypatch: pytest.MonkeyPatch
+    small: xr.Dataset, monkeypatch: pytest.MonkeyPatch, without_points: None
 ) -> None:
-    body = sureness_section(small, []).body
-    assert "<h3>Regimes</h3>" in body
-    monkeypatch.setattr("swtstudy.reports.sections.regime_counts", lambda _: {})
-    assert sureness_section(small, []).body == re.sub("\\n<h3>Regimes.*?</ul>", "", body)
+    assert "<h3>Regimes</h3>" in said_in(small, "sure")
+    monkeypatch.setattr("swtstudy.archive.describe.regime_counts", lambda _: {})
+    assert "Regimes" not in said_in(small, "sure")
 
 
 @pytest.mark.slow
@@ -345,7 +350,7 @@ def test_what_a_study_says_of_its_figure_is_beneath_it(small: xr.Dataset) -> Non
 @pytest.mark.parametrize("y", ["s/s(load=<b>)", "s / s( load = <b> )"])
 def test_a_name_in_a_quantity_of_a_figure_is_text(small: xr.Dataset, y: str) -> None:
     layout = replace(FigureLayout.from_json(small.attrs["figure"]), y=(y,))
-    assert _caption(small, layout).startswith(y.replace("<b>", "&lt;b&gt;"))
+    assert caption_of(small, layout).startswith(y.replace("<b>", "&lt;b&gt;"))
 
 
 def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
@@ -365,12 +370,14 @@ def constant(dataset: xr.Dataset, s: list[float]) -> xr.Dataset:
         ([np.nan, 0.1, 0.3], "The phase of the normal oscillation ψ changes s by a factor of 3: best at"),
     ],
 )
-def test_the_sentence_of_odd_studies(small: xr.Dataset, values: list[float], said: str) -> None:
+def test_the_sentence_of_odd_studies(
+    small: xr.Dataset, values: list[float], said: str, without_points: None
+) -> None:
     dataset = constant(small, values)
     (sentence,) = (re.sub("<[^>]*>", "", each) for each in sentences(dataset))
     assert sentence.startswith(said)
     missing = int(np.isnan(values).sum())
-    assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", tiles(dataset))
+    assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", said_in(dataset, "head"))
 
 
 @pytest.mark.parametrize(
@@ -434,9 +441,9 @@ def test_signs_and_degrees_are_set_as_in_print() -> None:
     assert re.sub("<.*?>", "", place_html(angle)) == "φ = −3.384°"
 
 
-def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset) -> None:
+def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset, without_points: None) -> None:
     one = small.isel(phase=0, normal_amplitude=0)
-    words = re.sub("<[^>]*>", " ", "".join(sentences(one)) + tiles(one))
+    words = re.sub("<[^>]*>", " ", "".join(sentences(one)) + said_in(one, "head"))
     assert f"s is {float(one.s):.4g} ." in " ".join(words.split())
     assert "least" not in words
     assert "greatest" not in words
@@ -499,7 +506,7 @@ def test_the_page_of_a_record_has_its_loads_and_all_columns(
     found = swtstudy.run(Study.from_text(RECORD.format(alloy=ALLOY)), tmp_path / "rig.nc")
     drawn = []
     keep = lambda figure, *_, **__: drawn.append(figure) or Picture("data:,", 1, 1)  # noqa: E731
-    monkeypatch.setattr("swtstudy.reports.parts.embedded", keep)
+    monkeypatch.setattr("swtstudy.reports.page.embedded", keep)
     text = page(found, "rig")
     (table,) = (row for _, row in table_in(text).iterrows())
     for name in ("SWT", "cycles", "critical_position", "friction", "yield_ratio"):
@@ -522,7 +529,7 @@ def test_validity_is_shown_where_results_have_it(
     bare = small.drop_attrs(deep=False).assign_attrs({k: v for k, v in small.attrs.items() if k != "figure"})
     bare.attrs.pop("study")
     text = page(bare.assign(yield_ratio=0.0 * small.s + 1.5, radius_ratio=0.0 * small.s + 0.05), "small")
-    assert re.search(r"</table></div>\n<h3>To cite</h3>", text)  # and nothing to make it again
+    assert re.search(r"</table></div>\s*<h3>To cite</h3>", text)  # and nothing to make it again
     assert (
         "beyond first yield at all 6 points: largest von Mises stress over the yield strength up to 1.5"
         in text

@@ -4,8 +4,7 @@ import stand_in
 
 import swtstudy
 from swtstudy import StudyError, optimise
-from swtstudy.results.least import Planes, least, lowest_of, planes_from, probes
-from swtstudy.results.objective import Objective
+from swtstudy.results.optimise import Objective, Planes, least, lowest_of, planes_from, probes
 
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 

@@ -16,8 +16,8 @@ from test_critical_plane_3d import rotated
 from test_values import ALIGNED
 
 import swtstudy
+from studies.accuracy_speed.textbook import textbook_s
 from swtstudy import swt_of_history
-from swtstudy.paper.reference import textbook_s
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from body import history_at, swt_at
 from click.testing import CliRunner
+from drawn import draw
 from numpy.typing import NDArray
 from oracles.circle import hemisphere
 from scenes import plane_points, points, random_points, take
@@ -20,10 +21,8 @@ from swtstudy.archive.parts import _LAYOUT
 from swtstudy.cli import main
 from swtstudy.fields.history import smallest_sphere
 from swtstudy.fields.one_point import read_point
-from swtstudy.figures.draw import draw
 from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.points.grid import complete
-from swtstudy.reports.parts import section
 from swtstudy.solving import solve_grid
 from swtstudy.units.results import KINDS
 from swtstudy.vocabulary.choices import CRITERIA
@@ -447,7 +446,7 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest
     for axes in (upper, lower):  # one criterion has each
         assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
     # Pictures of points take seconds.
-    monkeypatch.setattr("swtstudy.reports.page.points_section", lambda _: section("points", "Points"))
+    monkeypatch.setattr("swtstudy.reports.page.points_of", lambda *_: [])
     call("report", archive, "-o", tmp_path / "shear.html")
     assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 

@@ -14,8 +14,8 @@ import pytest
 from scenes import points
 from solved import solve_points
 
+from studies.accuracy_speed.textbook import textbook_s
 from swtstudy import TabulatedProfile
-from swtstudy.paper.reference import textbook_s
 from swtstudy.vocabulary.parameters import Control
 
 # Profile, then ν, μ, δA/δ0, amplitude, ψ, p, q, the profile's lengths, and s.

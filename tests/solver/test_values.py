@@ -9,7 +9,7 @@ import pytest
 from scenes import each_profile, points, random_points, take
 from solved import solve_points
 
-from swtstudy.paper.reference import textbook_s
+from studies.accuracy_speed.textbook import textbook_s
 
 #: Parameters off Table 1, the known s, and how well it is known, absolutely: to its last digit unless said.
 KNOWN: dict[str, tuple[dict[str, Any], float, float]] = {

@@ -12,7 +12,7 @@ from solved import Points, solve_points
 from test_values import ALIGNED
 
 import swtstudy
-from swtstudy.paper.reference import textbook_s
+from studies.accuracy_speed.textbook import textbook_s
 
 SEVERAL = np.array([0.1, 0.3, 0.5, 0.7, 0.85])
 

@@ -4,6 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import stand_in
+from drawn import draw, keys
 from matplotlib.colors import to_rgb
 from scipy import stats
 
@@ -11,9 +12,7 @@ from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
-from swtstudy.figures.draw import draw
 from swtstudy.runner.run import Stopped
-from swtstudy.study.figure import FigureLayout
 from swtstudy.study.keys import DESIGNS
 from swtstudy.study.sample import Design, Distribution, drawn_rows
 from swtstudy.study.template import template
@@ -297,7 +296,7 @@ def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
 
 
 def test_a_scatter_of_regimes_has_a_row_for_each(results):
-    (axes, _) = draw(results, FigureLayout("sample", y=("regime",), kind="scatter", hue="profile")).axes
+    (axes, _) = draw(results, keys("sample", y=("regime",), kind="scatter", hue="profile")).axes
     assert [text.get_text() for text in axes.get_yticklabels()] == [
         *("stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium")
     ]
@@ -305,7 +304,7 @@ def test_a_scatter_of_regimes_has_a_row_for_each(results):
 
 
 def test_a_histogram_counts_and_has_percentiles(results):
-    figure = draw(results, FigureLayout("sample", panels="profile", kind="histogram"))
+    figure = draw(results, keys("sample", panels="profile", kind="histogram"))
     for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):
         values = results.s.sel(profile=profile).values
         assert [line.get_xdata()[0] for line in axes.lines] == np.percentile(values, [5, 50, 95]).tolist()
@@ -313,7 +312,7 @@ def test_a_histogram_counts_and_has_percentiles(results):
         top = max(path.get_extents().y1 for path in (patch.get_path() for patch in axes.patches))
         counts, _ = np.histogram(values, np.histogram_bin_edges(results.s.values, "auto"))
         assert top == counts.max()
-    (axes,) = draw(results.isel(profile=0), FigureLayout("sample", y=("regime",), kind="histogram")).axes
+    (axes,) = draw(results.isel(profile=0), keys("sample", y=("regime",), kind="histogram")).axes
     ticks = dict(zip([label.get_text() for label in axes.get_xticklabels()], axes.get_xticks(), strict=True))
     assert {words: ticks[words] for words in ("stick", "no equilibrium")} == {"stick": 0, "no equilibrium": 5}
     plt.close("all")
@@ -333,7 +332,7 @@ def test_a_histogram_counts_and_has_percentiles(results):
 )
 def test_layouts_that_do_not_fit_a_sample(results, layout, words):
     with pytest.raises(StudyError, match=words):
-        draw(results, FigureLayout(**layout))
+        draw(results, keys(**layout))
 
 
 HEAD = 'title = "t"\n'

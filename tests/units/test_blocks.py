@@ -12,7 +12,6 @@ from real import ALLOY
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
-from swtstudy.reports.findings import sentences
 from swtstudy.runner.work import assess
 from swtstudy.units.results import sequence_words
 from swtstudy.vocabulary.wording import number_words
@@ -63,7 +62,6 @@ def test_the_sequence_ends_when_the_damage_of_its_blocks_is_one(tmp_path: Path) 
     words = f"10 of start-up, 1000 of running, 5.5 of start-up, repeated {times} times to a crack; "
     words += f"running does {worst} of the damage"
     assert f"  sequence       {words}" in describe(found)
-    assert f"Sequence of blocks: {words}." in sentences(found)
     # The archive knows its blocks, also where they come from files.
     archived = open_results(tmp_path / "blocks.nc")
     assert assess(Study.from_text(archived.attrs["study"]), tmp_path / "blocks.nc").todo.sum() == 0
@@ -195,12 +193,11 @@ def test_lives_of_shear_are_summed_as_those_of_tension(tmp_path: Path) -> None:
     assert f"repeated {times} times to a crack by Fatemi and Socie; running does" in "\n".join(
         describe(alone)
     )
-    assert not any("A crack starts" in sentence for sentence in sentences(alone))
     both = text.replace('criterion = "fatemi_socie"\n', '[axes]\ncriterion = ["swt", "fatemi_socie"]\n')
     found = run(Study.from_text(both), tmp_path / "both.nc")
     np.testing.assert_allclose(found.FS_repetitions.sel(criterion="fatemi_socie"), alone.FS_repetitions)
     times = number_words(found.repetitions.sel(criterion="swt").item(), 2)
-    (line,) = [each for each in sentences(found) if "Sequence of blocks" in each]
+    (line,) = [each for each in describe(found) if each.startswith("  sequence")]
     assert f"repeated {times} times to a crack; running does" in line
     assert " times to a crack by Fatemi and Socie; running does" in line
     assert "of the damage; repeated" in line

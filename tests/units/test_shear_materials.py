@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from click.testing import CliRunner
+from drawn import draw
 from real import UNITS
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.cli import main
-from swtstudy.figures.draw import draw
 from swtstudy.study.writing import to_toml
 
 LIMIT = "findley_limit = 150"

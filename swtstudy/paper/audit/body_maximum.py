@@ -6,7 +6,7 @@ and y → −y is a symmetry, so that 0 ≤ θ ≤ π holds every value.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,12 +52,9 @@ GAIN, WALKING, LAST_WIDTH = 1e-5, 1.5, 5e-3
 #: The search keeps so far from the edge of a flat face, in the largest contact radius, where a profile's
 #: slope can be infinite; if the line's maximum is nearer, it may come almost as near.
 RING = 1e-3
-#: The plane that a bulk stress alone makes critical.
-_ALONG_X = np.array([1.0, 0.0, 0.0])
 
 
-@dataclass(frozen=True)
-class BodyMaximum:
+class BodyMaximum(NamedTuple):
     """Largest swt of the body, or swt at one of its places.
 
     Attributes
@@ -75,19 +72,8 @@ class BodyMaximum:
     normal: FloatArray
 
 
-@dataclass(frozen=True)
-class _Search:
-    """Where the maximum is looked for.
-
-    Attributes
-    ----------
-    opened
-        The load cycle of one point.
-    largest
-        Largest contact radius of the cycle.
-    ring
-        Half the width of the ring around the edge of a flat face that is left out.
-    """
+class _Search(NamedTuple):
+    """The load cycle of one point, its largest contact radius, and half the ring that is left out."""
 
     opened: Opened
     largest: float
@@ -116,22 +102,23 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
     flat = float(opened.profile["flat_radius"])
     search = _Search(opened, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
-    place = _climb(search, np.concatenate([own[None], _first_look(search, own)]))
-    swt, normal = zip(*(_swt(opened, one[None], VALUE) for one in (place, own)), strict=True)
-    best = int(swt[1][0] >= swt[0][0])
-    position = np.array(_cartesian((place, own)[best]))
-    found = BodyMaximum(float(swt[best][0]), position, normal[best][0])
+    place, highest = own, 0.0
+    for one in (own, *_first_look(search, own)):
+        summit, height = _climb_from(search, one, highest)
+        if height > (1.0 + ROUNDING) * highest:
+            place, highest = summit, height
+    (swt, normal), (at_own, own_normal) = (_swt(opened, each[None], VALUE) for each in (place, own))
+    at_line = BodyMaximum(float(at_own[0]), _cartesian(own), own_normal[0])
+    found = BodyMaximum(float(swt[0]), _cartesian(place), normal[0]) if at_own[0] < swt[0] else at_line
+    from_far = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]))
     if far > 0.0 and far >= (1.0 - FAR) * found.swt:
-        found = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
-    at_line = BodyMaximum(float(swt[1][0]), np.array(_cartesian(own)), normal[1][0])
-    if line_is_far:
-        at_line = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), _ALONG_X)
-    return found, at_line
+        found = from_far
+    return found, from_far if line_is_far else at_line
 
 
 def _swt(opened: Opened, places: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
     """swt at places r, θ, z, (m,), and the normals of the critical planes, (m, 3)."""
-    swt, _, normal = criterion_at(opened, np.stack(_cartesian(places), axis=1), tolerance)
+    swt, _, normal = criterion_at(opened, _cartesian(places), tolerance)
     return swt, normal
 
 
@@ -144,9 +131,8 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     angles = ANGLES[[0, -1]] if opened.profile["plane"] else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    highest = float(criterion_at(opened, np.stack(_cartesian(own[None]), axis=1), SEARCH)[0][0])
-    at = np.stack(_cartesian(grid), axis=1)
-    swt = criterion_at(opened, at, LOOK, PROMISING * highest, MANY)[0]
+    highest = float(criterion_at(opened, _cartesian(own[None]), SEARCH)[0][0])
+    swt = criterion_at(opened, _cartesian(grid), LOOK, PROMISING * highest, MANY)[0]
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
@@ -166,16 +152,6 @@ def _radii(opened: Opened, largest: float) -> FloatArray:
     return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
 
-def _climb(search: _Search, places: FloatArray) -> FloatArray:
-    """The highest of the summits to which a pattern search leads from each of the places, shape (3,)."""
-    best, highest = places[0], 0.0
-    for place in places:
-        summit, height = _climb_from(search, place, highest)
-        if height > (1.0 + ROUNDING) * highest:
-            best, highest = summit, height
-    return best
-
-
 def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[FloatArray, float]:
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -188,8 +164,7 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
         trial = _off_ring(search, _folded(place + width * steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
-        at = np.stack(_cartesian(trial), axis=1)
-        swt = criterion_at(opened, at, SEARCH, LEFT_OUT * height, MANY)[0]
+        swt = criterion_at(opened, _cartesian(trial), SEARCH, LEFT_OUT * height, MANY)[0]
         here, best = int(np.abs(trial - place).max(axis=1).argmin()), int(swt.argmax())
         if swt[best] > (1.0 + GAIN) * max(swt[here], height):
             place, width = trial[best], WALKING * width
@@ -219,8 +194,9 @@ def _folded(places: FloatArray) -> FloatArray:
     return np.stack([np.abs(r), angle, np.maximum(z, 0.0)], axis=-1)
 
 
-def _cartesian(places: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _cartesian(places: FloatArray) -> FloatArray:
+    """x, y, z of places r, θ, z, along the last axis."""
     r, angle, z = np.moveaxis(places, -1, 0)
     # sin π is not 0 in floating point: keep the line y = 0 a line.
     y = np.where(np.sin(angle) < ROUNDING, 0.0, r * np.sin(angle))
-    return r * np.cos(angle), y, z
+    return np.stack([r * np.cos(angle), y, z], axis=-1)

@@ -1,21 +1,20 @@
 """Testing every statement on the archives in a folder, and the outcomes as a table.
 
-There is one for the terminal, and one as a Markdown file.
+The template of the table is ``statements.md``.
 """
 
 from __future__ import annotations
 
-import textwrap
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 from os import PathLike
 from pathlib import Path
 
 import xarray as xr
 
 from swtstudy.paper.audit import AUDIT_PREFIX
+from swtstudy.paper.rendered import rendered
 from swtstudy.paper.statements import critical_point, face, formalisms, parameters, phase, waviness
 from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Statement
 
@@ -120,45 +119,11 @@ def summary(outcomes: Sequence[Outcome]) -> str:
     return words + (f", {count['not checked']} not checked" if count["not checked"] else "")
 
 
-#: Widths of the terminal's table and of its first and last column: the place and the verdict.
-_NARROWEST, _PLACE, _VERDICT = 80, 11, 13
-
-
-def terminal_table(outcomes: Iterable[Outcome], width: int) -> str:
-    """The table as plain text of a given width in characters, without the criteria."""
-    rest = max(width, _NARROWEST) - _PLACE - _VERDICT - 6
-    widths = (_PLACE, rest * 2 // 5, rest - rest * 2 // 5, _VERDICT)
-    rows = [("where", "the paper says", "measured", "")]
-    for each in outcomes:
-        rows.append((each.statement.place, each.statement.sentence, each.measured, each.verdict))
-    lines: list[str] = []
-    for row in rows:
-        cells = [textwrap.wrap(cell, column) for cell, column in zip(row, widths, strict=True)]
-        for parts in zip_longest(*cells, fillvalue=""):
-            line = (f"{part:<{column}}" for part, column in zip(parts, widths, strict=True))
-            lines.append("  ".join(line).rstrip())
-        lines.append("" if len(lines) > 1 else "  ".join("-" * column for column in widths))
-    return "\n".join(lines)
-
-
-_INTRODUCTION = """\
-# What the paper says, checked
-
-Every statement of E. Willert, Eng 2024, 5, 333–346 (doi:10.3390/eng5010018) that the archives in this
-folder can test, in our words. The paper says "almost", "little" or "weak" where a test needs a bound: the
-bounds are ours, given in the third column. A statement that does not hold is reported as such.
-
-Made by `swtstudy check`.
-"""
-
-
 def markdown(outcomes: Sequence[Outcome]) -> str:
     """The table as a Markdown file."""
-    lines = [_INTRODUCTION, f"**{summary(outcomes)}.**", ""]
-    lines += ["| Where | The paper says | Counts as holding if | Measured | |", "|---|---|---|---|---|"]
+    rows = []
     for each in outcomes:
         texts = (each.statement.place, each.statement.sentence, each.statement.criterion, each.measured)
-        cells = [text.replace("|", "\\|").replace("*", "\\*") for text in texts]
         verdict = each.verdict if each.verdict == "holds" else f"**{each.verdict}**"
-        lines.append(f"| {' | '.join(cells)} | {verdict} |")
-    return "\n".join(lines) + "\n"
+        rows.append([*(text.replace("|", "\\|").replace("*", "\\*") for text in texts), verdict])
+    return rendered("statements/statements.md", summary=summary(outcomes), rows=rows)

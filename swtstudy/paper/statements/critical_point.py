@@ -6,6 +6,8 @@ that line only.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import xarray as xr
 
@@ -14,6 +16,7 @@ from swtstudy.paper.audit.dataset import VERDICTS
 from swtstudy.paper.statements.statement import Finding, statement
 from swtstudy.points.canonical import alike, points_from
 from swtstudy.solver.margins import margins_of
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 
 
@@ -35,12 +38,12 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
 
 #: What "for basically all simulations" is taken to mean.
 _BASICALLY_ALL = 0.95
-#: "Well outside" the zone of permanent stick: |x| over its radius.
-_WELL_OUTSIDE = 1.1
-#: Rounding of a position at the very edge, relative.
-_ROUNDING = 1e-9
-#: "Close to the x axis", degrees.
-_ABOUT_TEN_DEGREES = 10.0
+
+
+def joined(archives: tuple[xr.Dataset, ...], values: Callable[[xr.Dataset], xr.DataArray]) -> FloatArray:
+    """Values of every archive, one after another."""
+    return np.concatenate([values(archive).values.ravel() for archive in archives])
+
 
 #: Every archive of the suite, in its order.
 EVERY_ARCHIVE = (
@@ -59,7 +62,7 @@ def slips_partially(*archives: xr.Dataset) -> Finding:
     Holds if: at 95% of all points the regime is partial slip: part of the contact slips, no gross slip (max(u
     − δ) > min(u + δ)) recurs in the cycle, and the contact never lifts off
     """
-    regime = np.concatenate([archive.regime.values.ravel() for archive in archives])
+    regime = joined(archives, lambda archive: archive.regime)
     shares = {name: float((regime == REGIMES.index(name)).mean()) for name in REGIMES}
     words = ", ".join(f"{name.replace('_', ' ')} {share:.1%}" for name, share in shares.items() if share)
     return Finding(f"of {len(regime)} points: {words}", shares["partial_slip"] >= _BASICALLY_ALL)
@@ -100,17 +103,11 @@ def inside_contact(
     audited
     """
     # The largest contact radius of a paraboloid: g(a) = a².
-    share = np.concatenate(
-        [
-            (abs(archive.critical_x) / np.sqrt(1.0 + archive.normal_amplitude)).values.ravel()
-            for archive in (figure3, figure4)
-        ]
-    )
-    verdicts = np.concatenate(
-        [audit.verdict.values[np.isfinite(audit.excess.values)] for audit in (audit_figure3, audit_figure4)]
-    )
+    share = joined((figure3, figure4), lambda one: abs(one.critical_x) / np.sqrt(1.0 + one.normal_amplitude))
+    audits = audit_figure3, audit_figure4
+    verdicts = joined(audits, lambda audit: audit.verdict[np.isfinite(audit.excess.values)])
     beneath = int((verdicts == VERDICTS.index("surface")).sum())
-    inside = share <= 1.0 + _ROUNDING
+    inside = share <= 1.0 + 1e-9
     measured = (
         f"|x| ≤ a_max at {inside.sum()} of {share.size} points, |x|/a_max from {share.min():.3f} to "
         f"{share.max():.3f}; beneath the surface at {beneath} of {verdicts.size} randomly audited points"
@@ -124,13 +121,12 @@ def outside_of_stick(*archives: xr.Dataset) -> Finding:
 
     Holds if: |x| at least 1.1 times the radius of permanent stick at 95% of the points that have such a zone
     """
-    stick = np.concatenate([stick_radius(archive).values.ravel() for archive in archives])
-    position = np.concatenate([abs(archive.critical_x.values).ravel() for archive in archives])
+    stick, position = joined(archives, stick_radius), joined(archives, lambda one: abs(one.critical_x))
     sticking = (stick > 0) & np.isfinite(position)
     if not sticking.any():
         return Finding(f"none of {len(stick)} points has a zone of permanent stick", True)
     relation = position[sticking] / stick[sticking]
-    share = float((relation >= _WELL_OUTSIDE).mean())
+    share = float((relation >= 1.1).mean())
     measured = (
         f"{sticking.sum()} of {len(stick)} points have a zone of permanent stick; |x| ≥ 1.1 times its radius "
         f"at {share:.1%}, outside at {(relation > 1).mean():.1%}; smallest {relation.min():.3f}, "
@@ -145,10 +141,10 @@ def normal_along_x(*archives: xr.Dataset) -> Finding:
 
     Holds if: within 10° at 95% of all points
     """
-    angle = np.concatenate([abs(archive.critical_angle.values).ravel() for archive in archives])
+    angle = joined(archives, lambda archive: abs(archive.critical_angle))
     # Where s is 0 there is no critical plane.
     angle = angle[np.isfinite(angle)]
-    share = float((angle <= _ABOUT_TEN_DEGREES).mean())
+    share = float((angle <= 10.0).mean())
     worst = max(archives, key=lambda archive: float(abs(archive.critical_angle).max()))
     measured = (
         f"within 10° at {share:.1%} of {len(angle)} points, median {np.median(angle):.1f}°, "

@@ -10,6 +10,7 @@ import itertools
 import numpy as np
 import xarray as xr
 
+from swtstudy.paper.rendered import rendered
 from swtstudy.paper.statements.statement import Finding, largest_change, listed, statement, with_dims
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import AXES
@@ -140,32 +141,26 @@ def table(indices: xr.Dataset, of_paper: bool = False) -> str:
     """
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     places = indices.stack(place=axes) if axes else indices.expand_dims("place")
-    level = f"{100 * indices.attrs['confidence']:g} %"
-    lines = [f"# {indices.attrs['title']}"]
+    level, parts = f"{100 * indices.attrs['confidence']:g} %", []
     for quantity, number in itertools.product(indices["quantity"].values, range(places.sizes["place"])):
         one = places.sel(quantity=quantity).isel(place=number)
-        where = [
-            f"{name} = {value_words(name, one[name].item())}{unit_words(one[name].attrs.get('units', '1'))}"
-            for name in axes
-        ]
-        mean, deviation = float(one["mean"]), float(one["variance"]) ** 0.5
-        lines += [
-            "",
-            f"## {', '.join([str(quantity), *where])}",
-            "",
-            f"mean {mean:.4g}, standard deviation {deviation:.4g}",
-            "",
-            f"| parameter | alone | {level} | with others | {level} |{' the paper says |' * of_paper}",
-            "|---|---|---|---|---|" + "---|" * of_paper,
-        ]
+        units = {name: unit_words(one[name].attrs.get("units", "1")) for name in axes}
+        where = [f"{name} = {value_words(name, one[name].item())}{unit}" for name, unit in units.items()]
+        rows = []
         for name in indices["parameter"].values:
             cells = [f"{AXES[name].letter} {name}"]
             for key in ("first_order", "total"):
-                value, low, high = (
-                    float(one[f"{key}{end}"].sel(parameter=name)) for end in ("", "_low", "_high")
-                )
-                cells += [f"{value:.3f}", f"{low:.3f} to {high:.3f}"]
+                ends = (float(one[f"{key}{end}"].sel(parameter=name)) for end in ("", "_low", "_high"))
+                cells += "{:.3f}|{:.3f} to {:.3f}".format(*ends).split("|")
             # Of other quantities than s the paper says nothing here.
-            cells += [SAYS.get(name, "") if quantity == "s" else ""] * of_paper
-            lines.append(f"| {' | '.join(cells)} |")
-    return "\n".join(lines) + "\n"
+            rows.append(cells + [SAYS.get(name, "") if quantity == "s" else ""] * of_paper)
+        moments = float(one["mean"]), float(one["variance"]) ** 0.5
+        parts.append(
+            (
+                ", ".join([str(quantity), *where]),
+                "mean {:.4g}, standard deviation {:.4g}".format(*moments),
+                rows,
+            )
+        )
+    title = indices.attrs["title"]
+    return rendered("statements/indices.md", title=title, parts=parts, level=level, of_paper=of_paper)

@@ -1,27 +1,25 @@
-"""Quantities of results as they appear in a figure: their names, and numbers with units along axes.
-
-What is drawn without units may have axes whose numbers are lengths, forces or stresses.
-"""
+"""Words and ticks of figures: quantities by their symbols, and numbers with units along axes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES
-from swtstudy.vocabulary.wording import as_text, place_words
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.axes import Axes
-    from matplotlib.axis import Axis
-
-_UNITS = {"degree": "°"}
+from swtstudy.vocabulary.wording import as_text, pi_words, place_words
 
 
 def quantity_words(values: xr.DataArray, y: str) -> str:
@@ -49,7 +47,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     if not kept and symbol and _is_unfamiliar(str(values.name)):
         words = f"{_meaning(values)}, {words}"
-    return words if units in (None, "1") else f"{words} ({as_text(_UNITS.get(units, units))})"
+    return words if units in (None, "1") else f"{words} ({'°' if units == 'degree' else as_text(units)})"
 
 
 def _is_unfamiliar(name: str) -> bool:
@@ -106,10 +104,6 @@ def flag_words(values: xr.DataArray) -> list[str]:
     return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]
 
 
-#: Ticks of an axis at most.
-_TICKS = 5
-
-
 class Label(NamedTuple):
     """The scale, symbol and unit that a variable has of a real contact.
 
@@ -132,10 +126,6 @@ class Label(NamedTuple):
         """The unit in words of a figure, after a blank."""
         return "" if self.units == "1" else f" {as_text(self.units)}"
 
-    def axis(self) -> str:
-        """Label of an axis of it."""
-        return f"${self.symbol}$" + (f" ({self.unit.strip()})" if self.unit else "")
-
     def number(self, value: float, digits: int = 4) -> str:
         """A value with its unit."""
         return f"{self.scale * value:.{digits}g}{self.unit}"
@@ -147,18 +137,69 @@ NO_LABELS: Labels = MappingProxyType({})
 
 
 def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) -> None:
-    """Label the axes of a panel, x and y, of which each is that of a variable or of none."""
+    """Label the axes of a panel, x and y, each with the unit of a variable, and tick round numbers of it."""
     for axis, name in zip((axes.xaxis, axes.yaxis), of, strict=True):
-        if name in labels:
-            _show(axis, labels[name])  # type: ignore[index]
+        if name is not None and name in labels:
+            scale, symbol, _ = label = labels[name]
+            low, high = sorted(end * scale for end in axis.get_view_interval())
+            ticks = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+            inside = [tick for tick in ticks if low <= tick <= high]
+            axis.set_ticks([tick / scale for tick in inside], labels=[f"{tick:.6g}" for tick in inside])
+            axis.set_label_text(f"${symbol}$" + (f" ({label.unit.strip()})" if label.unit else ""))
 
 
-def _show(axis: Axis, label: Label) -> None:
-    """Ticks at round numbers of the unit."""
-    from matplotlib.ticker import MaxNLocator
+def tick_in_pi(axis: Axis, low: float, high: float) -> None:
+    """Put ticks at multiples of π/4, or at coarser ones over a long range."""
+    turns = (high - low) / math.pi
+    step = next((s for s in (0.25, 0.5) if turns <= 6 * s), float(max(1, math.ceil(turns / 6))))
+    first, last = math.ceil(low / math.pi / step - 1e-9), math.floor(high / math.pi / step + 1e-9)
+    places = step * np.arange(first, last + 1)
+    axis.set_ticks(places * math.pi, labels=[pi_words(Fraction(each)) for each in places.tolist()])
 
-    low, high = sorted(end * label.scale for end in axis.get_view_interval())
-    ticks = MaxNLocator(_TICKS, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    inside = [tick for tick in ticks if low <= tick <= high]
-    axis.set_ticks([tick / label.scale for tick in inside], labels=[f"{tick:.6g}" for tick in inside])
-    axis.set_label_text(label.axis())
+
+def tick_in_ratios(axis: Axis, low: float, high: float) -> None:
+    """Tick 1, 2 and 5 of each decade of a logarithmic axis of less than three decades.
+
+    Where fewer than two of these lie on the axis, ticks are at even steps. Numbers above 1e5, and below its
+    inverse, are written as powers of ten.
+    """
+    if high >= 1e3 * low or not low > 0.0:
+        return  # matplotlib's ticks, at powers of ten
+    powers = high >= 1e5 or low < 1e-5
+    across = axis.axis_name == "x"  # type: ignore[attr-defined]
+    digits = (1.0,) if powers and across and high >= 100.0 * low else (1.0, 2.0, 5.0)
+    decades = np.arange(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    at = np.outer(10.0**decades, digits)
+    few = np.sum((at >= low) & (at <= high)) < 2
+    axis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]) if few else LogLocator(subs=digits))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: power_words(x) if powers else f"{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def power_words(value: float) -> str:
+    """A number below 10 and a power of ten, such as 5·10⁶."""
+    if value <= 0.0:
+        return ""
+    exponent = math.floor(math.log10(value) + 1e-9)
+    digits, power = f"{value / 10.0**exponent:.3g}", f"10^{{{exponent}}}"
+    return f"${power}$" if digits == "1" else rf"${digits}\cdot{power}$"
+
+
+def tick_names(axis: Axis, words: Sequence[str], most: int) -> None:
+    """Put words at the places 0, 1, …, or at every second, third … where there is no room for more.
+
+    Of steps that are about as long the one with the shortest words is taken.
+    """
+    count, across = len(words), axis.axis_name == "x"  # type: ignore[attr-defined]
+    longest = {step: max(map(len, words[::step])) for step in range(1, 2 * count + 1)}
+    room = {step: min(most, 50 // (longest[step] + 2)) if across else most for step in longest}
+    least = next((step for step in range(1, count) if -(-count // step) <= room[step]), count)
+    step = min(range(least, 2 * least), key=longest.__getitem__)
+    axis.set_ticks(range(0, count, step), labels=words[::step])
+
+
+def tick_flags(axes: Axes, words: Sequence[str]) -> None:
+    """Put a tick with its words at each of the flags up a panel, if there are any."""
+    if words:
+        axes.set_yticks(range(len(words)), words)
+        axes.set_ylim(-0.5, len(words) - 0.5)
