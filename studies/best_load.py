@@ -19,10 +19,9 @@ from matplotlib import colormaps
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from swtstudy.figures.legend import place_legend
 
 import swtstudy
-from swtstudy.figures.sheet import WIDTHS, new_figure
+from swtstudy.figures.sheet import WIDTHS, new_figure, place_legend
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.surfaces import draw_contours
 
@@ -127,7 +126,7 @@ def draw(found: dict[object, xr.Dataset], grid: xr.Dataset) -> Figure:
         figure.colorbar(filled, ax=panels, label="$s$ divided by $s$ without a normal oscillation")
         thick = Line2D([], [], color="black", linewidth=1.8, label="no change")
         handles = [*panels.flat[0].get_lines(), thick]
-        place_legend(figure, handles, [str(handle.get_label()) for handle in handles], {"numpoints": 1})
+        place_legend(figure, handles, [str(handle.get_label()) for handle in handles], numpoints=1)
     return figure
 
 

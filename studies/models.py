@@ -19,9 +19,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-from swtstudy.figures.legend import place_legend
 
-from swtstudy.figures.sheet import WIDTHS, new_figure
+from swtstudy.figures.sheet import WIDTHS, new_figure, place_legend
 from swtstudy.figures.style import save_figure, stroke, styled
 from swtstudy.kernel.batch import chunks
 from swtstudy.kernel.compiled import jit, new_record, new_records
@@ -280,7 +279,7 @@ def body(points: Points) -> Array:
 
 def mean(points: Points) -> Array:
     """The largest mean over a half sphere, or a half disc, about a local maximum."""
-    return np.asarray(worst_means(points, solve(points, RTOL), np.array([DISTANCE])).volume[:, 0])
+    return np.asarray(worst_means(points, solve(points, RTOL), np.array([DISTANCE]))["volume"][:, 0])
 
 
 def without_bulk(points: Points) -> Array:

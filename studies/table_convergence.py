@@ -16,9 +16,8 @@ import numpy as np
 from accuracy import random_points
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
-from swtstudy.figures.legend import add_legend
 
-from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solver.points import Points

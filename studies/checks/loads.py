@@ -18,8 +18,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.figures.legend import add_legend
-from swtstudy.figures.sheet import Sheet
+from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.solver.points import Points

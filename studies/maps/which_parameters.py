@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
-from swtstudy.figures.legend import add_legend
 
 import swtstudy
-from swtstudy.figures.sheet import WIDTHS, new_figure
+from swtstudy.figures.sheet import WIDTHS, add_legend, new_figure
 from swtstudy.figures.style import COLOURS, save_figure, styled
 from swtstudy.vocabulary.parameters import AXES
 
