@@ -360,8 +360,10 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
         except ValidationError as error:
             places = (detail["loc"] for detail in error.errors())
             for place in {place[: _LEVELS.get(str(place[0]), 1)] for place in places}:
-                if not _drop(left, *place):
-                    _drop(left, place[0])
+                if place == ("title",):
+                    left["title"] = "-"
+                elif not _drop(left, *place):
+                    left.pop(place[0], None)
     found = {name: getattr(table, name) for name in StudyTable.model_fields}
     for part in ("axes", "loads", "profiles"):
         names = raw.get(part)
@@ -374,9 +376,6 @@ def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
     inner = left.get(first)
     if others and isinstance(inner, dict):
         return _drop(inner, *others)
-    if first == "title":
-        left["title"] = "-"
-        return True
     return left.pop(first, left) is not left
 
 

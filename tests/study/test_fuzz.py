@@ -13,7 +13,7 @@ import pytest
 import stand_in
 from click.testing import CliRunner
 from folders import STUDIES
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from mutated import mutated
 
@@ -56,6 +56,7 @@ studies = st.fixed_dictionaries(
 
 
 @given(studies | tables)
+@example({"title": "t", "axes": {"title": "wrong", "friction": [0.3]}})
 @settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_tables_are_a_study_or_a_study_error(raw):
     try:
