@@ -350,7 +350,7 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
     table, mistakes = read_keys(StudyTable, raw, source)
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
-    left = deepcopy(dict(raw)) if table is None else {}
+    left: dict[Any, Any] = deepcopy(dict(raw)) if table is None else {}
     if isinstance(blocks := left.get("blocks"), list):  # the loads of wrong ones are still known
         loads = [each for each in blocks if isinstance(each, dict) and isinstance(each.get("load"), str)]
         left["blocks"] = [{"load": each["load"], "rounds": each.get("rounds", 1)} for each in loads]
