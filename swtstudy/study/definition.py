@@ -208,7 +208,7 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
 
         single = _sampled_of(own)
         sample, sampled, scatter = read_sample(parts.sample, folder, report, known, single, contacts)
-    is_sampled = parts.sample is not None and (bool(sampled) or scatter is None)
+    is_sampled = "sample" in raw and (bool(sampled) or scatter is None)
     places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     places |= {"load": "blocks"} if blocks else {}
     samples = {name: sample.values[name] if sample else None for name in sampled}

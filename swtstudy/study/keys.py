@@ -358,9 +358,8 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
         try:
             table = StudyTable.model_validate({name: plain(value) for name, value in left.items()})
         except ValidationError as error:
-            for place in {
-                detail["loc"][: _LEVELS.get(str(detail["loc"][0]), 1)] for detail in error.errors()
-            }:
+            places = (detail["loc"] for detail in error.errors())
+            for place in {place[: _LEVELS.get(str(place[0]), 1)] for place in places}:
                 _drop(left, *place)
     found = {name: getattr(table, name) for name in StudyTable.model_fields}
     for part in ("axes", "loads", "profiles"):
