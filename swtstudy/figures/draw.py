@@ -131,17 +131,17 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
         else:
             flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
             surfaces = [panel.value.rename(values.name) for panel in flat]
-            for one, panel in zip(axes[row], flat if layout.regimes else (), strict=layout.regimes):
-                mark_borders(one, panel.regime)  # first: labels of contours keep away from them
+            if layout.regimes:  # first: labels of contours keep away from borders
+                for one, panel in zip(axes[row], flat, strict=True):
+                    mark_borders(one, panel.regime)
             draw_surfaces(figure, axes[row], surfaces, layout.kind, words)
-            for one, panel in zip(axes[row], flat if layout.validity else (), strict=layout.validity):
-                across_panel, up_panel = (
-                    np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
-                    for name in (layout.x, layout.vertical)
-                )
-                mark_cells(
-                    one, across_panel, up_panel, panel.outside.values, panel.outside.attrs["long_name"]
-                )
+            if layout.validity:
+                for one, panel in zip(axes[row], flat, strict=True):
+                    right, up = (
+                        np.arange(panel.sizes[name]) if layout.kind == "heatmap" else panel[name].values
+                        for name in (layout.x, layout.vertical)
+                    )
+                    mark_cells(one, right, up, panel.outside.values, panel.outside.attrs["long_name"])
         across = axis_words(layout.x, dataset[layout.x].attrs)
         if upright:
             across, words = words, across
