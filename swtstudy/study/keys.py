@@ -351,6 +351,8 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
     left = deepcopy(dict(raw)) if table is None else {}
+    if not isinstance(left.get("title"), str) or not left["title"]:
+        left["title"] = "-"  # needed, and reported
     if isinstance(blocks := left.get("blocks"), list):  # the loads of wrong ones are still known
         loads = [each for each in blocks if isinstance(each, dict) and isinstance(each.get("load"), str)]
         left["blocks"] = [{"load": each["load"], "rounds": each.get("rounds", 1)} for each in loads]
@@ -373,8 +375,6 @@ def _drop(left: dict[Any, Any], first: Any, *others: Any) -> None:
     inner = left.get(first)
     if others and isinstance(inner, dict):
         _drop(inner, *others)
-    elif first == "title":
-        left["title"] = "-"
     else:
         left.pop(first, None)
 
