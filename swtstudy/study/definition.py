@@ -206,8 +206,8 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     if parts.sample is not None:
         from swtstudy.study.sample import read_sample
 
-        single = _sampled_of(own)
-        sample, sampled, scatter = read_sample(parts.sample, folder, report, known, single, contacts)
+        given, single = raw["sample"], _sampled_of(own)
+        sample, sampled, scatter = read_sample(parts.sample, given, folder, report, known, single, contacts)
     is_sampled = "sample" in raw and (bool(sampled) or scatter is None)
     places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
     places |= {"load": "blocks"} if blocks else {}
@@ -401,7 +401,8 @@ def _firsts_of_sample(parts: Parts, folder: Path) -> dict[str, object]:
 
     units = read_units(parts.units, Report()) if parts.units is not None else None
     own = _sampled_of(rows(units) if units else PARAMETERS)
-    sample, sampled, _ = read_sample(parts.sample, folder, Report(), {}, own)
+    given = parts.sample.model_fields_set
+    sample, sampled, _ = read_sample(parts.sample, given, folder, Report(), {}, own)
     return {name: sample.values[name][0] if sample else None for name in sampled}
 
 

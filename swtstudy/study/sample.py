@@ -183,6 +183,7 @@ class Sample:
 
 def read_sample(
     table: SampleTable,
+    given: Collection[str],
     folder: Path,
     report: Report,
     known: Known,
@@ -195,6 +196,8 @@ def read_sample(
     ----------
     table
         The table.
+    given
+        The keys that are given in it, also those with mistakes, which are not in the table.
     folder
         Where a file of points is, if its path is relative.
     report
@@ -215,7 +218,6 @@ def read_sample(
     scatter
         None without constants.
     """
-    given = table.model_fields_set
     forms = [form for form in ("design", "file", "points") if form in given]
     if len(forms) != 1:
         allowed = "one of: design, size and ranges; or file; or points"

@@ -167,6 +167,12 @@ def test_a_bad_structure_is_named(text, key):
     assert list(mistakes_of(text)) == [key]
 
 
+@pytest.mark.parametrize("part", ["axes", "loads", "profiles"])
+def test_a_wrong_entry_may_have_the_name_of_a_key(part):
+    assert f"{part}.title" in ", ".join(mistakes_of(f"{MINIMAL}[{part}]\ntitle = {{ start = 0 }}"))
+    assert {"title", f"{part}.title"} <= {*mistakes_of(f"title = 3\n[{part}]\ntitle = 3")}
+
+
 def test_shape_parameters_are_required_by_their_profiles():
     mistakes = mistakes_of(MINIMAL + '[axes]\nprofile = ["rounded_punch", "wavy_paraboloid"]')
     assert list(mistakes) == ["fixed.flat_radius", "fixed.waviness_amplitude", "fixed.wavelength"]
