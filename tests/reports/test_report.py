@@ -452,8 +452,8 @@ def test_one_point_has_neither_least_nor_greatest(small: xr.Dataset, without_poi
 def test_one_point_with_units_is_said_as_at_the_end_of_its_run() -> None:
     dataset = swtstudy.open_results(RESULTS / "life.nc").isel(tangential_amplitude=0, critical_distance=0)
     (said,) = sentences(dataset)
-    lives = r"N = [^ ]+ load cycles \(worst point\), [^ ]+ \(mean over 0.01 mm\)\."
-    assert re.fullmatch(rf"SWT = [\d.]+ MPa at x = −[\d.]+ mm; {lives}", said)
+    lives = r"N = [^ ]+ load cycles \(worst point\), [^ ]+ \(mean over 10 µm\)\."
+    assert re.fullmatch(rf"SWT = [\d.]+ MPa at x = −[\d.]+ µm; {lives}", said)
 
 
 @pytest.mark.parametrize(

@@ -321,7 +321,7 @@ def test_means_over_a_distance_know_it(exponent: float) -> None:
     }  # fmt: skip
     distance = 0.2
     found = swtstudy.solve(critical_distance=distance, **own)
-    x = float(found.critical_x)
+    x = float(found.line_x.sel(direction="depth").squeeze())
     depth = np.linspace(0.0, 2.0 * distance, 401)
     field = swtstudy.swt_field(np.array([x]), 0.0, depth, **own).s_local.values.ravel()
     mean = float(np.trapezoid(field, depth) / (2.0 * distance))
