@@ -20,30 +20,32 @@ SEVERAL = "VALUES"
 
 
 #: Parts of parameters as headings of help.
-_PARTS = {
+PARTS = {
     "load": "The load",
     "shape": "The profile and its shape",
     "body": "The bodies",
-    "bulk": "Bulk stress",
+    "bulk": "The bodies",
     "criterion": "The criterion",
     "contact": "A contact in units",
 }
 
 
 class InSections(click.Command):
-    """A command whose many parameters are listed by what they are a part of."""
+    """A command whose many parameters are listed by what they are a part of, a line each."""
 
     def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:
-        sections: dict[str, list[tuple[str, str]]] = {title: [] for title in (*_PARTS.values(), "Options")}
+        sections: dict[str, list[tuple[str, str]]] = {title: [] for title in (*PARTS.values(), "Options")}
         for each in self.get_params(context):
             row = AXES.get(str(each.name))
-            title = _PARTS.get(row.part, "Options") if row else "Options"
+            title = PARTS.get(row.part, "Options") if row else "Options"
             record = each.get_help_record(context)
             if record:
-                sections[title].append(record)
+                sections[title].append((record[0].removesuffix(f" {each.metavar}"), record[1]))
+        formatter.write_paragraph()
         for title, records in filter(itemgetter(1), sections.items()):
-            with formatter.section(title):
-                formatter.write_dl(records)
+            formatter.write_heading(title)
+            with formatter.indentation():
+                formatter.write_dl(records, col_max=32)
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:

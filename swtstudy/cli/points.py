@@ -17,13 +17,12 @@ from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import DISTANCE, NAMED
+from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_DISTANCE = QUANTITY_AXES[DISTANCE]
 #: What a contact of a study with units has besides.
 _SIZES = [row for name, row in rows(Units()).items() if name in CONTACT_AXES and name != "body"]
 
@@ -52,12 +51,8 @@ def with_parameters(
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         for parameter in reversed([*parameters]):
-            default = "" if parameter.default is None else f"  [default: {_short(parameter.default)}]"
-            words = "; ".join(
-                filter(None, (parameter.described, parameter.note, parameter.allowed + default))
-            )
             option = f"--{parameter.name.replace('_', '-')}"
-            command = click.option(option, metavar=metavar, help=words)(command)
+            command = click.option(option, metavar=metavar, help=parameter.brief)(command)
         return command
 
     return decorate
@@ -65,26 +60,16 @@ def with_parameters(
 
 @click.command(cls=InSections)
 @with_parameters(SEVERAL, PARAMETERS.values())
-@click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Relative accuracy asked of s.")
-@click.option("--quantities", metavar=SEVERAL, help=f"Columns beside s: {', '.join(NAMED)}.")
-@click.option(
-    f"--{DISTANCE.replace('_', '-')}",
-    metavar=SEVERAL,
-    help=f"{_DISTANCE.described}, which are further columns; {_DISTANCE.allowed}",
-)
+@click.option("--rtol", default=DEFAULT_RTOL, help=f"Relative accuracy asked of s  [{DEFAULT_RTOL}]")
+@click.option("--quantities", metavar=SEVERAL, help="Columns beside s, such as dissipation.")
+@with_parameters(SEVERAL, [QUANTITY_AXES[DISTANCE]])
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists of parameters.
 
-    On a terminal the columns are aligned, or one below the other where it is too narrow for them; in a pipe
-    or a file they are parted by tabs.
-
-    VALUES is one value, or several separated by commas; "3/2", "2*pi" and "sqrt(20)" are numbers too.
-
     \b
     Examples:
-      swtstudy solve --phase 0,pi/2
-      swtstudy solve --quantities dissipation --tangential-amplitude 0.2,0.4
-      swtstudy solve --profile rounded_punch --flat-radius 0.5,1
+      swtstudy solve --phase 0,pi/2 --profile rounded_punch --flat-radius 1/2
+      swtstudy list --parameters  # what each means
     """
     from swtstudy.solving import solve as solve_grid
     from swtstudy.vocabulary.choices import REGIMES
@@ -151,6 +136,7 @@ def show(
     The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
+    `swtstudy list --parameters` explains the parameters.
 
     \b
     Examples:

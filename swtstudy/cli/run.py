@@ -15,7 +15,7 @@ import click
 
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
-from swtstudy.cli.terminal import say
+from swtstudy.cli.terminal import say, say_next
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.wording import number_words
 
@@ -117,6 +117,8 @@ def run(
         run_and_draw(pairs, formats, done, width, **options)
     if any(failed):
         sys.exit(POINTS_FAILED)
+    if len(targets) == 1:
+        say_next(f"swtstudy report {next(iter(targets.values()))}")
 
 
 @contextmanager

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import click
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.cli.options import with_studies, with_workers
-from swtstudy.cli.terminal import say
+from swtstudy.cli.options import PARTS, with_studies, with_workers
+from swtstudy.cli.terminal import say, say_next
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.quantities import DISTANCE
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import duration, unit_words
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ def new(name: str, units: bool) -> None:
     if not schema.exists():
         write_text(schema, schema_text())
         click.echo(str(schema))
+    say_next(f"swtstudy run {target}")
 
 
 @click.command()
@@ -148,16 +150,22 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
 
 
 @click.command("list")
-def list_studies() -> None:
-    """List the studies of the paper.
+@click.option("--parameters", is_flag=True, help="List the parameters of a point, and what may be computed.")
+@click.pass_context
+def list_studies(context: click.Context, parameters: bool) -> None:
+    """List the studies of the paper, or the parameters.
 
-    They come with the package; other commands accept their names as STUDY.
+    The studies come with the package; other commands accept their names as STUDY.
 
     \b
     Examples:
       swtstudy list
+      swtstudy list --parameters
       swtstudy run figure3
     """
+    if parameters:
+        click.echo(_explained(context.make_formatter()), nl=False)
+        return
     from swtstudy.points.canonical import LARGEST_GRID
     from swtstudy.study.definition import Study
 
@@ -171,6 +179,19 @@ def list_studies() -> None:
             say(f"  {name:<{width}}  {points:>12}  {studies[name].title}", indent=width + 18)
         click.echo()
     click.echo(f"files: {shipped_folder()}")
+
+
+def _explained(formatter: click.HelpFormatter) -> str:
+    """Every parameter with its meaning, by what it is a part of, and every quantity."""
+    for title in dict.fromkeys(PARTS.values()):
+        own = [(row.name, row.explained) for row in PARAMETERS.values() if PARTS[row.part] == title]
+        if own:
+            with formatter.section(title):
+                formatter.write_dl(own)
+    quantities = {name: f"{row.meaning}." for name, row in NAMED.items()}
+    with formatter.section("Quantities beside s"):
+        formatter.write_dl([*quantities.items(), (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])
+    return formatter.getvalue()
 
 
 @click.command()

@@ -56,6 +56,12 @@ def say(line: object, indent: int = 0, err: bool = False) -> None:
     click.echo(wrapped(str(line), line_length(), indent), err=err)
 
 
+def say_next(command: str) -> None:
+    """Name the command that usually comes next, on a terminal alone: programs read the other lines."""
+    if line_length() is not None:
+        say(f"next: {command}")
+
+
 def table(rows: Iterable[Sequence[str]], width: int = 10_000, head: Sequence[str] = ()) -> str:
     """Rows in columns, numbers to the right; what is too wide for the width is broken between words.
 

@@ -165,11 +165,11 @@ SHARP = "truncated_paraboloid"
 
 
 def with_values_of(text: str, value: str) -> str:
-    """A text about SWT with what another criterion calls its values in the place of that.
+    """A text about SWT in which another criterion's values have replaced swt.
 
     Examples
     --------
-    >>> with_values_of("mean of swt/SWT0 about local maxima of swt", "Findley stress")
-    'mean of Findley stress in the unit of s about local maxima of Findley stress'
+    >>> with_values_of("mean of swt/SWT0 over depth, about the largest swt", "Findley stress")
+    'mean of Findley stress in the unit of s over depth, about the largest Findley stress'
     """
     return re.sub(r"\b(?:swt|SWT)\b", value, text.replace("swt/SWT0", f"{value} in the unit of s"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from inspect import Parameter as Argument
 from inspect import cleandoc, signature
-from textwrap import fill
+from textwrap import fill, indent
 from typing import Any, TypeVar
 
 from swtstudy.vocabulary.parameter import Parameter
@@ -34,21 +34,9 @@ def with_parameters(rows: Iterable[Parameter]) -> Callable[[Function], Function]
     def decorate(function: Function) -> Function:
         own = [row for row in rows if row.name not in signature(function).parameters]
         arguments = [Argument(row.name, Argument.KEYWORD_ONLY, default=row.default) for row in own]
-        lines = (
-            f"{row.name}\n{fill(_words(row), 105, initial_indent=_IN, subsequent_indent=_IN)}" for row in own
-        )
+        lines = (f"{row.name}\n{indent(fill(row.explained, 101), 4 * ' ')}" for row in own)
         head, heading, tail = cleandoc(function.__doc__ or "").partition("\n\nReturns\n")
         function.__doc__ = "\n".join([head, *lines]) + heading + tail
         return with_arguments(arguments)(function)
 
     return decorate
-
-
-_IN = 4 * " "
-
-
-def _words(row: Parameter) -> str:
-    """The meaning of a parameter, its range and its default."""
-    value = f"{row.default:.6g}" if isinstance(row.default, float) else str(row.default)
-    default = "" if row.default is None else f"default {value}"
-    return f"{'; '.join(filter(None, (row.described, row.note, row.allowed, default)))}."

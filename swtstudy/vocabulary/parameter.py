@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from dataclasses import dataclass
+from textwrap import shorten
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,35 @@ class Parameter:
         if self.units == "rad":
             return f'a finite angle in {interval} rad, or such as "90 deg"'
         return f"a number in {interval}"
+
+    @property
+    def explained(self) -> str:
+        """The meaning, the range and the default as a sentence, for docstrings and lists."""
+        default = "" if self.default is None else f"default {self._default}"
+        return f"{'; '.join(filter(None, (self.described, self.note, self.allowed, default)))}."
+
+    @property
+    def brief(self) -> str:
+        """The symbol, the range and the default in half a line of a terminal, for help.
+
+        Examples
+        --------
+        >>> from swtstudy.vocabulary.parameters import PARAMETERS
+        >>> for name in ("phase", "profile", "exponent"):
+        ...     print(PARAMETERS[name].brief)
+        ψ in [-1000, 1000] rad, or "90 deg"  [0]
+        paraboloid, rounded_punch …  [paraboloid]
+        n in (1, 20]
+        """
+        default = "" if self.default is None else f"  [{self._default}]"
+        if self.kind == "name":
+            return shorten(", ".join(self.names), 32, placeholder=" …").replace(", …", " …") + default
+        allowed = self.allowed.replace("a positive rational", "=").replace("or such as", "or")
+        return f"{self.notation} {re.sub('^a (finite angle|number) ', '', allowed)}{default}"
+
+    @property
+    def _default(self) -> str:
+        return f"{self.default:.6g}" if isinstance(self.default, float) else str(self.default)
 
 
 def _greek(name: str) -> str:

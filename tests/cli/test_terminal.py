@@ -20,6 +20,7 @@ from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
 from swtstudy.study.template import template_with_units
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import numbers_words, raised
 
 
@@ -141,12 +142,29 @@ def test_every_command_is_in_one_section_and_says_a_whole_sentence() -> None:
 
 def test_parameters_are_listed_by_what_they_are_a_part_of() -> None:
     text = CliRunner().invoke(main, ["solve", "--help"]).stdout
-    text = text[text.index("\nThe load:") :]
     places = [text.index(f"\n{title}:") for title in ("The load", "The profile and its shape", "The bodies")]
     assert places == sorted(places)
-    assert places[0] < text.index("--phase") < places[1] < text.index("--flat-radius") < places[2]
+    phase, flat = (text.index(f"\n  --{name} ") for name in ("phase", "flat-radius"))
+    assert places[0] < phase < places[1] < flat < places[2]
     for name in PARAMETERS:
         assert text.count(f"\n  --{name.replace('_', '-')} ") == 1
+    assert len(text.splitlines()) <= 40
+    assert max(map(len, text.splitlines())) <= 80
+
+
+def test_all_parameters_and_quantities_are_explained() -> None:
+    text = "\n".join(lines_of("list", "--parameters"))
+    for name in (*PARAMETERS, *NAMED, DISTANCE):
+        assert text.count(f"\n  {name} ") == 1
+
+
+@pytest.mark.parametrize("on_a_terminal", [True, False])
+def test_new_and_run_name_the_next_command(tmp_path, monkeypatch, on_a_terminal: bool) -> None:
+    monkeypatch.chdir(tmp_path)
+    terminal = import_module("swtstudy.cli.terminal")
+    monkeypatch.setattr(terminal, "line_length", lambda: 80 if on_a_terminal else None)
+    assert ("next: swtstudy run mine.toml" in lines_of("new", "mine")) is on_a_terminal
+    assert ("next: swtstudy report results/mine.nc" in lines_of("run", "mine.toml")) is on_a_terminal
 
 
 def test_studies_are_listed_in_groups_each_once() -> None:
