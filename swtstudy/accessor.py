@@ -106,7 +106,7 @@ class SwtAccessor:
         Parameters
         ----------
         style
-            A matplotlib style: a name, a file or rcParams. By default the look is that of the package, except
+            A matplotlib style: a name, a file or rcParams. By default the look is the package's own, except
             for rcParams that you have changed.
         width
             "column" for the 8.5 cm of a column in print, "page" for 17.5 cm, with letters of 8 pt; by default
@@ -153,7 +153,7 @@ class SwtAccessor:
         y
             Any data variable, or "s/s(name=value)"; several have a row of panels each.
         title
-            Of the figure.
+            Title of the figure.
         kind
             "lines", "life", "contour", "heatmap", "scatter" or "histogram".
         vertical

@@ -71,7 +71,7 @@ if TYPE_CHECKING:
     #: Values with names for their dimensions keep them.
     Values = FloatArray | xr.DataArray
 
-#: What a contact is at rest.
+#: Sizes of a contact at rest.
 AT_REST = (
     *("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure", "length_scale"),
     *("slip_scale", "stress_scale", "swt_scale", "work_scale", "force_factor"),
@@ -215,8 +215,8 @@ class PhysicalContact:
         ----------
         s
             From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
-            DataArray with the coordinate ``body``, such as `solve` gives, each value is that of its body.
-            Of several contacts a DataArray over their dimensions.
+            DataArray with the coordinate ``body``, such as `solve` gives, each value belongs to its body.
+            A DataArray over their dimensions for several contacts.
         body
             1 or 2, the body that has this s. Needed where the bodies differ and s does not say it.
 
@@ -244,7 +244,7 @@ class PhysicalContact:
         Parameters
         ----------
         constants
-            Of both bodies, or a pair for bodies of different materials.
+            Constants of both bodies, or a pair for bodies of different materials.
         s, body
             As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
         counted
@@ -333,9 +333,9 @@ class PhysicalContact:
         critical_distance
             One or several lengths, for nonlocal values.
         constants
-            Of both bodies, or a pair for bodies of different materials: for cycles.
+            Constants of both bodies, or a pair for bodies of different materials: for cycles.
         yield_strength
-            Of both bodies, or a pair: for von_mises and yield_ratio.
+            Strength of both bodies, or a pair: for von_mises and yield_ratio.
         blocks
             Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
 
@@ -343,7 +343,7 @@ class PhysicalContact:
         -------
         xarray.Dataset
             As of a study with units. Its dimensions are the sequences, in the order given, and ``body``, 1
-            and 2, unless the contact is given as that of one body.
+            and 2, unless the contact is given for one body.
 
         Raises
         ------
@@ -399,7 +399,7 @@ class PhysicalContact:
         ----------
         over
             Ranges by name, ``(low, high)``, in your units, of parameters that are numbers; the others are
-            those of this contact.
+            the values of this contact.
         minimise
             A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
             best is the longest. Of both bodies, and of both directions, that counts which is worse.
@@ -465,7 +465,7 @@ class PhysicalContact:
         ----------
         body
             1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
-            the tractions do not depend on these, and the stress beneath them on those of the body alone.
+            the tractions do not depend on these, and the stress beneath them on the body's alone.
         """
         contact, grid = self._one, self._grid_of(self._body(body))
         control, shape = grid.control, family_of(contact.profile).shape
@@ -475,7 +475,7 @@ class PhysicalContact:
         for column, values in grid.numbers.items():
             if PARAMETERS[column].part != "shape" or column in shape:
                 own[control.given_for(column)] = float(values.squeeze())
-        # What scales a loop is 1 unless it is given.
+        # The scale of a loop is 1 unless it is given.
         needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
         if is_plane(contact.profile):
             # In the plane it is always a force, also where the normal load rests along a loop.
@@ -617,7 +617,7 @@ def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
 
 
 def _of_both(name: str, given: Any, kind: type[Any], report: Report) -> tuple[Any, ...]:
-    """Constants of each body of those of both, or of a pair; mistakes are added."""
+    """Constants of each body, from one value for both or from a pair; mistakes are added."""
     pair = (given, given) if isinstance(given, kind) else given
     if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
         return pair[0], pair[1]
@@ -663,7 +663,7 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
     return PhysicalContact(grid)
 
 
-#: What is asked of contacts, not given of them.
+#: Keywords that ask for something; all others describe contacts.
 _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
@@ -703,9 +703,9 @@ def physical(
         The names below. young_modulus and poisson_ratio are one value for two equal bodies, or a pair; these,
         radius, and either depth or normal_force must be given. The power law is f = rⁿ/(n Rⁿ⁻¹), with the
         slope 1 at r = R. There is no radius for a profile that is a `TabulatedProfile`: its radii and heights
-        are lengths, the heights those of both bodies together. With contact_length the loads of a plane
+        are lengths, the heights belong to both bodies together. With contact_length the loads of a plane
         contact are forces, without it forces per length; plane contacts take forces alone, and a constant
-        normal load unless told otherwise. bulk_stress_ratio is in the place of bulk_stress_mean.
+        normal load unless told otherwise. bulk_stress_ratio replaces bulk_stress_mean.
         Parameters with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of

@@ -47,7 +47,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         scalar coordinates; the attributes state the version and rtol. The quantities that are asked are
         further data variables.
         Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN. Nor is
-        there where s is that of the bulk stress alone, far from the contact: critical_x is NaN. With a
+        there where the bulk stress alone makes s, far from the contact: critical_x is NaN. With a
         bulk_stress_amplitude there is bulk_shift, too: by how much, in a_H, the bulk strain would move the
         stick zone, and stick_zone: whether s has that shift. Where it has not, s is too low at the edge in
         tension: bulk_shift_ratio tells by how much.
@@ -60,7 +60,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     Notes
     -----
     Axes that are arrays of dask are solved lazily, by `xarray.apply_ufunc` (dask="parallelized"): the data
-    variables are arrays of dask, whose chunks are the products of those of the axes, with the same values.
+    variables are arrays of dask, whose chunks are the products of the axes' chunks, with the same values.
 
     Examples
     --------

@@ -30,13 +30,13 @@ from swtstudy.vocabulary.wording import coordinate_words, listed, number_words, 
 _LISTED = 8
 #: Letters to the left of the words of a line.
 INDENT = 17
-#: What scales the columns of a loop, one of these each, and the symbol of what the column is then.
+#: Parameters that scale the columns of a loop, one of these each, and the symbol of the scaled column.
 _COLUMNS = (
     {"normal_force_amplitude": "F_N", "normal_amplitude": "δ"},
     {"tangential_force_amplitude": "F_x", "tangential_amplitude": "u"},
     {"bulk_stress_amplitude": "σ_B"},
 )
-#: Of an error that is rtol of s.
+#: Relative rounding of an error that is rtol of s.
 _ROUNDING = 1e-9
 
 

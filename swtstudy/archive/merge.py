@@ -68,7 +68,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     sources = [str(path) for path, part in zip(paths, parts, strict=True) for _ in range(len(part))]
     _refuse_conflicts(sources, known, grid)
     points, names = Distinct.of(grid, asked), ", ".join(map(str, paths))
-    # What an archive says is missing is no gap.
+    # A point that an archive calls missing is no gap.
     absent = look_up(points.rows, known, np.ones(len(known), bool)) < 0
     gaps = f"{int(absent[points.index].sum())} of {grid.size} points in none of them" if absent.any() else ""
     merged = matching(points, known, known["status"] != MISSING)

@@ -1,7 +1,7 @@
 """Reading and writing archives, with a check sum of what they hold as it is read.
 
 HDF5 has check sums of the chunks of an array (fletcher32) and of attributes, but none of the index that says
-where the chunks are: a flipped bit there turns values into NaN, or into those of another place. So there is
+where the chunks are: a flipped bit there turns values into NaN, or into another place's values. So there is
 one of all variables here. It is stored in a separate group, which xarray does not copy: whoever changes an
 archive and saves it with xarray leaves one without it, not one with an outdated one.
 """
@@ -38,7 +38,7 @@ def write_check_sum(path: Path, dataset: xr.Dataset) -> None:
 
 
 def _check_sum(dataset: xr.Dataset) -> str:
-    """Of the axes, types and bytes of all variables, NaN being one; values that are no numbers are words."""
+    """Check sum over axes, types and bytes of all variables. All NaN count as one, other objects as words."""
     total = 0
     for name, variable in sorted(dataset.variables.items(), key=lambda item: str(item[0])):
         values, kind = variable.values, variable.dtype.kind
@@ -55,7 +55,7 @@ def _check_sum(dataset: xr.Dataset) -> str:
     return f"{total:08x}"
 
 
-#: What xarray and netCDF4 raise for files that they cannot read.
+#: Errors of xarray and netCDF4 for files that they cannot read.
 _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, IndexError, TypeError)
 
 
@@ -123,7 +123,7 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     Parameters
     ----------
     dataset
-        What to write.
+        The results to write.
     path
         Path of the file, which is replaced if it exists.
     beside

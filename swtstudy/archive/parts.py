@@ -36,7 +36,7 @@ _CHECK_SUM_SIZE = hashlib.sha256().digest_size
 #: Names of parts: another file is not ours.
 _NAME = re.compile(r"[0-9]{6,}\.npz")
 
-#: What the numbers in a table mean; parts with another layout cannot be used.
+#: Layout of the numbers in a table; parts with another layout cannot be used.
 _LAYOUT = {
     "columns": [[name, ROW[name].str] for name in ROW.names or ()],
     "profiles": list(NAMES),

@@ -88,7 +88,7 @@ def _longest_name(folder: Path) -> int:
         return _LONGEST_NAME
 
 
-#: What file systems without locks say.
+#: Errors of file systems without locks.
 _NO_LOCKS = (errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP, errno.EINVAL)
 #: A link is not followed, and a pipe not waited for.
 _NO_LINK = getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)

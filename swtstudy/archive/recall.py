@@ -153,7 +153,7 @@ def _plain(dataset: xr.Dataset) -> xr.Dataset:
     return without_units(dataset) if has_units(dataset) else dataset
 
 
-#: What every archive must have: variables, and attributes that are texts or numbers.
+#: Parts that every archive must have: variables, and attributes that are texts or numbers.
 _VARIABLES = ("s", "s_error", "regime", "status", "run")
 _TEXTS = ("title", "source", "history", "versions", "study", "runs")
 

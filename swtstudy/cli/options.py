@@ -97,7 +97,7 @@ def _offered(incomplete: str, *patterns: str, names: Iterable[str] = ()) -> list
     return items or [CompletionItem(incomplete, type="file")]
 
 
-#: What several commands take.
+#: Arguments of several commands.
 with_studies = click.argument(
     "studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion
 )

@@ -23,7 +23,7 @@ from swtstudy.vocabulary.wording import raised
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: What a contact of a study with units has besides.
+#: Sizes of a contact in a study with units.
 _SIZES = [row for name, row in rows(Units()).items() if name in CONTACT_AXES and name != "body"]
 
 
@@ -133,7 +133,7 @@ def show(
     name of one of its loads alone, that load: its course with the recorded cycles, its path, and how near
     friction comes to its end.
 
-    The figures are those of swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
+    The same figures come from swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
 
     VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
     `swtstudy list --parameters` explains the parameters.

@@ -52,7 +52,7 @@ def wrapped(line: str, width: int | None, indent: int = 0) -> str:
 
 
 def say(line: object, indent: int = 0, err: bool = False) -> None:
-    """Print a line, broken where it is longer than those of the terminal."""
+    """Print a line, broken where it is longer than the terminal's lines."""
     click.echo(wrapped(str(line), line_length(), indent), err=err)
 
 

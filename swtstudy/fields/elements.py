@@ -23,7 +23,7 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
 
-#: The stress components in our order, and in that of Abaqus.
+#: The stress components in our order, and in Abaqus' order.
 OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
 #: Places of our components in the order of Abaqus.
 _PLACES = [0, 1, 2, 5, 4, 3]

@@ -22,7 +22,7 @@ FATEMI_SOCIE, FINDLEY, CROSSLAND = _KNOWN = "fatemi_socie", "findley", "crosslan
 SWT_EXPONENT = 0.5
 #: No plane has a value that is higher than the largest one by more than this, relative.
 TOLERANCE = 1e-5
-#: What rounding may make of a distance, as a share of the size of a path, and of a unit normal's component.
+#: Rounding error of a distance, as a share of the size of a path, and of a unit normal's component.
 ROUNDING, SAME = 1e-12, 1e-9
 #: Less than this is nothing: it divides nothing.
 TINY = 1e-300

@@ -59,7 +59,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         - at a few marked instants, with their instant_time and reason: pressure p and traction q over x;
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
-          0 or not finite, those of the largest swt that was sampled;
+          0 or not finite, the largest swt that was sampled;
         - dissipation, the work of friction in the cycle over μF_0 · μE*δ0/G*, which is ∮ F_x du but for what
           a bulk stress adds that moves the stick zone, and dissipation_error;
         - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), stick_left and
@@ -194,7 +194,7 @@ def _load_and_springs(
     Parameters
     ----------
     cycle
-        Of one point.
+        Parameters of one point.
     instant, states
         T instants, as angles of the period, and the states of the contact there.
     of_plane

@@ -57,7 +57,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
 
     course, control = grid.fixed["load"], grid.control
     if not number("normal_amplitude").any():
-        # What stands still is prescribed as the other component is: loops know no mixed control.
+        # A component that stands still is prescribed as the other one: loops know no mixed control.
         control = Control(control.tangential_force, control.tangential_force)
     return Points(
         profile=profile,  # type: ignore[arg-type]
@@ -122,7 +122,7 @@ _NAMES = {
 }
 
 
-#: What coordinates may be, in words.
+#: Allowed coordinates, in words.
 POSITIONS = "finite positions in a_H"
 
 
@@ -137,7 +137,7 @@ def read_places(
         Numbers; one-dimensional sequences, which span a grid with the dimensions x, y, z; or DataArrays,
         whose dimensions are kept: three DataArrays that share one dimension are a list of points.
     allowed
-        What they may be, in words.
+        Allowed values, in words.
 
     Raises
     ------

@@ -69,7 +69,7 @@ def stress_field(
     of such a history is within 1e-5 of s at the critical point. That takes about 1 ms for each position; for
     a map at a few instants, give these. At 64 evenly spaced instants swt can be 23 % low, at 512 still 10 %.
     Within 1e-6 a_H of the edge of a truncated paraboloid's face the stress, which is infinite there, is
-    cut off. Nothing of a plane contact depends on y, and σ_yy is that of plane strain.
+    cut off. Nothing of a plane contact depends on y, and σ_yy follows from plane strain.
 
     Examples
     --------

@@ -42,9 +42,9 @@ def draw(
     dataset
         Results, as from `open_results`.
     layout
-        What goes where; by default the layout stored in the archive.
+        Axes and their roles; by default the layout stored in the archive.
     style
-        A matplotlib style: a name, a file or rcParams. By default the look is that of
+        A matplotlib style: a name, a file or rcParams. By default the look comes from
         `swtstudy.figures.style`, except for rcParams that the user has changed.
     width
         "column" for the 8.5 cm of a journal's column, "page" for 17.5 cm, with letters of 8 pt; by default
@@ -166,7 +166,7 @@ def _draw_maps(
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
     """Collect what is drawn of a quantity: values, errors or percentiles, and marks, where known."""
-    # Of the whole results: a part may lack the place that normalises the quantity.
+    # The whole results are meant: a part may lack the place that normalises the quantity.
     shown = {"value": values, "error": quantity_error(dataset, y)}
     if {f"{y}_10", f"{y}_90"} <= {*map(str, dataset.data_vars)}:
         shown |= {"early": dataset[f"{y}_10"], "late": dataset[f"{y}_90"]}

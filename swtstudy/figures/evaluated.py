@@ -58,7 +58,7 @@ def _draw_one(axes: Axes, indices: xr.Dataset, first: bool) -> None:
         value, low, high = (indices[f"{key}{end}"].values for end in ("", "_low", "_high"))
         error = np.maximum([value - low, high - value], 0.0)
         at = places + 0.4 * (number - 0.5)
-        # Of a container of bars a legend would not know the line style.
+        # A legend would not know the line style of a container of bars.
         axes.bar(at, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
         axes.errorbar(
             at, value, error, linestyle="none", marker="", color="black", elinewidth=1.2, capsize=2.5

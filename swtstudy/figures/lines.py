@@ -86,7 +86,7 @@ def draw_lines(
     y
         The quantity, as the layout names it.
     layout
-        What goes where.
+        The layout: axes and their roles.
     scale
         Colours of the values of hue; without it the curves have the styles of the property cycle, and labels.
     """

@@ -166,7 +166,7 @@ class Explorer:
     box
         All of them: what a notebook shows.
     point
-        What was drawn last, as from `swtstudy.solve`.
+        The results that were drawn last, as from `swtstudy.solve`.
 
     Raises
     ------

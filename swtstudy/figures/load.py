@@ -147,7 +147,7 @@ def _draw_margin(axes: Axes, phase: FloatArray, loads: FloatArray, slope: float,
 
 
 def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
-    """A closed course from the instant on that is nearest to the begin of a cycle; that of a smooth one."""
+    """A closed course from the instant on that is nearest to the begin of a cycle, which is smooth."""
     size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
     first = int((((loads[:-1] - cycle[0]) / size) ** 2).sum(axis=1).argmin())
     rolled = np.roll(loads[:-1], -first, axis=0)

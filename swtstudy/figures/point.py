@@ -35,12 +35,12 @@ _PANEL, _LEAST_HEIGHT = (4.4, 3.8), 2.4
 _FAINT, _SECOND = "0.55", "0.4"
 #: Colours of open contact, stick, forward and backward slip; in greyscale white, light, dark and medium.
 STATE_COLOURS = ("#FFFFFF", "#D9D9D9", "#0072B2", "#E69F00")
-#: Colours of the marked instants: none of those of stick and slip.
+#: Colours of the marked instants: not the colours of stick and slip.
 _INSTANTS = ("#009E73", "#CC79A7", "#D55E00", "#56B4E9")
 _DASHED, _DOTTED = (0, (4, 2)), (0, (1, 1.5))
 #: Under words.
 _BOX: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
-#: What is prescribed, by the coordinate ``control``.
+#: Words for the prescribed motion, by the coordinate ``control``.
 _PRESCRIBED = {
     "displacements": "$u$ and $\\delta$",
     "forces": "$F_x$ and $F_N$",
@@ -92,9 +92,9 @@ def draw_inspection(
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     labels
-        Of a real contact what its variables are in its units.
+        Variables of a real contact in its units.
     headlines
-        Of a real contact what is given of it, and the lines of its validity.
+        Given values of a real contact, and the lines of its validity.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def draw_inspection(
         Nine panels: the load path; stick and slip over the cycle; the memory diagram, that is the springs'
         tangential force; tractions; the stress cycle on the critical plane; swt along the surface; the plane
         of the forces; these over the cycle; the force–displacement loop. Stick and slip are coloured along
-        all three loops, and the same numbered instants are marked in all panels but that of swt. Plane
+        all three loops, and the same numbered instants are marked in all panels but swt's. Plane
         contacts have no panels with displacements.
     """
     panels = _PANELS if "displacement" in dataset else _OF_STRIP
@@ -177,7 +177,7 @@ def _guide(axes: Axes, values: Any, upright: bool = False, **own: Any) -> list[L
 
 
 def _mark(axes: Axes, marks: list[tuple[int, float, float]]) -> None:
-    """Numbers of instants in discs; those of one place in one, for the later would hide the earlier."""
+    """Numbers of instants in discs; one disc for each place, for the later would hide the earlier."""
     near = 0.02 * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
     groups: list[list[tuple[int, float, float]]] = []
     for mark in marks:
@@ -461,7 +461,7 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     axes.plot(time, tangential, **stroke(_SECOND, DASHES[1], label=words[1]))
     look = stroke(dashes=_DOTTED, linewidth=_thin(), label="" if labels else f"$-${words[0]}")
     for sign in (1.0, -1.0) if labels else (-1.0,):
-        # What friction bears is a force of the tangential one's unit.
+        # The force that friction bears has the unit of the tangential force.
         axes.plot(time, sign * scale[1] * dataset.normal_force, **look)
     _guide(axes, 0.0, zorder=0)
     axes.set_ylim(limits(np.concatenate([normal.values, tangential.values]), 0.08, 0.34))
@@ -482,8 +482,8 @@ def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     axes.set_title(f"fretting loop, {'' if labels else 'area = '}dissipation {number}", loc="left")
 
 
-#: The panels with the variables along their axes; and those of a plane contact, whose displacements are not
-#: known.
+#: The panels with the variables along their axes; and the panels of a plane contact, whose displacements
+#: are not known.
 _OF_BOTH: dict[Any, tuple[str | None, str | None]] = {
     draw_slip: (None, "r"),
     draw_springs: ("r", None),

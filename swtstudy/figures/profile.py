@@ -72,9 +72,9 @@ def draw_shape(
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     labels
-        Of a real contact what lengths and stresses are in its units.
+        Lengths and stresses of a real contact in its units.
     given
-        What is given of it, for the title.
+        Given values of it, for the title.
     """
     still = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
     grid, mistakes = read_grid({**still, **parameters}, {})
@@ -183,7 +183,7 @@ def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> N
 
 
 def _height(profile: AtRest, radius: FloatArray) -> FloatArray:
-    """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ; in the plane N r/ξ is in the place of g."""
+    """f from g: f(r) = (2/π) ∫ g dξ/√(r² − ξ²), with ξ = r sin θ; in the plane N r/ξ replaces g."""
     node, weight = np.polynomial.legendre.leggauss(200)
     θ = 0.25 * np.pi * (1.0 + node)
     g = profile.depth((radius[:, None] * np.sin(θ)).reshape(1, -1)).reshape(radius.size, -1)

@@ -36,7 +36,7 @@ _SHADES = ("#0072B2", "#E69F00", "#000000", "#56B4E9", "#D55E00", "#CC79A7", "#0
 _POINTS = ("o", "^", "s", "D", "v")
 #: Percentiles that a histogram marks, and their lines.
 _PERCENTILES = {5: ":", 50: "-", 95: "--"}
-#: Hatches of histograms: their number is coprime to that of the colours, so that no pair repeats early.
+#: Hatches of histograms: their number is coprime to the number of the colours, so that no pair repeats early.
 _HATCHES = ("", "////", "....", "\\\\\\\\", "xxxx")
 
 
@@ -120,7 +120,7 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
 def _draw_bars(
     axes: Axes, values: NDArray[Any], edges: list[float], places: Any, label: str | None, index: int
 ) -> None:
-    """One histogram, with lines at its percentiles; colours and hatches differ between those of one panel."""
+    """One histogram, with lines at its percentiles; colours and hatches differ within a panel."""
     colour, hatch = COLOURS[index % len(COLOURS)], _HATCHES[index % len(_HATCHES)]
     look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour, "hatch": hatch}
     axes.hist(values, edges, histtype="stepfilled", linestyle="-", label=label, **look)
@@ -134,7 +134,7 @@ def _finite(values: xr.DataArray) -> NDArray[Any]:
 
 
 def _edges(values: xr.DataArray) -> list[float]:
-    """Edges of bins: those of NumPy's rule, of lives in their logarithms; one for each flag."""
+    """Edges of bins by NumPy's rule, of lives in their logarithms; one for each flag."""
     if words := flag_words(values):
         return [place - 0.5 for place in range(len(words) + 1)]
     known = _finite(values)

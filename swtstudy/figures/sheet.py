@@ -34,7 +34,7 @@ class Figure(matplotlib.figure.Figure):
     Attributes
     ----------
     width
-        What it is made for: a key of `WIDTHS`, or None for a screen.
+        The use of the figure: a key of `WIDTHS`, or None for a screen.
     """
 
     width: Any = None
@@ -45,7 +45,7 @@ class Figure(matplotlib.figure.Figure):
         return picture.getvalue()
 
 
-#: What a figure is made for; without it for a screen, where it grows with its panels.
+#: Uses of a figure in print; on a screen a figure grows with its panels.
 Width = Literal["column", "page"]
 
 _INCH = 2.54
@@ -125,7 +125,7 @@ class Sheet:
         figure
             Where they are.
         share_x, share_y
-            Which panels have the axis in common: "all", those of a "row", or "none".
+            Which panels have the axis in common: "all", the panels of a "row", or "none".
         """
         across, panels = self.across, np.empty((self.rows, self.count), dtype=object)
         lines = -(-self.count // across)
@@ -262,7 +262,7 @@ def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] | N
     axes
         Its panels.
     loops
-        What lines are about, by their labels, if loops: drawn beside their samples.
+        Loops by the labels of their lines: they are drawn beside the lines' samples.
     """
     handles: dict[str, Any] = {}
     for one in axes.flat:

@@ -24,12 +24,12 @@ from matplotlib.figure import Figure
 from swtstudy.vocabulary.files import read_text, replacing
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
 
-#: What matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
+#: Types that matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
 
 #: Okabe and Ito's colours, distinct with any colour vision; without yellow.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#000000", "#56B4E9", "#E69F00")
-#: Their number is coprime to that of the colours, so that no pair repeats early.
+#: Their number is coprime to the number of the colours, so that no pair repeats early.
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (8, 2, 3, 2)))
 #: One marker for each repetition of the dashes.
 MARKERS = ("", "o", "s", "^", "D", "v", "X")
@@ -38,7 +38,7 @@ _LINES = range(math.lcm(len(COLOURS), len(DASHES)))
 
 @cache
 def style_of(name: str) -> dict[str, Any]:
-    """The rcParams of "screen" or of "print", which go with those of a screen."""
+    """The rcParams of "screen", or of "print", which go on top of a screen's."""
     path = Path(__file__).with_name(f"{name}.mplstyle")
     own = dict(matplotlib.rc_params_from_file(path, use_default_template=False))
     if name == "print":
@@ -66,7 +66,7 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
         A matplotlib style that overrides everything else. Without it, every rcParam that differs from
         matplotlib's default stays as it is: a matplotlibrc or ``plt.style.use`` is honoured.
     width
-        What the figure is made for: a key of `swtstudy.figures.sheet.WIDTHS`, or None for a screen.
+        The use of the figure: a key of `swtstudy.figures.sheet.WIDTHS`, or None for a screen.
 
     Raises
     ------

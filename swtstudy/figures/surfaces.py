@@ -253,7 +253,7 @@ def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
             continue
         left, right = (b - a) / (at[1] - at[0]), (c - b) / (at[2] - at[1])
         if np.isfinite(left) and np.isfinite(right) and right > left:
-            # The slope of the parabola falls linearly from the middle of one step to that of the other.
+            # The slope of the parabola falls linearly from the middle of one step to the middle of the other.
             first, second = 0.5 * (at[:-1] + at[1:])
             vertex = float(np.clip(first - left * (second - first) / (right - left), first, second))
             places[k] = x[0] + (vertex - x[0]) % turn if closed else vertex

@@ -38,7 +38,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
         return f"$s$ / $s$({place_words(name, value if isinstance(value, str) else as_number(value))})"
     if values.name == "s":
         criterion = values.attrs.get("criterion", SWT)
-        # Of several s is not one thing.
+        # With several criteria s is not one thing.
         return f"$s = {CRITERIA[criterion].over_unit}$" if criterion in CRITERIA else "$s$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
@@ -188,7 +188,7 @@ def power_words(value: float) -> str:
 def tick_names(axis: Axis, words: Sequence[str], most: int) -> None:
     """Put words at the places 0, 1, …, or at every second, third … where there is no room for more.
 
-    Of steps that are about as long the one with the shortest words is taken.
+    The step with the shortest words is taken among steps that are about as long.
     """
     count, across = len(words), axis.axis_name == "x"  # type: ignore[attr-defined]
     longest = {step: max(map(len, words[::step])) for step in range(1, 2 * count + 1)}

@@ -62,7 +62,7 @@ PLANES = np.dtype(
         ("bend", "f8", (3,)),  # h² times the second derivatives 11, 22, 12 of ln h
         ("corner", "f8", (MAX_TRIANGLES, 3, 6)),  # normal, h, T, A at the corners of triangles
         ("line", "f8"),  # angle of the longest chord in the last plane
-        ("chord", "f8", (2,)),  # direction of that of a climb
+        ("chord", "f8", (2,)),  # direction of a climb
         ("waiting", "f8", (64, 4)),  # intervals of lines: angle, width of the path, step, width at its end
     ]
 )
@@ -383,7 +383,7 @@ def set_square(F, E):
 
 @jit
 def set_shear_jet(N, E):
-    """From the jets of nᵀ F n and nᵀ F² n make that of |F n - n nᵀ F n| in place of the first one."""
+    """Make the jet of |F n - n nᵀ F n| from the jets of nᵀ F n and nᵀ F² n, in place of the first one."""
     square = max(E[0] - N[0] * N[0], 1e-24 * E[0] + 1e-300)
     a = sqrt(square)
     d1, d2 = 0.5 * (E[1] - 2.0 * N[0] * N[1]) / a, 0.5 * (E[2] - 2.0 * N[0] * N[2]) / a
@@ -522,13 +522,13 @@ def highest_plane(G, S, m, Q, floor, tolerance):
     Parameters
     ----------
     G
-        Record of `PLANES`. Its normal is a first guess, or 0; afterwards it is that of the plane.
+        Record of `PLANES`. Its normal is a first guess, or 0, and the plane's normal afterwards.
     S, m
         Array of `ROWS` rows: the six components at m instants, and room.
     Q
         The criterion.
     floor
-        What is of interest, as h (`swtstudy.kernel.criterion.lift`).
+        The least value of interest, as h (`swtstudy.kernel.criterion.lift`).
     tolerance
         Relative, of h.
     """

@@ -178,7 +178,7 @@ def count_batch(x, double_angle, *points, **given):
     Parameters
     ----------
     x, double_angle
-        Shape (n,): critical x, NaN where s is that of the bulk stress alone, and 2θ of the critical planes in
+        Shape (n,): critical x, NaN where the bulk stress alone makes s, and 2θ of the critical planes in
         rad, NaN where there is none.
     points, given
         As of `chunks`.
@@ -260,7 +260,7 @@ def _refuse_overflow(overflow):
 
 
 def _raise_to(largest, keys, loads):
-    """Raise the largest normal load of each profile to those of its loads."""
+    """Raise the largest normal load of each profile to the largest of its loads."""
     for key, load in zip(keys, loads, strict=True):
         largest[key] = max(largest[key], float(load["normal_range"][1]))
 

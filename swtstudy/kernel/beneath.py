@@ -48,7 +48,7 @@ LONGEST = 1.0
 BESIDE_FACE = 1.5
 #: Depths below this share of the distance from the axis or from the face's edge are the surface's.
 SHALLOW = 1e-13
-#: What stands for a distance of 0 in the surface, on the axis or at the edge of the face: its fifth power is
+#: Substitute for a distance of 0 in the surface, on the axis or at the edge of the face: its fifth power is
 #: a number.
 NEXT_TO_AXIS = 1e-40
 

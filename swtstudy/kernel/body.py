@@ -46,8 +46,8 @@ COARSEST, OF_VON_MISES = np.array([4, 8])
 #: Where the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25
-#: What a part is sampled for, and rows of a history that are room; no literals, for which Numba would compile
-#: anew.
+#: Purposes for which a part is sampled, and rows of a history that are room; no literals, for which Numba
+#: would compile anew.
 FOR_BOTH, FOR_ONE = np.array([True, False])
 ALONG, ACROSS = np.array([7, 8])
 #: Most rounds in which parts of a cycle are doubled.
@@ -73,7 +73,7 @@ HERE = np.dtype(
 
 
 def body_workspace():
-    """The memory for places of the body that one thread needs, beside that of the line."""
+    """The memory for places of the body that one thread needs, beside the line's memory."""
     return tuple(new_record(kind) for kind in (PLACE, HERE, PLANES))
 
 

@@ -32,7 +32,7 @@ from swtstudy.kernel.profile import place_of
 #: Up to this ν the line is never left (results/audit_parameter_box.md), unless a bulk stress or another
 #: criterion has maxima outside of the contact or in mere pressure.
 SAFE_POISSON_RATIO = 0.35
-#: What counts as higher than the line, relative: more than what either search leaves.
+#: Relative height that counts as higher than the line: more than either search leaves.
 HIGHER = 1e-4
 MAX_PEAKS, MAX_ARCS = 120, 400
 #: Arcs at first, over half a turn.
@@ -65,7 +65,7 @@ CIRCLE = np.dtype(
 
 
 def circles():
-    """The memory that one thread needs for circles, beside that of points."""
+    """The memory that one thread needs for circles, beside the points' memory."""
     return new_record(CIRCLE), new_record(PLANES), np.zeros((ROWS, MAX_INSTANTS))
 
 

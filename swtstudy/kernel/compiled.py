@@ -94,7 +94,7 @@ def jit_reordered(function):
 def once(function):
     """Make a function of compiled calls run once in a process, and by one process at a time.
 
-    What it compiles the others find in the folder. Threads wait for one another, too.
+    The others find its compiled functions in the folder. Threads wait for one another, too.
     """
     lock, begun = RLock(), []
 

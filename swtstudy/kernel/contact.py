@@ -28,7 +28,7 @@ LINE, GROWN = 0, 1
 NONE = -1
 #: Slopes of pieces.
 FLAT, ALONG_ALPHA, ALONG_BETA = np.array([0.0, 1.0, -1.0])
-#: What pushes the springs in a stretch: α, β, nothing (stick), or no contact.
+#: Drive of the springs in a stretch: α, β, nothing (stick), or no contact.
 ALPHA, STICK, BETA, OPEN = 1, 0, -1, 2
 
 MAX_PIECES, MAX_STRETCHES, MAX_EVENTS = 8190, 8190, 6151
@@ -59,7 +59,7 @@ CYCLE = np.dtype(
         ("piece", "i8", (MAX_STRETCHES,)),  # the piece that holds the front
         ("push", "i8", (MAX_STRETCHES,)),  # ALPHA, BETA, STICK or OPEN
         ("edge", "f8", (MAX_STRETCHES, 2)),  # coordinate of the edge at both ends
-        ("front", "f8", (MAX_STRETCHES, 2)),  # and of the front; that of the edge in stick
+        ("front", "f8", (MAX_STRETCHES, 2)),  # and of the front, or of the edge in stick
         ("intervals", "i8", (MAX_STRETCHES,)),  # between the instants whose places are known
         ("interpolated", "i8", (MAX_STRETCHES,)),  # 1: places at any instant follow from these
         ("place", "f8", (MAX_STRETCHES, FINEST + 1, 2)),  # s of edge and front at Lobatto points of time

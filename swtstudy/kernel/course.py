@@ -91,7 +91,7 @@ def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
 def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
     """Cut the cycle where the stress at place s on one side has cusps in time.
 
-    The times of the parts are in the history: of a mirrored cycle those of half of it.
+    The times of the parts are in the history; a mirrored cycle has half of them.
     """
     begin_history(H, C, R, P, K, place, largest, side)
     for k in range(C.stretches):

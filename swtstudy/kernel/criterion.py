@@ -9,7 +9,7 @@ exponent γ too, and the shear stress τ for the criteria of Fatemi and Socie an
     Findley         A/2 + k T
 
 The search over planes works with an increasing function h of the criterion that has no powers below 1, so
-that its curvature downwards is bounded by those of T and A: T A^m or A T^m with m ≥ 1 for Walker's form.
+that the curvatures of T and A bound its curvature downwards: T A^m or A T^m with m ≥ 1 for Walker's form.
 """
 
 from math import acos, atan2, hypot, pi, sqrt
@@ -138,7 +138,7 @@ def far_field(Q, largest, smallest, plane):
     Parameters
     ----------
     largest, smallest
-        Of the bulk stress over the cycle, in E* δ0/a_H.
+        Range of the bulk stress over the cycle, in E* δ0/a_H.
     plane
         Whether the bulk stress is one of plane strain.
     """

@@ -35,7 +35,7 @@ POWERS = np.array([1.0, 2.0, 4.0, 8.0])
 MAX_PLACES = 1 + len(POWERS)
 #: A place or plane with a sum larger by less than this is left out.
 GAIN = 0.01
-#: What an upper bound may be low by, since it is seen at instants.
+#: Share by which an upper bound may be low, since it is seen at instants.
 SLACK = 1.05
 #: Values between two ends of a piece are at most so much higher than at these.
 WITHIN = 2.0
@@ -325,7 +325,7 @@ def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
 
 @jit
 def keep_cycles(N, out):
-    """Append the cycles that were counted to those of the point."""
+    """Append the cycles that were counted to the point's cycles."""
     k = out.begin[out.places]
     for i in range(N.cycles):
         share = N.value[i] / N.largest
@@ -403,7 +403,7 @@ def count_far(N, P, L, Q):
 
 @jit
 def count_point(C, R, S, H, W, K, N, P, L, Q, x, angle, out):
-    """Cycles of one point: those of the critical plane, then of up to one place and plane for each power."""
+    """Cycles of one point: on the critical plane, then at up to one place and plane for each power."""
     out.places = 0
     if isnan(angle):
         return

@@ -59,7 +59,7 @@ def open_cycle(tolerance=GROWTH, **given):
     Parameters
     ----------
     tolerance
-        Of the tables of what grew.
+        Accuracy of the tables of the growth.
     given
         As of `swtstudy.kernel.batch.chunks`, of one point.
 
@@ -176,7 +176,7 @@ def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
     x
         Signed, in a_H.
     direction
-        Of the line: to the right, and down.
+        Direction of the line: to the right, and down.
     distance
         ℓ > 0 in a_H.
     known

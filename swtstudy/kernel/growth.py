@@ -13,7 +13,7 @@ MAX_GROWN = 8191
 #: No panel is thinner: its share of the tractions is the root of its width. Where both loads turn nearly at
 #: the same instant the slope changes from one way of slip to the other within as little.
 THINNEST = 1e-12
-#: Panels that wait to be looked at: those of the profile, and those of some 50 halvings.
+#: Panels that wait to be looked at: the profile's panels, and some 50 halvings.
 WAITING = MAX_PANELS + 103
 GROWTH = np.dtype(
     [

@@ -409,7 +409,7 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
 
 @jit
 def ends_group(S, j, last, largest):
-    """True if cusp j of last + 1 ends a group of pieces: each if there are few, and those of long pieces."""
+    """True if cusp j of last + 1 ends a group of pieces: each if there are few, or a long piece ends."""
     step = max(last // GROUPS, 1) if last > 2 * GROUPS else 1
     gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
     return j % step == 0 or j == last or GROUPS * gap > largest

@@ -78,7 +78,7 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     normal, tangential, bulk
         Rows of order, amplitude and phase of n, v and B.
     means
-        What is added to each.
+        The number that is added to each.
     """
     components = [
         [row for row in rows if row[0] > 0 and row[1] != 0.0] for rows in (normal, tangential, bulk)

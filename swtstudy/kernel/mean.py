@@ -6,7 +6,7 @@ A cell of a half sphere lies in the half plane through the axis and the centre: 
 d = ℓ u² the distance from the centre, ℓ the radius, and φ = φ_max w² (3 - 2w) the inclination. Edge and slip
 fronts are circles about the axis, beside which the criterion grows like √d: it is smooth in u. The sphere
 cuts an arc |θ| < Θ out of the circle through each place, along which the criterion is even and smooth: its
-mean is that of few values, at Gauss's nodes. A cell of a line is a range of u alone.
+mean takes few values, at Gauss's nodes. A cell of a line is a range of u alone.
 
 With the terms of the two highest powers left out in u, or in w, a cell's integral changes: what cells lack
 is a share of that.
@@ -30,16 +30,16 @@ MAX_CELLS, MAX_ALONG = 1009, 4
 REACH = np.array([0.35, 0.8, 1.0])
 #: Cells at first in u and w, the square of that on a line: of means that are told, and of rough ones.
 FIRST, ROUGHLY = np.array([2, 1])
-#: What is averaged, or taken at one place.
+#: Kinds of mean: over a half sphere, at one place, along a line.
 SPHERE, POINT, LINE = np.arange(3)
-#: What a cell lacks over the change of its integral without the highest powers, and over the integral of the
+#: Error of a cell over the change of its integral without the highest powers, and over the integral of the
 #: amount of these, which does not cancel: of half spheres, in which kinks are at many places of a cell, and
 #: of lines.
 OF_CHANGE, OF_OFF = 0.15, np.array([0.06, 0.0, 0.2])
 #: Cells are halved until they lack such a share of the accuracy asked for; and what is claimed over what they
 #: lack: a kink may hide in one cell (results/nonlocal_means.md).
 ENOUGH, CLAIMED = 0.7, 2.5
-#: Accuracy of single values and of those that are averaged, over that of the means; and the least error that
+#: Accuracy of single values and of averaged values, over the accuracy of the means; and the least error that
 #: is claimed of a value, of planes and cells, and of a single one, in which a missed peak does not average
 #: out; relative.
 SINGLE, AVERAGED, OF_VALUE, OF_POINT = 0.03, 0.3, 1e-4, 1e-3
@@ -101,7 +101,7 @@ CELLS = np.dtype(
 
 
 def cells():
-    """The memory for means that one thread needs, beside that of the body."""
+    """The memory for means that one thread needs, beside the body's memory."""
     return new_record(CELLS)
 
 

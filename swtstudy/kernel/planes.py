@@ -106,7 +106,7 @@ def curve_at(W, Q, i, which, C, S):
 
 @jit
 def find_peaks(H, W, Q, C, S):
-    """Write the largest maximum over time of each of the three curves on a plane, and those of all parts.
+    """Write the largest maximum over time of each of the three curves on a plane, and of all parts.
 
     A part has the maximum of its series next to its largest instant, or a bound of it that is below the
     largest maximum.
@@ -313,7 +313,7 @@ def unresolved(H, W, Q, z, C, S, tolerance):
 
     0 where the part is resolved. The last coefficients of its series tell what the interpolation misses. A
     part that stays below the largest maximum of each curve by more than that is resolved anyway.
-    The maxima are those of `find_peaks` on the same plane.
+    `find_peaks` finds the maxima on the same plane.
     """
     first, intervals, miss = H.first[z], H.intervals[z], 0.0
     of_b, of_c = swing_weights(Q, C, S)

@@ -23,7 +23,7 @@ from swtstudy.vocabulary.choices import REGIMES
 FINEST_GROWTH = 1e-11
 #: Rounding of the distance of two slip fronts, and what is no distance, over the largest contact.
 OF_DISTANCE, ONE_PLACE = 1e-13, 1e-15
-#: Rounding of the pressure next to an edge, of which it is the root: that of the edge is some 4e-16. An edge
+#: Rounding of the pressure next to an edge, of which it is the root: the edge's own is some 4e-16. An edge
 #: that rests has none where its place is known in closed form.
 OF_PRESSURE = 3e-8
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
@@ -31,7 +31,7 @@ OF_PRESSURE = 3e-8
 TEARS = 0.995
 #: Nearer to the singular edge of a face than this share of it the circle may be higher at any ν.
 BESIDE_EDGE = 1e-3
-#: Where the bulk stress alone is as high as this share of s, s is that of the bulk stress.
+#: Where the bulk stress alone is as high as this share of s, it makes s.
 SAME = 1e-7
 #: The regimes by number.
 STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(len(REGIMES))
@@ -148,7 +148,7 @@ def towards_centre(C, P, place):
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
-    What grew is tabulated to a share of the tension that makes s: where s is a small difference of large
+    The growth is tabulated to a share of the tension that makes s: where s is a small difference of large
     stresses the table is made again, and the search with it.
     """
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan

@@ -3,7 +3,7 @@
 G = g/δ0 is the depth at which the spring at radius ξ touches (11). The memory diagram lives in a coordinate:
 the depth G, or under prescribed forces the normal force N(ξ) = ∫ ξ dG / ∫_0^{G=1} ξ dG. In a plane contact it
 is the line load, and the density is dN/ds with N in E* δ0, whose value at the mean load is π/4. All of these
-are integrals of one density, a function of s: `swtstudy.kernel.profiles` has those of all profiles.
+are integrals of one density, a function of s: `swtstudy.kernel.profiles` has the densities of all profiles.
 """
 
 from math import pi, sqrt
@@ -311,7 +311,7 @@ def tabulate_profile(
     knots
         Ascending places at which panels end rather than in the middle.
     first_edges
-        Ends of panels beside those of the longest panels.
+        Ends of panels beside the ends of the longest panels.
 
     Returns
     -------

@@ -22,7 +22,7 @@ LONGEST = 0.5
 ENDLESS = 1e300
 #: Waves whose phase kξ exceeds this at the edge of the contact are left out.
 LARGEST_PHASE = 512.0
-#: What waves that are left out change of s, over their slope: s is quadratic in the stress, which goes with
+#: Change of s by waves that are left out, over their slope: s is quadratic in the stress, which goes with
 #: the slope, and as much again comes from the contact.
 CHANGED_BY_SLOPE = 4.0
 #: The density of ξⁿ has no series at the axis: its panels there are halved to this share of a_H.
@@ -85,7 +85,7 @@ def profile_record(profile, shape, in_force, largest, rtol):
 
 
 def _record(plane, in_force, exponent=0.0):
-    """A record without panels; those of pure powers need them for their functionals only."""
+    """A record without panels; pure powers need panels for their functionals only."""
     record = new_record(PROFILE)
     weighted = in_force and not plane
     record["plane"], record["in_force"] = plane, in_force or plane

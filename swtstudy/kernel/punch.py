@@ -31,7 +31,7 @@ from swtstudy.kernel.compiled import jit
 FUNCTIONS, OF_STRIP = 10, 4
 #: Components of the stress, in this order.
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
-#: Smaller squares are those of the edge of the punch itself.
+#: Smaller squares lie at the edge of the punch itself.
 TINY = 1e-300
 
 

@@ -60,7 +60,7 @@ def highest_on_circle(S, B, H, W, G, C, R, P, K, L, Q, radius, largest, known):
 def search_shifted_circles(B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points with a shifted stick zone.
 
-    They are that through the critical point, and that of the edge.
+    They are the circle through the critical point, and the edge.
     """
     for i in range(which.shape[0]):
         out = found[i]

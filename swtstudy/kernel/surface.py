@@ -160,7 +160,7 @@ def hertz(s, x):
 
 @jit
 def strip_hertz(s, x):
-    """T1 and B of the cylinder up to s, in closed form (McEwen), where those of `hertz` are."""
+    """T1 and B of the cylinder up to s, in closed form (McEwen), where `hertz` has its own."""
     if s >= x:
         return np.pi * x, 0.0, 0.5 * np.pi * sqrt((s - x) * (s + x)), 0.0
     return np.pi * s * s / (x + sqrt((x - s) * (x + s))), 0.0, 0.0, 0.0

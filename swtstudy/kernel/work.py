@@ -94,7 +94,7 @@ ENOUGH = 1e-8
 OF_CHANGE, LEAST_ERROR, ROUNDING = 6.0, 1e-8, 4e-16
 #: Contact is lost where the normal force is below this share of its largest value.
 LOST = 1e-9
-#: Steps of a stretch of time between which the largest force ratio is looked for, those of a closer look,
+#: Steps of a stretch of time between which the largest force ratio is looked for, steps of a closer look,
 #: how often there is one, and how far below the largest sample a stretch is still looked at closely.
 STEPS, CLOSE_STEPS, LOOKS, BELOW = np.int64(16), np.int64(8), 2, 0.01
 #: Series of what grew in stick, relative to dv/dn.

@@ -72,7 +72,7 @@ class LoadPath(Loop):
         name
             Its name.
         loads
-            As ``vertices``, with the normal load itself in the place of its deviation.
+            As ``vertices``, with the normal load itself instead of its deviation.
         """
         found = _checked(loads, checked_name(name))
         mean = float(found[:, 0].mean())

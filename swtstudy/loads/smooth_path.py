@@ -17,7 +17,7 @@ from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal
 ROUNDING = 1e-12
 #: Instants at which a loop is drawn.
 DRAWN = 721
-#: Highest harmonic of a loop: that of the frequency ratio of two.
+#: Highest harmonic of a loop, as for the frequency ratio of two oscillations.
 HIGHEST_ORDER = 64
 #: Samples of a function for its harmonics.
 SAMPLES = 1024

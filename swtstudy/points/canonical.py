@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
 
-#: What a user has defined, by its code.
+#: Definitions of the user, by code.
 Definitions = Mapping[int, Definition]
 
 
@@ -74,7 +74,7 @@ NUMBERS = (*_numbers("load"), *_OTHERS)
 #: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 _INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
-#: What rows are made of: a stick zone that stays has a strain share of 0.
+#: Columns of the rows: a stick zone that stays has a strain share of 0.
 GIVEN_COLUMNS = (*COLUMNS, SHIFT)
 #: A canonical point, in an array: a number for each of these names.
 ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name in COLUMNS])
@@ -133,7 +133,7 @@ def _make_profiles_canonical(table: Table) -> None:
             same = (profile == code_of(family.name)) & (table[name] == value)
             profile[same] = code_of(PLAIN_OF[family.geometry])
     for code in np.unique(profile):
-        # What the user has defined has no shape parameters.
+        # Profiles that the user has defined have no shape parameters.
         shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
         for name in {*SHAPE_COLUMNS} - {*shape}:
             table[name][profile == code] = 0.0
@@ -197,7 +197,7 @@ class Distinct:
     mirrored
         Shape (grid.size,): True where x is mirrored with respect to that point.
     definitions
-        What the user has defined, by its code.
+        Definitions of the user, by code.
     """
 
     rows: Table
@@ -214,7 +214,7 @@ class Distinct:
             raise ValueError(f"{found}; swtstudy audit samples them")
         places = np.arange(grid.size) if places is None else places
         rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
-        # In slabs: the working memory for a point is several times that of its row.
+        # In slabs: a point's working memory is several times its row.
         for start in range(0, len(places), _SLAB):
             some = slice(start, start + _SLAB)
             rows[some], mirrored[some] = grid.canonical(places[some])
@@ -268,7 +268,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     table
         Shape (n,) of `ROW`.
     definitions
-        What the user has defined, by its code.
+        Definitions of the user, by code.
     """
     from swtstudy.loads.loop import Loop
     from swtstudy.solver.points import Points

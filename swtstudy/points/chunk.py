@@ -35,9 +35,9 @@ class Chunk:
     places
         Shape (n,): where the points are in the table of the run.
     points
-        What they are.
+        The points' parameters.
     asked
-        What is asked of them beside s; distances in a_H.
+        The quantities beside s; distances in a_H.
     """
 
     places: IndexArray
@@ -55,7 +55,7 @@ class Chunk:
 
 
 def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
-    """Places of the wanted points of a table, cut into chunks, those of long cycles first.
+    """Places of the wanted points of a table, cut into chunks, long cycles first.
 
     So no worker waits for another's.
 
@@ -66,7 +66,7 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     wanted
         Shape (len(points.rows),): the points to be solved.
     asked
-        What is asked of them beside s.
+        The quantities beside s.
     """
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]

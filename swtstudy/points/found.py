@@ -18,7 +18,7 @@ from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
 
 #: Arrays of shape (n, …) by name.
 Arrays = dict[str, NDArray[Any]]
-#: Names of arrays whose second axis is that of the critical distances.
+#: Names of arrays whose second axis is the critical distance.
 _OF_DISTANCE = {"distance", *(name for row in NONLOCAL.values() for name in row.variables)}
 
 
@@ -39,7 +39,7 @@ class Run:
     started
         Date and time of its first result, ISO 8601.
     quantities
-        What its points have beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
+        The variables of its points beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
     seconds
         Time that it has taken to compute what an archive has of it.
     """
@@ -152,7 +152,7 @@ def join(parts: Iterable[Found]) -> Found:
 def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
     """Index of the values of every point of a table, -1 if there are none, shape (len(rows),).
 
-    Of several candidates for one point a computed one is preferred to a failed one, then the one with most
+    A computed candidate for a point is preferred to a failed one, then the one with most
     quantities, then the most accurate one, then the latest.
     """
     index = np.flatnonzero(candidates)

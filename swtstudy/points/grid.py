@@ -129,7 +129,7 @@ class Grid:
         columns, control = self.columns(places), self.control
         code = control_code(np.array(control.normal_force), np.array(control.tangential_force))
         columns |= {"control": code, "profile": np.broadcast_to(columns["profile"], len(places))}
-        # What does not scale a loop does not matter for it.
+        # Parameters that do not scale a loop do not matter for it.
         name = "bulk_stress_amplitude"
         if idle := [loop.code for loop in self.loops if name not in loop.scaled_by]:
             columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
@@ -224,7 +224,7 @@ def _code(name: str, value: Value) -> float:
 def complete(fixed: dict[str, Value], axes: NamedValues, samples: NamedValues | None = None) -> Grid:
     """A grid with defaults for every parameter that is not given, nor one in its place.
 
-    These are those of Table 1, but for the amplitudes that scale loops, which are 1.
+    They are taken from Table 1, but for the amplitudes that scale loops, which are 1.
     """
     samples, given = samples or {}, {*fixed, *axes, *(samples or {})}
     given |= replaced_by(given)

@@ -42,18 +42,18 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     grid
         Names and values of the dimensions.
     arrays
-        Data variables by name, each of shape (grid.size, …) in C order, or that of the grid; quantities over
+        Data variables by name, each of shape (grid.size, …) in C order, or the grid's shape; quantities over
         critical distances have these next.
     asked
-        What was asked beside s.
+        The quantities beside s.
 
     Returns
     -------
     xarray.Dataset
         With units, if the grid is one of real contacts.
         Dimensions in the order of the grid's; single-valued parameters are scalar coordinates, but for
-        optional ones at their default; those of a sample are coordinates along its dimension, which numbers
-        its points. The coordinate ``control`` says what is prescribed.
+        optional ones at their default; parameters of a sample are coordinates along its dimension, which
+        numbers its points. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
         name: (grid.dimension(name), _values(values), _attributes(grid.row(name), values))
@@ -125,9 +125,9 @@ def turned(
     cycles: NDArray[Any] | float,
     per_cycle: np.ufunc = np.multiply,
 ) -> dict[str, NDArray[Any]]:
-    """Values of points from those of distinct points; and back, with ``np.divide``.
+    """Values of points from values of distinct points; and back, with ``np.divide``.
 
-    Where a point is mirrored, places and angles have the other sign; what counts per load cycle is that of
+    Where a point is mirrored, places and angles have the other sign. A load cycle lasts for
     the common period of the point's own frequencies. + 0.0 removes the sign of zero.
     """
     found = dict(arrays)

@@ -36,7 +36,7 @@ from swtstudy.vocabulary.quantities import DISTANCE
 #: An angle beyond so many rad is probably meant in degrees.
 MANY_TURNS = 8.0 * math.pi
 
-#: What the user has defined, by parameter and name.
+#: Definitions of the user, by parameter and name.
 Known = Mapping[str, Mapping[str, Definition]]
 NOTHING_KNOWN: Known = {}
 
@@ -58,7 +58,7 @@ class Range:
     also: Sequence[object] = ()
 
 
-#: What is given along axes, by name; None for one that is wrong, which is reported elsewhere.
+#: Values along axes, by name; None for a wrong one, which is reported elsewhere.
 GivenAxes = Mapping[str, Sequence[object] | Range | None]
 
 
@@ -87,7 +87,7 @@ def read_grid(
     samples
         Checked values of the sampled parameters; None for those whose mistake is already reported.
     known
-        What the user has defined, by parameter and name.
+        Definitions of the user, by parameter and name.
 
     Returns
     -------

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from swtstudy.loads.loop import Loop
     from swtstudy.vocabulary.arrays import FloatArray, Shape
 
-#: What scales the columns of a loop.
+#: Parameters that scale the columns of a loop.
 AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
 #: Largest load of a loop over the mean one: at 1e12 of them s has an error of 1 %.
 LARGEST_LOAD = 1e9
@@ -85,7 +85,7 @@ def check_forces(given: Iterable[str], good: Mapping[str, Sequence[Any]], report
 
 
 def check_amplitudes(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
-    """An amplitude that is not given is 1 for a loop, and that of Table 1 for two oscillations.
+    """An amplitude that is not given is 1 for a loop, and Table 1's for two oscillations.
 
     Parameters
     ----------

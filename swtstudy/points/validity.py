@@ -39,9 +39,9 @@ class Limit(NamedTuple):
     variable, largest
         Its name, and the limit.
     words, value
-        What is beyond the limit, and what the variable is.
+        Words for a point beyond the limit, and for the variable.
     short, of
-        What the limit is, and what the variable is a share of, in a word or two.
+        Words for the limit, and for the whole of which the variable is a share.
     consequence
         On which side of the truth s is beyond it, and by how much; nothing if that is not known.
     """
@@ -201,7 +201,7 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     force = float(_values(dataset, name).flat[int(ratio.argmax())])
     if not has_units(dataset):
         return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
-    # Of a contact without names of units the numbers have none.
+    # The numbers of a contact without names of units have no unit.
     unit = unit_words(dataset[name].attrs.get("units", ""))
     return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
 
@@ -249,7 +249,7 @@ def _above_line(dataset: xr.Dataset) -> xr.DataArray:
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
-    """Points with lives beyond those of which constants are known."""
+    """Points with lives beyond the range of their constants."""
     beyond: dict[str, BoolArray] = {}
     lines = []
     for name in map(str, dataset.data_vars):

@@ -152,7 +152,7 @@ def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
 
 
 def amplitudes_of(loads: Iterable[object]) -> set[str]:
-    """Names of the amplitudes that scale those of some loads that are loops."""
+    """Names of the amplitudes that scale some of the loads that are loops."""
     return {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
 
 
@@ -164,9 +164,9 @@ def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition
     parameter
         Row of the table of parameters.
     raw
-        What the user wrote.
+        The value that the user wrote.
     known
-        What the user has defined, by name.
+        Definitions of the user, by name.
 
     Returns
     -------

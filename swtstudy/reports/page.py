@@ -67,7 +67,7 @@ _COORDINATES, _LONG = re.compile(rb' (?:d|x|y|x1|x2|y1|y2|points)="[^"]*"'), re.
 _SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
 #: Most rows of a table of extrema, and values of an axis that are listed one by one.
 _ROWS, _LISTED = 12, 8
-#: What the figures of a sample are over.
+#: The horizontal axis of the figures of a sample.
 _SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
 
 

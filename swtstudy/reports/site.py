@@ -38,7 +38,7 @@ class Entry(NamedTuple):
     title
         Title of its study.
     sentence
-        What matters most in it, HTML.
+        The headline, HTML.
     picture
         A thumbnail; None for a study without a figure.
     """

@@ -65,7 +65,7 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
     """Index of a value along its coordinate; 0, and a mistake, if the results lack it."""
     name, known = str(there.name), np.atleast_1d(there.values).tolist()
     meanings = str(there.attrs.get("flag_meanings", "")).split()
-    # What has a name, such as a body, by its number; a name with blanks, as in figures, as it is typed.
+    # Values with a name, such as a body, by their number; a name with blanks, as in figures, as it is typed.
     word = "_".join(raw.split()) if isinstance(raw, str) else ""
     if word in meanings:
         raw = int(there.attrs["flag_values"][meanings.index(word)])
@@ -204,7 +204,7 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
 
 
 def dims_beside(dataset: xr.Dataset) -> list[str]:
-    """Dimensions that only some columns have, which make several columns of these in the place of more rows.
+    """Dimensions that only some columns have, which make several columns of these, not more rows.
 
     The directions of nonlocal values; the bodies, where only what they are made of differs.
     """

@@ -1,4 +1,4 @@
-"""The critical distance, and friction, with which lives fit those of tests, run-outs among them."""
+"""The critical distance, and friction, with which lives fit tests, run-outs among them."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 LIFE, RUNOUT = "life", "runout"
 #: Marks of a run-out, and of a test that ended with a crack.
 YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "")
-#: Ratio of a name of a column to that of a parameter from which it is a misspelling (difflib).
+#: Likeness of a column's name to a parameter's name from which it is a misspelling (difflib).
 MISSPELT = 0.8
 #: log10 of a life that counts as unbounded, for tests that survived.
 UNBOUNDED = 20.0
@@ -73,7 +73,7 @@ def fit(
     friction: bool = False,
     confidence: float = 0.95,
 ) -> xr.Dataset:
-    """The critical distance with which predicted lives are nearest to those of tests.
+    """The critical distance with which predicted lives are nearest to the tests' lives.
 
     Maximum likelihood with normally distributed log10 N: least squares of log10 of predicted over observed
     life if all tests ended with a crack. The life of a run-out is known to be above its number of cycles: it
@@ -246,7 +246,7 @@ def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) 
 
 
 def _bounded(lives: FloatArray, runout: BoolArray) -> FloatArray:
-    """log10 of lives, (n, k), where those of tests that survived may be unbounded."""
+    """log10 of lives, (n, k), where lives of tests that survived may be unbounded."""
     return np.where(runout[:, None], np.minimum(lives, UNBOUNDED), lives)
 
 
@@ -278,7 +278,7 @@ def _asked(distances: FloatArray) -> Request:
 
 
 def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
-    """The fit as a Dataset; the scatter is that of the likelihood, which is lower than the sample's."""
+    """The fit as a Dataset; the scatter comes from the likelihood and is lower than the sample's."""
     residuals, runout, grid = tests.residuals(best[:-1]), tests.runout, tests.grid
     cracked = int((~runout).sum())
     freedom = cracked - len(best) + 1
@@ -333,7 +333,7 @@ def _read(
 def _observed(
     columns: Mapping[str, Sequence[object]], parameters: int, report: Report
 ) -> tuple[list[float], list[bool]]:
-    """The lives, and whether each is that of a run-out; mistakes in both columns are reported."""
+    """The lives, and whether each is a run-out; mistakes in both columns are reported."""
     given = list(columns.get(LIFE, []))
     if not given:
         names = ", ".join(columns)

@@ -251,7 +251,7 @@ def _neighbours(points: FloatArray, distance: float) -> tuple[FloatArray, FloatA
 def lowest_of(planes: Planes, centre: FloatArray, value: float, distance: float) -> Iterator[FloatArray]:
     """The lowest points of the highest of planes, within distances of the centre along each axis.
 
-    No plane is taken to be above the value at the centre, as those of a curve that bends down may be.
+    No plane is taken to be above the value at the centre, as the tangents of a curve that bends down may be.
     """
     from scipy.optimize import linprog
 
@@ -473,7 +473,7 @@ def _neighbourhood(
     )
 
 
-#: What is looked for, and the sign that makes it the least of something.
+#: Goals, and the sign that makes each the least of something.
 CASES = {"best": 1, "worst": -1}
 
 

@@ -118,7 +118,7 @@ class Job:
         finished(self.study, self.path, dataset)
 
     def _known(self) -> xr.Dataset | None:
-        """The archive, if it is that of exactly this study and nothing had to be done."""
+        """The archive, if exactly this study wrote it and nothing had to be done."""
         from swtstudy.archive.netcdf import read_archive
         from swtstudy.archive.parts import clear_parts, read_parts
 

@@ -38,7 +38,7 @@ def run(
 ) -> xr.Dataset:
     """Compute a study and write its archive to ``path``.
 
-    What is finished is saved beside the archive within a second, or within a hundredth of the time of a long
+    Finished points are saved beside the archive within a second, or within a hundredth of the time of a long
     run. A run that was killed continues where it was, and points that an archive at ``path`` already has are
     not computed again. Results for points that are no longer in the study are kept in a folder beside the
     archive, ``figure3.nc.kept``, and used again by a study that has them.
@@ -110,7 +110,7 @@ def run_suite(
     formats
         Formats of the figures: "png", "pdf", "svg".
     width
-        What the figures are made for: "column", "page", or None for a screen.
+        The use of the figures: "column", "page", or None for a screen.
     **options
         Further arguments of `swtstudy.run`.
 
@@ -152,7 +152,7 @@ def run_and_draw(
     done
         Called with every archive once its figure is drawn; not always in this thread.
     width
-        What the figures are made for, as for `swtstudy.accessor.SwtAccessor.figure`.
+        The use of the figures, as for `swtstudy.accessor.SwtAccessor.figure`.
     **options
         Further arguments of `swtstudy.run`.
     """

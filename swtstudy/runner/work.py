@@ -28,11 +28,11 @@ class Work:
     points
         The distinct points of the study.
     asked
-        What it asks of them beside s.
+        The quantities beside s.
     found
-        What is known of these points; a run fills in the others.
+        Known values of these points; a run fills in the others.
     others
-        What is known of points, or of quantities, that the study does not have.
+        Known values of points and quantities that the study does not have.
     outdated, coarse
         Number of points known only from another version of the solver, or only with less accuracy.
     """
@@ -46,12 +46,12 @@ class Work:
 
     @property
     def missing(self) -> BoolArray:
-        """Of which points s is not known, shape (n,)."""
+        """True where s is not known, shape (n,)."""
         return np.asarray(self.found["status"] == MISSING)
 
     @property
     def incomplete(self) -> BoolArray:
-        """Of which points s is known, but not all that is asked, shape (n,): they are computed again."""
+        """True where s is known, but a quantity is not, shape (n,): these points are computed again."""
         return self.found.lacking(self.asked)
 
     @property

@@ -1,4 +1,4 @@
-"""Workers: threads of this process, local processes with one BLAS thread each, or those of a dask cluster.
+"""Workers: threads of this process, local processes with one BLAS thread each, or workers of a dask cluster.
 
 Each kind is used in a with block. It has ``submit`` as an executor has; ``size``, the number of tasks that
 run at the same time; ``lost``, the exceptions of tasks that were lost with a worker; ``gone``, those that say
@@ -38,7 +38,7 @@ Errors = tuple[type[BaseException], ...]
 
 
 def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
-    """Workers of a run: those of a cluster, if there is a client of one."""
+    """Workers of a run: a cluster's workers, if there is a client of one."""
     if client is not None:
         return ClusterPool(client)
     return LocalPool(count) if processes else Workers(count)

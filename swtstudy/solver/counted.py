@@ -30,7 +30,7 @@ POWER = 4.0
 def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
     """Strain cycles in a round of n points with their solution, of shape (n, places, cycles).
 
-    Sizes are those of `COUNTED_SIZES`. ``share`` is SWT of a cycle over the largest SWT, descending at each
+    `COUNTED_SIZES` gives the sizes. ``share`` is SWT of a cycle over the largest SWT, descending at each
     place, and ``number`` how many cycles have it; NaN where there are no more, or no critical plane. Where
     there is a plane but no critical point, s is that far from the contact.
     """
@@ -45,7 +45,7 @@ def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
 
 
 def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
-    """At most so many cycles in the place of many, and how many each stands for.
+    """At most so many cycles instead of many, and how many each stands for.
 
     The largest stays as it is, so that the damage is never less than its own.
 

@@ -3,9 +3,9 @@
 One of them is the shift of the stick zone by the bulk strain, which s has where it is known
 (`swtstudy.kernel.shift`) and leaves out elsewhere. The strain of the body that carries an oscillating bulk
 stress drags its surface under the other body. For a Hertz contact of similar materials a stick circle off
-centre makes a uniform strain, which cancels that of the bulk stress along x if the shift is
+centre makes a uniform strain, which cancels the bulk stress's strain along x if the shift is
 e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A is half the range of the bulk stress, as
-of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ). Both are those of equal moduli; with others
+of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ). Both hold for equal moduli; with others
 the shift goes with the strain of the body that carries the bulk stress over the mean strain of both, under
 equal tractions.
 """
@@ -43,7 +43,7 @@ def margins_of(points: Points) -> Margins:
     -------
     dict
         Arrays of shape (n,). ``contact_radius``: the largest of the cycle in a_H, half the width in plane
-        contacts. ``stick_radius``: that of the permanent stick zone in a_H; NaN where there is none.
+        contacts. ``stick_radius``: radius of the permanent stick zone in a_H; NaN where there is none.
         ``force_ratio``: the largest F_x/(μ F_N) that is prescribed: there is no equilibrium where it is above
         1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
         displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus that limit if the depth is

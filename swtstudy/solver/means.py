@@ -41,7 +41,7 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Kinds of means, and the kernel's.
 KINDS = {"volume": SPHERE, "point": POINT, "line": LINE}
-#: What follows the name of a kind: the mean, its error, and the place that it is about.
+#: Endings of the names of a kind: the mean, its error, and the place that it is about.
 ENDS = ("", "_error", "_x")
 #: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
 #: tolerance of what grew in stick.
@@ -105,7 +105,7 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
             for kind, means in _largest(opened, critical, s, float(each)).items():
                 for end, own in zip(ENDS, means.T, strict=True):
                     found[f"{kind}{end}"][row, k] = own[0] if kind == "volume" else own
-    # Where s is 0, or that of the bulk stress far from the contact, no mean anywhere is larger.
+    # Where s is 0, or the bulk stress alone makes it far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:
         for name, of in ((kind, solution.s), (f"{kind}_error", solution.s_error)):

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from swtstudy.loads.loop import Loop
     from swtstudy.profiles.table import AnyProfile
 
-#: What points have unless it is given.
+#: Values that points have unless they are given.
 _UNLESS_GIVEN = {
     "walker_exponent": 0.5,
     "normal_sensitivity": 0.0,
@@ -37,17 +37,17 @@ class Points(Columns):
         Name of the profile, a key of `swtstudy.vocabulary.choices.FAMILIES`, or the table of one.
     poisson_ratio, friction, normal_amplitude, tangential_amplitude, phase
         Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; the phase in rad. The amplitudes are
-        those of forces where `control` says so.
+        forces where `control` says so.
     p, q
         Shape (n,), integers: ω2/ω1 = p/q in lowest terms.
     shape
         Shape parameters κ_i of the profile, each of shape (n,).
     control
-        What is prescribed.
+        The prescribed motion: displacements or forces.
     path
         The loop that the load runs through; None for the two harmonic oscillations.
     criterion
-        Of which s is the largest value, a key of `swtstudy.vocabulary.choices.CRITERIA`.
+        The criterion whose largest value is s, a key of `swtstudy.vocabulary.choices.CRITERIA`.
     walker_exponent
         Shape (n,), of SWT; 1/2 unless given.
     normal_sensitivity

@@ -25,14 +25,14 @@ def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[st
     points
         n points of one profile family and control.
     asked
-        What is asked; distances in a_H.
+        The quantities asked for; distances in a_H.
     solution
         Their solution.
 
     Returns
     -------
     dict
-        By data variable, of shape (n, …) with the row's own dimensions, that of the distances first; NaN
+        By data variable, of shape (n, …) with the row's own dimensions, the distances first; NaN
         where there is no cycle, and the nonlocal ones where s is not finite.
     """
     made: dict[str, FloatArray] = {}

@@ -78,7 +78,7 @@ def _beside_face(opened: Opened, ring: float) -> FloatArray:
 
 def _around_axis(opened: Opened, radius: FloatArray, depth: FloatArray) -> FloatArray:
     """Places at all angles that matter, shape (m, 3)."""
-    # Half a cycle later the stress of a mirrored load is that of the other side.
+    # Half a cycle later the stress of a mirrored load is the stress of the other side.
     angle = np.linspace(0.0, np.pi, 2 if opened.profile["plane"] else ANGLES)
     angle = angle[: (len(angle) + 1) // 2] if opened.load["mirrored"] else angle
     r, θ, z = (each.ravel() for each in np.meshgrid(radius, angle, depth, indexing="ij"))

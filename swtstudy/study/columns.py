@@ -201,7 +201,7 @@ def read_table(
     known
         Further columns that it may have, which tell its separator.
     form
-        What is given of its form.
+        Its form, as far as it is given.
     most
         Largest number of rows.
 

@@ -50,7 +50,7 @@ class Study:
     rtol
         Relative accuracy asked of s.
     asked
-        What is asked beside s.
+        The quantities beside s.
     figure
         Layout of the figure, or None.
     text
@@ -315,7 +315,7 @@ def _every_name() -> set[str]:
     return {*NAMES, *EVERY_VARIABLE}
 
 
-#: What a study has that is nothing of one contact.
+#: Parts of a study that no single contact has.
 _OF_STUDIES = ("axes", "sample", "figure", "blocks", "quantities")
 
 
@@ -329,16 +329,16 @@ def one_of_study(
     path
         The study file, or the name of a study of the paper.
     values
-        Its parameters, over those of the study; the profile may be a CSV file.
+        Its parameters, which replace the study's; the profile may be a CSV file.
     smoothing
-        Of a profile that is a table, over that of the study.
+        Smoothing of a profile that is a table; it replaces the study's.
     at_rest
         Whether only the contact at rest counts: then axes that do not change it need no value.
 
     Returns
     -------
     Grid
-        Of one value of each parameter: a `PhysicalGrid`, but for both bodies, if the study has units.
+        One value of each parameter: a `PhysicalGrid`, but for both bodies, if the study has units.
 
     Raises
     ------
@@ -409,7 +409,7 @@ def _firsts_of_sample(parts: Parts, folder: Path) -> dict[str, object]:
 def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     """The studies by path, each file once.
 
-    Each path is that of a file or of a folder of files, or the name of a study of the paper, such as
+    Each path leads to a file or a folder of files, or is the name of a study of the paper, such as
     "figure3".
 
     Raises

@@ -23,14 +23,14 @@ SAMPLE_KINDS = ("scatter", "histogram")
 LINE_KINDS = ("lines", "life")
 #: Kinds of surfaces over x and vertical.
 SURFACES = ("contour", "heatmap")
-#: Kinds of figures: lines, a surface over x and vertical, or those of a sample.
+#: Kinds of figures: lines, a surface over x and vertical, or figures of a sample.
 Kind = Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
 
-#: What else a figure may show.
+#: Further parts of a figure.
 QUANTITY = '"s/s(name=value)"'
 
 
@@ -63,7 +63,7 @@ class FigureLayout:
     validity
         Whether to mark the points that are outside of what the model holds for.
     caption
-        What there is to say beneath it, in reports; or None.
+        Words beneath it, in reports; or None.
     message
         The headline of reports, in place of what the results say first; or None.
     """
@@ -172,7 +172,7 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {named}'
 
 
-#: What is allowed in the place of the name of an axis where there is none.
+#: Words for allowed values where there is no axis to name.
 NO_AXIS = "no figure of a single point: a parameter with several values is an axis"
 
 
@@ -188,7 +188,7 @@ def wrong_axes(
     sizes
         Number of values of each axis; None if not known.
     of
-        What has these axes, in words, for messages.
+        The owner of these axes, in words, for messages.
     """
     for role, name in layout.roles():
         if name not in sizes:
@@ -200,7 +200,7 @@ def wrong_axes(
     lacks_vertical = layout.kind in SURFACES and layout.vertical is None
     placed = {name if name in sizes else meant(name, sizes) for name in names} - {None}
     lacking = [name for name in sizes if name not in placed and name in (*AXES, SAMPLE)]
-    # A place whose mistake is said already may be that of an axis without one.
+    # A place whose mistake is said already may name an axis without one.
     for name in lacking if len(lacking) > len(names) + lacks_vertical - len(placed) else ():
         allowed = "every axis as x, hue, vertical or panels, or with a single value"
         allowed += f", such as by --at {name}=…" * (of == "these results")
@@ -226,7 +226,7 @@ def check_figure(
     grid
         The grid, to look up the places used for normalisation; None if it has mistakes itself.
     asked
-        What the study asks for beside s.
+        The study's quantities beside s.
     report
         Called with key, found and allowed of each mistake.
     unsure

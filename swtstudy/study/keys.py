@@ -39,7 +39,7 @@ class Allowed:
     words
         The words.
     whole
-        Whether the mistakes of its parts are one mistake, that of the key.
+        Whether the mistakes of its parts are one mistake of the key.
     """
 
     words: str

@@ -23,7 +23,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 
-#: What may be said beside what defines a loop.
+#: Keys beside the definition of a loop.
 _BESIDE = {
     "vertices": ("absolute", "mean_normal"),
     "normal": ("mean_normal",),
@@ -40,7 +40,7 @@ def read_definitions(
 ) -> dict[str, dict[str, Definition]]:
     """The loops and profiles of a study, by parameter and name; mistakes are reported.
 
-    What is wrong stands for any: that it is used is no mistake of its own.
+    A wrong definition stands for any: its use is no mistake of its own.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def read_definitions(
 def _read_load(
     name: str, table: LoadTable, folder: Path, parts: Parts, report: Report
 ) -> dict[str, Definition]:
-    """The loop of a table, and those of cycles that are kept; none with mistakes, which are reported."""
+    """The loop of a table, and the loops of cycles that are kept; none with mistakes, which are reported."""
     key, own = f"loads.{name}", _given(table)
     kinds = [each for each in ("vertices", "file", *COLUMNS, BULK) if each in own]
     if kinds not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
@@ -182,7 +182,7 @@ def profile_from(
 
 
 def read_blocks(raw: Mapping[str, Any], parts: Parts, names: Iterable[str], report: Report) -> list[Block]:
-    """The blocks of a study, those of a signal that keeps its cycles one by one; mistakes are reported.
+    """The blocks of a study, or of a signal that keeps its cycles one by one; mistakes are reported.
 
     Parameters
     ----------
@@ -212,5 +212,5 @@ def read_blocks(raw: Mapping[str, Any], parts: Parts, names: Iterable[str], repo
 
 
 def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
-    """Which of the names are those of cycles that are kept of a load."""
+    """The names that stand for kept cycles of a load."""
     return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]

@@ -37,7 +37,7 @@ ALLOWED_POINTS = "a CSV file: a row with names of parameters, then a row with th
 ALLOWED_RANGE = (
     'both ends, [low, high], or a table such as {distribution = "normal", mean = …, deviation = …}'
 )
-#: What each distribution is given by, beside its bounds; the bounds of the last ones may be left out.
+#: Parameters of each distribution beside its bounds; the bounds of the last ones may be left out.
 DISTRIBUTIONS: dict[str, tuple[str, ...]] = {
     "uniform": (),
     "triangular": ("mode",),
@@ -67,7 +67,7 @@ class Design:
     name
         One of `swtstudy.study.keys.DESIGNS`.
     size
-        Number of points; for "saltelli" that of its base, of which it has d + 2 variants.
+        Number of points; for "saltelli" the points of its base, of which it has d + 2 variants.
     seed
         Seed of the random numbers.
     """
@@ -126,9 +126,9 @@ class Distribution:
     Attributes
     ----------
     kind
-        One of `DISTRIBUTIONS`; the deviation of "lognormal" is that of the natural logarithm.
+        One of `DISTRIBUTIONS`; the deviation of "lognormal" is a deviation of the natural logarithm.
     given
-        What it is given by.
+        Its parameters.
     low, high
         Bounds.
     """
@@ -203,7 +203,7 @@ def read_sample(
     report
         Called with key, found and allowed of each mistake.
     known
-        What the user has defined, by parameter and name.
+        Definitions of the user, by parameter and name.
     rows
         The parameters that may be sampled.
     contacts

@@ -121,7 +121,7 @@ def _range_of(parameter: Parameter) -> dict[str, Any]:
 def _value(parameter: Parameter) -> dict[str, Any]:
     """Schema of one value of a parameter: a number in its range, or a text that stands for one.
 
-    What has a unit in a study with units has its range in `_without_units`.
+    `_without_units` has the ranges of parameters that have a unit in a study with units.
     """
     entry: dict[str, Any] = {"description": _description(parameter)}
     if parameter.default is not None:

@@ -30,7 +30,7 @@ OTHERS = "Others"
 
 
 def in_groups(names: Iterable[str]) -> dict[str, list[str]]:
-    """Names of studies by group; those of no group last."""
+    """Names of studies by group; studies without a group last."""
     names = list(names)
     known = [name for group in GROUPS.values() for name in group]
     found = {group: [name for name in own if name in names] for group, own in GROUPS.items()}
@@ -44,7 +44,7 @@ def shipped_folder() -> Path:
 
 
 def shipped_studies() -> dict[str, Path]:
-    """Paths of the studies by name, such as "figure3": those of the paper, then those for the audit."""
+    """Paths of the studies by name, such as "figure3": the paper's studies, then the audit's."""
     folder = shipped_folder()
     return {
         path.stem: path for path in [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]

@@ -31,7 +31,7 @@ FEWEST_CYCLES = 3
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
-#: What a column is, with units.
+#: Kinds of columns, with units.
 KINDS = {"normal": "force", "tangential": "force", "bulk": "stress"}
 
 
@@ -189,7 +189,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     path
         The file.
     name
-        Name of the loop; that of the file unless given.
+        Name of the loop; the file's name unless given.
     columns
         Headers of the columns ``normal``, ``tangential`` and, optionally, ``bulk``, where they are not these
         words.
@@ -200,7 +200,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         Between cells (",", ";", a tab, "|", or a blank for any number of blanks) and in numbers ("." or ",");
         found from the file unless given.
     encoding
-        Of the text, UTF-8 unless given.
+        Encoding of the text, UTF-8 unless given.
     scale
         Factors of columns, such as ``{"normal": 1000}`` for kN.
     skip_rows, units_row
@@ -225,7 +225,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     Returns
     -------
     Signal
-        Its ``loop`` is a value of ``load``; ``loops`` are those of its cycles one by one.
+        Its ``loop`` is a value of ``load``; ``loops`` are its cycles one by one.
 
     Raises
     ------

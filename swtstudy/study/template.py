@@ -26,7 +26,7 @@ def template(title: str) -> str:
 
 def template_with_units(title: str) -> str:
     """The text of a study of real contacts, with every parameter that is not used as a comment."""
-    # Symbols and notes are those of parameters without units.
+    # Symbols and notes belong to parameters without units.
     known = {name: replace(row, note="", symbol="") for name, row in rows(Units("mm", "N", "MPa")).items()}
     return _filled("template_with_units.toml", title, known)
 

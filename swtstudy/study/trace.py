@@ -23,7 +23,7 @@ COLUMNS = ("position", "height")
 MIDDLES, MOST_SAMPLES = 41, 1000
 #: Share of the distance to the nearer end by which the middle is searched around a first estimate.
 NEAR = 0.2
-#: Misfit over the rise that is not told from none: that of the spline itself.
+#: Misfit over the rise that is not told from none: the spline's own.
 FINEST = 1e-4
 #: Knots of the even spline whose residuals tell outliers: their spacing is wider than a grain of dust.
 KNOTS = 14
@@ -67,7 +67,7 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     path
         The file, a table with a header in a text file or a workbook.
     name
-        Name of the profile; that of the file unless given.
+        Name of the profile; the file's name unless given.
     level
         Whether to take off the tilt that makes both sides most alike. An offset is always taken off.
     smoothing, geometry
@@ -360,7 +360,7 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float, even: _Ev
     floor = 1e-6 * np.ptp(height)
     limits = [OUTLIER * max(float(np.median(np.abs(v[known]))) / 0.6745, floor) for v in (residual, differs)]
     out = known & (np.abs(residual) > limits[0]) & (np.abs(differs) > limits[1])
-    # Of two samples opposite the one nearer to the spline is sound.
+    # The one of two opposite samples that is nearer to the spline is sound.
     out &= np.abs(residual) >= 0.5 * np.abs(differs)
     return out if out.mean() < MOST_OUTLIERS else np.zeros(len(position), bool)
 

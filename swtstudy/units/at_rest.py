@@ -68,7 +68,7 @@ class Moduli:
         return (unlike[0] - unlike[1]) * self.normal / 4.0
 
     def swt_share(self, body: int) -> float:
-        """SWT of a body over that of the half-space with E*, under the same stress: (1 − ν²) E*/E.
+        """SWT of a body over SWT of the half-space with E*, under the same stress: (1 − ν²) E*/E.
 
         The solver's half-space has E = (1 − ν²) E*; of two equal bodies each has half of its SWT.
         """
@@ -103,7 +103,7 @@ class Contact:
     Attributes
     ----------
     moduli
-        Of the two bodies.
+        One of each body.
     radius
         R; of a power law f = rⁿ/(n Rⁿ⁻¹); None for a table.
     depth
@@ -113,7 +113,7 @@ class Contact:
     profile
         Name of a family, or a table, whose radii and heights are lengths.
     shape
-        What its profile has of flat_radius b, waviness_amplitude h and wavelength λ, lengths, and exponent n.
+        Its profile's flat_radius b, waviness_amplitude h and wavelength λ, lengths, and its exponent n.
     contact_length
         Length of a plane contact across its section; None for loads per length, and for a disc.
     """
@@ -159,7 +159,7 @@ class Contact:
     def normal_force(self) -> float:
         """Force at the mean depth δ0, 2 E* ∫ (δ0 − g) dξ over the springs.
 
-        Of a strip (π/4) E* δ0 per length, times the length if there is one.
+        For a strip (π/4) E* δ0 per length, times the length if there is one.
         """
         across = (self.contact_length or 1.0) if self.plane else self.length_scale
         return self.force_factor * self.moduli.normal * self.depth * across

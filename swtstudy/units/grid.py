@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
     from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 
-#: What a contact at rest depends on, and its slip with it.
+#: Parameters on which a contact at rest and its slip depend.
 AT_REST_NAMES = (
     *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
     *("contact_length", *SHAPE_COLUMNS),
@@ -98,7 +98,7 @@ class ContactDetails:
     units
         Labels of the units.
     pairs
-        What differs from body to body of `OF_BODIES`, which is not among the fixed values then.
+        Properties in `OF_BODIES` that differ from body to body; they are not among the fixed values.
     materials
         Constants of both bodies; none if cycles are not asked for.
     similar
@@ -108,13 +108,13 @@ class ContactDetails:
     blocks
         The sequence of loads of which Miner's sum is made; none if it is not asked for.
     yield_strengths
-        Of both bodies; none if they are not given.
+        One of each body; none if they are not given.
     body_names
-        What both are called; none if they are 1 and 2 alone.
+        Names of both bodies; none if they are 1 and 2 alone.
     shear_materials
         Constants of both bodies in torsion; none if they are estimated from the others.
     findley_limits
-        What the Findley stress of each body is compared with; none if they are not given.
+        Limits of the Findley stress of each body; none if they are not given.
     scatter
         Draws of the constants; None if these are single values.
     """
@@ -143,7 +143,7 @@ class ContactsAtRest:
     contacts
         An array of `Contact` over these dimensions; None where there is none.
     wrong
-        What is wrong with contacts, and the values of theirs: the first ones.
+        Mistakes of contacts, and the values there: the first ones.
     """
 
     dims: tuple[str, ...]
@@ -328,7 +328,7 @@ class PhysicalGrid(ContactDetails, Grid):
         return least, largest
 
     def of_both(self, name: str) -> list[tuple[float, float]]:
-        """The values of a property of both bodies: that of each, or all that are of both."""
+        """The values of a property: one of each body, or all that both share."""
         alike = ((as_number(value),) * 2 for value in self.values(name))
         return [self.pairs[name]] if name in self.pairs else [*alike]
 
@@ -396,14 +396,14 @@ class PhysicalGrid(ContactDetails, Grid):
 
     @property
     def _strain_share(self) -> xr.DataArray:
-        """The same over the dimensions that it depends on: that of the body with the bulk stress."""
+        """The same for the body with the bulk stress, over the dimensions that it depends on."""
         body = self.bulk_stress_body
         share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
         if not self.values("body"):
             return share
 
         def over_own(contact: Contact) -> float:
-            """Number of the other body over that of this one, by which a shift in `a_H` is divided."""
+            """Number of the other body over the number of this one, by which a shift in `a_H` is divided."""
             of_both = [1.0 if contact.plane else (1.0 + ν) * (4.0 - 3.0 * ν) for ν in contact.moduli.poisson]
             return of_both[1 - body] / of_both[body]
 

@@ -19,7 +19,7 @@ from swtstudy.vocabulary.quantities import COUNTED_SIZES
 #: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
 #: the last step of a logarithm, whose square is beyond rounding.
 _STEPS, _ROUNDING = 60, 1e-9
-#: What a life is one of, in comments of data variables.
+#: Words for the basis of a life, in comments of data variables.
 ROUNDS = (
     "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
     "counted in a round"
@@ -86,7 +86,7 @@ class FatigueConstants:
 
         A round of a load may have several: `rounds` counts these.
 
-        The SWT of a contact is that of its worst point, in a field that falls off within a fraction of the
+        The SWT of a contact is taken at its worst point, in a field that falls off within a fraction of the
         contact radius. Such a strictly local criterion gives very conservative lives: better ones come from
         averages over a volume, or from a critical distance (`swtstudy.solve` with critical_distance), whose
         size depends on the material. The SWT parameter also has one fixed sensitivity to the mean stress,
@@ -118,7 +118,7 @@ class FatigueConstants:
     def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
 
-        Of several places and planes that with the largest sum counts.
+        The place and plane with the largest sum count.
 
         Parameters
         ----------
@@ -170,7 +170,7 @@ def lives(level: FloatArray, slopes: FloatArray, value: FloatArray, *counted: Fl
     Returns
     -------
     array
-        Of the shape of ``value``, behind that of the draws.
+        Shape: the draws' shape, then the shape of ``value``.
     """
     of_draws = level.shape[:-1]
     level, slopes, flat = level[..., None, :], slopes[..., None, :], value.reshape(-1)
@@ -209,7 +209,7 @@ def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray
     x = np.max(-level / slopes, axis=-1)
     known = np.isfinite(x)[..., None]
     for _ in range(_STEPS):
-        # Of both terms over the value the larger one is near 1: nothing overflows.
+        # The larger one of both terms over the value is near 1: nothing overflows.
         terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
         total = terms.sum(axis=-1)
         step = np.log(total) * total / (terms * slopes).sum(axis=-1)

@@ -36,7 +36,7 @@ LOAD_RATIO = "load_ratio"
 #: Above which von Mises stress it yields; and what the Findley stress is compared with.
 STRENGTH, LIMIT = "yield_strength", "findley_limit"
 _YOUNG, _MODULUS = "young_modulus", "shear_modulus"
-#: Properties by their keys; both moduli are those of the body unless they are given.
+#: Properties by their keys; both moduli are the body's unless they are given.
 PROPERTIES = {
     _YOUNG: Property(_STRESS, "Young's modulus of the constants, if it is not that of the body."),
     "strength": Property(_STRESS, "σf′ of the strain–life constants, a stress."),
@@ -66,7 +66,7 @@ BY_NAME = {
     "file": "Path of a TOML file with a table of properties for each material, relative to the study.",
     "name": "Name of the material in that file.",
 }
-#: What may stand in the table.
+#: Keys that may stand in the table.
 KEYS = (*PROPERTIES, *BY_NAME)
 #: Fields of constants by their keys.
 CONSTANTS = {item.name: item.name for item in fields(FatigueConstants)}
@@ -154,7 +154,7 @@ def _read_material(
     if BY_NAME.keys() & raw.keys():
         tables = _named(raw, folder, report)
     told = [key for key in PROPERTIES if any(key in table for table in tables)]
-    # What is misspelt is not lacking, too.
+    # A misspelt key is not lacking, too.
     silent = {*told, *(meant(str(name), KEYS) for name in unknown)} if tables else {*KEYS}
     values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
     lacking = []

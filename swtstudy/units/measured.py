@@ -22,7 +22,7 @@ from swtstudy.vocabulary.wording import place_words, plain_words
 if TYPE_CHECKING:
     import xarray as xr
 
-#: What a contact is at rest, and what everything else is measured in.
+#: Sizes of a contact at rest, and scales of everything else.
 _AT_REST = {
     "depth": "mean indentation depth δ0",
     "normal_force": "normal force F0",
@@ -119,7 +119,7 @@ class Measured(NamedTuple):
     units
         Labels.
     criterion
-        Of which s is.
+        The criterion of s.
     """
 
     contact: Contact

@@ -49,7 +49,7 @@ ANY = LoadPath("any", [[0.0, 0.0], [0.0, 1.0]])
 ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
 #: More contacts than these take minutes.
 MOST_CONTACTS = 300_000
-#: What is said of a contact in every message.
+#: Words for a contact in every message.
 _SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
 #: Largest pressure over E* that no metal sustains, and contact radius over R of a table, far above the limit
 #: of half-spaces.
@@ -108,7 +108,7 @@ def read_contacts(
 
 
 def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report: Report) -> None:
-    """The criterion that needs the strength of the bodies, the one that has no life, and those of tension."""
+    """Report constants without their criterion, and criteria without their constants."""
     if FATEMI_SOCIE in criteria and not given.yield_strengths:
         allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
         report("material.yield_strength", "nothing", allowed)
@@ -186,7 +186,7 @@ def _body_names(single: dict[str, object], given: tuple[str, ...], report: Repor
 def _pairs(
     fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
 ) -> tuple[dict[str, Any], dict[str, object]]:
-    """Split the fixed values into those of each body and the others; an empty pair for one that is wrong."""
+    """Split the fixed values into values of each body and the others; an empty pair for one that is wrong."""
     pairs: dict[str, Any] = {}
     for name in (name for name in OF_BODIES if isinstance(fixed.get(name), list | tuple)):
         raw: Any = fixed[name]
@@ -203,7 +203,7 @@ def _check_given(
 ) -> None:
     """Report which values a contact lacks, and which exclude one another."""
     tables = [isinstance(profile, Definition) for profile in good.get("profile", ("paraboloid",))]
-    # What is misspelt is not lacking, too.
+    # A misspelt key is not lacking, too.
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
     measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
@@ -343,7 +343,7 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     """Return whether a parameter is in its range everywhere; report the first value that is not."""
     row, values = PARAMETERS[column], grid.numbers[column]
     if column in rules.AMPLITUDES:
-        # Of a loop, by which its vertices are multiplied, the largest load counts.
+        # The largest load of a loop counts: its vertices are multiplied.
         loads = grid.values("load")
         values = values * max(rules.sizes_of(v)[column] if isinstance(v, Loop) else 1.0 for v in loads)
     source = grid.control.given_for(column)

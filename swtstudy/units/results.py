@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
     from swtstudy.units.grid import PhysicalGrid
 
-#: What a study without units calls so, where the same has units in one with them.
+#: Names without units, for variables that have units in a study with units.
 _OF_QUANTITIES = ("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift")
 NORMALISED = {name: f"normalised_{name}" for name in (*_OF_QUANTITIES, *STICK_ENDS)}
-#: Of the nonlocal quantities those that are swt, and those that are places.
+#: Nonlocal quantities that are swt, and nonlocal quantities that are places.
 MEANS = tuple(name for name, row in NONLOCAL.items() if not row.is_place)
 PLACES = tuple(name for name, row in NONLOCAL.items() if row.is_place)
 #: Per cent of the bodies that have a crack before the life of that name.
@@ -43,9 +43,9 @@ PERCENTS = (10, 50, 90)
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
 #: Most lives in memory at once.
 _AT_ONCE = 1_000_000
-#: In names of what blocks make of a life, in the place of ``cycles``; and what scatter makes of it.
+#: Names that replace ``cycles``: of the life under blocks, and of its scatter.
 REPETITIONS, SHARE, LIFE, FAILED = "repetitions", "damage_share", "cycles", "failure_probability"
-#: What is before these in names, and whose criterion that is in words.
+#: Prefixes of these names, and the criterion of each in words.
 STARTS = {"": "", "FS_": " by Fatemi and Socie"}
 #: Comments of what blocks make of lives.
 _REPEATED = (
@@ -67,9 +67,9 @@ class Variable(NamedTuple):
     of
         The data variable that it is made of, by its name without units; empty for what a contact at rest has.
     scale
-        What that is multiplied by, or what the contact has, of a body, 0 or 1.
+        The factor of the variable, or the contact's own value, for body 0 or 1.
     criterion
-        Of which it is; empty for what every criterion has.
+        Its criteria; empty for a variable of every criterion.
     is_life
         Whether it is the life at that.
     """
@@ -90,13 +90,13 @@ class Kind(NamedTuple):
     Attributes
     ----------
     criterion, name, symbol
-        Its name, that of the variable and its symbol.
+        Its name, the variable's name and its symbol.
     unit
         "stress", or "1".
     scale
         Over s, of a contact and a body, 0 or 1.
     life, life_symbol
-        Of the life at that its name and what is below N; empty where there is none.
+        Name and index of the life at this value; empty where there is none.
     """
 
     criterion: str
@@ -135,7 +135,7 @@ KINDS = {
         Kind(FINDLEY, "findley_stress", "f", "stress", _of("stress_scale")),
     )
 }
-#: Scales by kind of unit, where these are those of a contact.
+#: Scales by kind of unit, where a contact gives the scales.
 _SCALES = {"length": _of("length_scale"), "stress": _of("stress_scale"), "work": _of("work_scale")}
 
 
@@ -301,7 +301,7 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
     """The data variables by the names of results without units."""
     known = {new: old for old, new in NORMALISED.items() if new in dataset}
-    # Of two with one name that with a unit goes; at the mean depth it has the name of the quantity.
+    # The variable with a unit goes where two have one name; at the mean depth it has the quantity's name.
     return dataset.drop_vars([name for name in NORMALISED if name in dataset]).rename(known)
 
 

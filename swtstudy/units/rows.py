@@ -19,7 +19,7 @@ from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS
 if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
 
-#: What has a unit of its own.
+#: Kinds of numbers that have a unit of their own.
 UNIT_KINDS = ("length", "force", "stress")
 
 #: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
@@ -110,7 +110,7 @@ class Scale(NamedTuple):
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
     made_of
-        The parameter whose length it is made of, if it is that of one.
+        The parameter whose length it is, if there is one.
     kind
         "length", "force" or "stress".
     """
@@ -162,7 +162,7 @@ def least_depths(contact: Contact) -> dict[str, float]:
     }
 
 
-#: What must be given of a real contact: it has no usual friction.
+#: Parameters that a real contact needs: it has no usual friction.
 WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
 #: Parameters that each of the two bodies has.
 OF_BODIES = ("young_modulus", "poisson_ratio")
@@ -173,7 +173,7 @@ SIMILAR_KEY, SIMILAR = "similar", 0.3
 NOTICEABLE_MISMATCH = 0.06
 #: Another: what the two bodies are called.
 NAMES_KEY = "bodies"
-#: What is 0 unless given: a constant normal load is the plainest one.
+#: Parameters that are 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
 #: The kinds of what has a unit.
 _KINDS = {
@@ -182,11 +182,11 @@ _KINDS = {
 }
 #: Symbols that are not the numerator of the non-dimensional one.
 _SYMBOLS = {"tangential_amplitude": "u_A"}
-#: Of which exactly one is given.
+#: Exactly one of each group is given.
 MEAN_LOADS = ("depth", "normal_force")
-#: Of which one takes the other's place.
+#: One of each pair takes the other's place.
 ONE_OF = (*PAIRS.items(), MEAN_LOADS, ("bulk_stress_mean", "bulk_stress_ratio"))
-#: What a contact at rest depends on.
+#: Parameters on which a contact at rest depends.
 REST_DEPENDS_ON = (
     *("young_modulus", "poisson_ratio", "radius", *MEAN_LOADS, "load", "contact_length", "body"),
     *(name for name, row in PARAMETERS.items() if row.part == "shape"),
@@ -202,7 +202,7 @@ def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
 
 
 def rows(units: Units) -> dict[str, Parameter]:
-    """The rows by name: those of every parameter, of the critical distance, and of sizes of the contact."""
+    """The rows by name, for every parameter, the critical distance, and sizes of the contact."""
     ratio: dict[str, Any] = {
         "lower": -LARGEST,
         "upper": 1.0 - 1e-9,

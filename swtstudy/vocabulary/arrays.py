@@ -33,7 +33,7 @@ class Columns:
 
     @classmethod
     def joined(cls, several: Sequence[Self]) -> Self:
-        """Several, one after another; what is in common is that of the first."""
+        """Several, one after another; common values are taken from the first."""
         return cls(*(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__))
 
 

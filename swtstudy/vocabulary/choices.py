@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import NamedTuple, TypeGuard
 
-#: What a contact is: a disc, or a strip in plane strain.
+#: Kinds of contact: a disc, or a strip in plane strain.
 AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
 
 
@@ -65,12 +65,12 @@ def is_profile(raw: object) -> TypeGuard[str]:
 
 
 def family_of(profile: object) -> Family:
-    """The family of a profile, or of that of a name; what the user has defined has no shape parameters."""
+    """The family of a profile or of its name; what the user has defined has no shape parameters."""
     return FAMILIES.get(str(profile), TABLE)
 
 
 def is_plane(profile: object) -> bool:
-    """Return whether a profile, or that of a name, is that of a plane contact."""
+    """Return whether a profile, or its name, stands for a plane contact."""
     return getattr(profile, "geometry", family_of(profile).geometry) == PLANE
 
 
@@ -106,11 +106,11 @@ class Criterion(NamedTuple):
     degree
         With which power of the stress it goes: with 2 its unit is stress times strain, with 1 stress.
     swing
-        What swings on a plane.
+        The quantity that swings on a plane.
     values
         A reader's words for its values.
     meaning, over_unit
-        What s is, in words for attributes, and its symbol over its unit.
+        The meaning of s, in words for attributes, and its symbol over its unit.
     """
 
     words: str

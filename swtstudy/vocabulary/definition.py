@@ -1,6 +1,6 @@
 """Base of the definitions with names that users give, such as a loop of loads; reading numbers in them.
 
-Of a definition the content counts, not the name. Of numbers, masked values become NaN, and anything that is
+The content of a definition counts, not its name. Masked numbers become NaN, and anything that is
 no number is a mistake.
 """
 

@@ -171,7 +171,7 @@ def _temporary(path: Path, folder: Path) -> tuple[int, str]:
     return tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder)
 
 
-#: What file systems say that cannot sync folders.
+#: Errors of file systems that cannot sync folders.
 _NO_FOLDERS = (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS)
 
 

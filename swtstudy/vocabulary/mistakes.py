@@ -24,9 +24,9 @@ class Mistake:
     key
         Dotted path of the offending entry, e.g. ``axes.friction[2]``; empty for the input as a whole.
     found
-        What was found, in words or as a literal.
+        The value that was found, in words or as a literal.
     allowed
-        What is allowed there.
+        The values that are allowed there.
     source
         File that holds the entry; empty for a call from Python.
     """
@@ -124,7 +124,7 @@ def more_like_it(count: int) -> str:
     return f"; {count - 1} more like it" if count > 1 else ""
 
 
-#: What is allowed where a text is none that can be stored.
+#: Allowed texts, for a text that cannot be stored.
 STORABLE = "a text that an archive can hold, without a null character"
 
 

@@ -34,18 +34,18 @@ class Parameter:
     names
         The built-in ones of a name.
     part
-        What it is a part of: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
+        Its part of the scene: "load", "shape" (of the indenter), "body" (what the two bodies are made of),
         "bulk" (the bulk stress of one body), "criterion", "quantity" (of what is computed beside s), or
         "contact" (of a real one).
     units
         CF units: "1", or "rad" for the phase.
     scale
-        What it is measured in where it is a length, a force or a stress, a key of
+        Its scale where it is a length, a force or a stress, a key of
         `swtstudy.units.rows.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
     note
-        What else there is to know, in one line.
+        A further remark, in one line.
     optional
         Whether the default means that the scene lacks it: results leave it out at its default.
     """

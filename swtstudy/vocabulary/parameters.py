@@ -273,12 +273,12 @@ class Control:
         return CONTROLS[self]
 
     def given_for(self, name: str) -> str:
-        """The parameter that is given in the place of one; that one itself where no force is."""
+        """The force that is given instead of a displacement; the displacement itself where no force is."""
         forces = {"normal_amplitude": self.normal_force, "tangential_amplitude": self.tangential_force}
         return FORCE_OF[name] if forces.get(name) else name
 
 
-#: What the paper prescribes.
+#: Amplitudes that the paper prescribes.
 DISPLACEMENTS = Control()
 
 #: The names of what is prescribed.
@@ -293,7 +293,7 @@ CONTROLS: dict[Control, str] = {
 #: Into the body from the critical point: straight down, or along the critical plane.
 DIRECTIONS = ("depth", "critical_plane")
 
-#: What quantities beside s range over, while the points do not.
+#: Dimensions of quantities beside s that the points do not have.
 QUANTITY_AXES: dict[str, Parameter] = {
     p.name: p
     for p in (
@@ -313,7 +313,7 @@ QUANTITY_AXES: dict[str, Parameter] = {
     )
 }
 
-#: What a real contact has besides; in which units the study says, see `swtstudy.units.rows`.
+#: Parameters of real contacts alone. The study names their units: see `swtstudy.units.rows`.
 CONTACT_AXES: dict[str, Parameter] = {
     p.name: p
     for p in (

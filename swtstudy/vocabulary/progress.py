@@ -21,16 +21,16 @@ _OUTER: ContextVar[Progress | None] = ContextVar("_OUTER", default=None)
 class Progress:
     """Counts what is finished inside a with block, and shows its rate and the time left.
 
-    What is counted inside of the block of another one counts there.
+    Steps that are counted inside another block count there.
 
     Parameters
     ----------
     total
         How many there are; None if that is not known.
     name
-        What is computed.
+        The work, in a word.
     unit
-        What is counted.
+        The unit of a step.
     delay
         Seconds before the bar appears.
     """

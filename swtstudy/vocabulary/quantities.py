@@ -17,10 +17,10 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 DISTANCE = "critical_distance"
 #: Both ends of the stick zone: asked together, since they change places at a mirror image.
 STICK_ENDS = ("stick_left", "stick_right")
-#: What studies with a yield strength ask for.
+#: Quantities that studies with a yield strength ask for.
 YIELD = "von_mises"
-#: What studies with fatigue constants ask for: the strain cycles in a round, at so many places at most and so
-#: many of them at each.
+#: Quantities that studies with fatigue constants ask for: the strain cycles in a round, at so many places at
+#: most and so many of them at each.
 COUNTS = "strain_cycles"
 COUNTED_SIZES = {"counted_place": 5, "counted_cycle": 8}
 
@@ -38,7 +38,7 @@ class Quantity:
     meaning
         A few words, used as ``long_name`` and in help texts.
     comment
-        What it is exactly, in one line.
+        The exact definition, in one line.
     function
         Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
         `swtstudy.solver.von_mises`, or its key in
@@ -46,9 +46,9 @@ class Quantity:
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims
-        Dimensions of its own beside those of the points: of `swtstudy.vocabulary.parameters.QUANTITY_AXES`,
-        with `DISTANCE` among them, if it is asked by giving critical distances; those of `COUNTED_SIZES`,
-        if with fatigue constants; none, if by its name.
+        Dimensions of its own, which points do not have. Critical distances ask for `DISTANCE` and others of
+        `swtstudy.vocabulary.parameters.QUANTITY_AXES`, fatigue constants for `COUNTED_SIZES`, its name alone
+        for none.
     is_place
         Whether it is an x, whose sign is another one at the mirror image. Archives of before may not have it.
     per_cycle
@@ -234,7 +234,7 @@ class Request:
 
     @property
     def variables(self) -> dict[str, tuple[str, ...]]:
-        """Data variables, with their dimensions beside those of the points."""
+        """Data variables, with their dimensions beside the points' dimensions."""
         return {
             variable: tuple(dim for dim in row.dims if dim != DISTANCE or self.is_axis)
             for row in self.rows
@@ -243,7 +243,7 @@ class Request:
 
     @property
     def sizes(self) -> dict[str, int]:
-        """Lengths of the dimensions that quantities have beside those of the points."""
+        """Lengths of the dimensions that quantities have and points do not."""
         return {DISTANCE: len(self.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
 
 

@@ -17,7 +17,7 @@ CONTACT = "contact"
 #: States of a point, in the order of their flag values.
 STATES = ("computed", "failed", "missing")
 COMPUTED, FAILED, MISSING = range(3)
-#: What the solver finds of every point.
+#: Variables that the solver finds at every point.
 SOLVED = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface")
 
 #: Where the stick zone is in s, under a bulk stress that moves.
@@ -130,7 +130,7 @@ ATTRIBUTES: dict[str, dict[str, Any]] = {
 
 
 def has_units(dataset: xr.Dataset) -> bool:
-    """Return whether results are those of real contacts."""
+    """Return whether results belong to real contacts."""
     return CONTACT in dataset.attrs
 
 

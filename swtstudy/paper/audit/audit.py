@@ -55,7 +55,7 @@ def audit_study(
     Returns
     -------
     xarray.Dataset
-        Of the points that are drawn, along ``sample``: s, the body's maximum ``s_body``, where it is, on
+        For the points that are drawn, along ``sample``: s, the body's maximum ``s_body``, where it is, on
         which plane, and ``verdict``, the assumption that it breaks.
 
     Raises
@@ -118,7 +118,7 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
     row
         The row.
     definitions
-        What the user has defined, by its code.
+        Definitions of the user, by code.
     dense
         Whether its surface line gets a dense grid, too (`swtstudy.paper.audit.dense`).
 

@@ -27,7 +27,7 @@ from swtstudy.vocabulary.arrays import FloatArray
 LOOK, SEARCH, VALUE = 1e-2, 1e-3, 1e-5
 #: In a climb places below this share of the height are of no interest.
 LEFT_OUT = 0.9
-#: What is nearer than this, relative or in rad, is the same.
+#: Places or angles nearer than this, relative or in rad, are the same.
 ROUNDING = 1e-9
 #: Where the bulk stress alone is as high as the body's maximum but for this share, it is the maximum.
 FAR = 1e-6
@@ -62,7 +62,7 @@ class BodyMaximum(NamedTuple):
     swt
         Over E* δ0/R.
     position
-        Shape (3,): x, y, z in a_H; x is infinite where swt is that of a bulk stress, far from the contact.
+        Shape (3,): x, y, z in a_H; x is infinite where swt comes from a bulk stress, far from the contact.
     normal
         Shape (3,): the critical plane's.
     """

@@ -17,7 +17,7 @@ from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 _LENGTH = "in units of a_H = sqrt(R delta0)"
-#: What the audit of a point finds, each a number.
+#: Numbers that the audit of a point finds.
 FOUND = {
     "s": "maximum of swt/SWT0 on the surface line, by the solver",
     "s_error": "estimated absolute error of s",
@@ -29,7 +29,7 @@ FOUND = {
     **{f"body_{axis}": f"position of the body's maximum, {_LENGTH}" for axis in "xyz"},
     **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
 }
-#: What follows from it.
+#: Variables that follow from them.
 _DERIVED = {
     "excess": "s_body/s - 1",
     "remainder": "s_body/s_surface - 1",
@@ -63,14 +63,14 @@ def audit_dataset(rows: Table, points: NDArray[np.void], definitions: Definition
     points
         Shape (n,) of `AUDITED`.
     definitions
-        What the user has defined, by its code.
+        Definitions of the user, by code.
 
     Returns
     -------
     xarray.Dataset
         One dimension, ``sample``; the parameters are coordinates along it.
     """
-    # What loops cost is known with them.
+    # The cost of loops is known with them.
     coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS if name != COST}
     for name in _WITH_NAMES & {*COLUMNS}:
         names = [str(value_of(code, definitions, name)) for code in rows[name]]

@@ -1,6 +1,6 @@
 """Section 3.1: Jäger's algorithm, memory diagrams and springs solve the same contact problem.
 
-Of a paraboloid; depths in δ0, displacements as G* u/(μ E* δ0).
+For a paraboloid; depths in δ0, displacements as G* u/(μ E* δ0).
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ class MemoryDiagram(Formalism):
         sense = np.sign(displacement - self.area(inner))
 
         def lack(stick: float) -> float:
-            """Of the displacement ∫ D dη ± (δ − s), D up to s."""
+            """The displacement's integral ∫ D dη ± (δ − s), D up to s."""
             return sense * (displacement - self.area(stick)) - (depth - stick)
 
         if sense == 0.0:

@@ -115,7 +115,7 @@ def poisson_ratio_is_intricate(poisson_ratio: xr.Dataset) -> Finding:
     )
 
 
-#: What the paper says, by parameter; of the others it says nothing.
+#: The paper's words, by parameter; it says nothing of the others.
 SAYS = {
     "poisson_ratio": "weak but intricate (section 4.1)",
     "friction": "s rises with it (section 4.1)",
@@ -137,7 +137,7 @@ def table(indices: xr.Dataset, of_paper: bool = False) -> str:
     indices
         From `swtstudy.sensitivity`.
     of_paper
-        Whether they are those of a study of the paper, with what that says.
+        Whether they belong to a study of the paper, with the paper's words.
     """
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     places = indices.stack(place=axes) if axes else indices.expand_dims("place")
@@ -152,7 +152,7 @@ def table(indices: xr.Dataset, of_paper: bool = False) -> str:
             for key in ("first_order", "total"):
                 ends = (float(one[f"{key}{end}"].sel(parameter=name)) for end in ("", "_low", "_high"))
                 cells += "{:.3f}|{:.3f} to {:.3f}".format(*ends).split("|")
-            # Of other quantities than s the paper says nothing here.
+            # The paper says nothing here of quantities other than s.
             rows.append(cells + [SAYS.get(name, "") if quantity == "s" else ""] * of_paper)
         moments = float(one["mean"]), float(one["variance"]) ** 0.5
         parts.append(

@@ -74,7 +74,7 @@ def statement(place: str, studies: tuple[str, ...] = ()) -> Callable[[Callable[.
     place
         Where it is in the paper.
     studies
-        Names of the studies whose archives the function takes; those of its arguments unless given.
+        Names of the studies whose archives the function takes; the names of its arguments unless given.
     """
 
     def made(test: Callable[..., Finding]) -> Statement:
