@@ -298,6 +298,9 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
         elif name not in known and base in known and f"s_{kind}" in NONLOCAL:
             report("figure.y", literal(y), f"in a study with a {DISTANCE} alone")
+        elif name not in known and (name == "cycles" or base == "cycles"):
+            found = f"{literal(y)}, a life, without fatigue constants"
+            report("figure.y", found, f"[material] with them, in a study with units; or {', '.join(known)}")
         elif name not in known:
             report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
         return

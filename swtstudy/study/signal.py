@@ -327,7 +327,8 @@ def _without_spikes(
 ) -> FloatArray:
     """The values, with ``despike`` the median of the cycles where one stands out; else a warning names it."""
     if given.despike and count < FEWEST_CYCLES:
-        allowed = f"{FEWEST_CYCLES} recorded cycles at least: spikes are told from the median of the cycles"
+        allowed = f"{FEWEST_CYCLES} recorded cycles at least, from whose median spikes are told; "
+        allowed += "in a shorter record take the row of the spike out of the file"
         raise StudyError([Mistake("despike", f"{count} cycle{'s' * (count > 1)}", allowed)])
     if count < FEWEST_CYCLES:
         return values

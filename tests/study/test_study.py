@@ -257,6 +257,7 @@ def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
         (FIGURE + 'y = "critical"', "figure.y", "critical_angle, regime"),
         (FIGURE + 'y = "regimes"', "figure.y", "did you mean regime?"),
         (FIGURE + 'y = "b/c"', "figure.y", "not a quantity"),
+        (FIGURE + 'y = "cycles_volume"', "figure.y", r"[material]"),
         (FIGURE + "y = []", "figure.y", "empty list"),
         (FIGURE + "title = 'an $\\frca$'", "figure.title", "Unknown symbol: \\frca"),
         (FIGURE + "title = '$x^2^3$'", "figure.title", "Double superscript"),
