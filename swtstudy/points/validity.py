@@ -68,19 +68,9 @@ LIMITS = (
 )
 
 
-class Excess(NamedTuple):
-    """One way in which points are outside of the model.
-
-    Attributes
-    ----------
-    short
-        A few words with the number of points and the worst value; empty where another one says it.
-    line
-        The same in a line, with the point that is worst.
-    """
-
-    short: str
-    line: str
+#: One way in which points are outside of the model: a few words with the number of points and the worst
+#: value, empty where another one says it; the same in a line, with the point that is worst.
+Excess = tuple[str, str]
 
 
 def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]:
@@ -99,7 +89,7 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
         A ValueError, if the results have been left without s or regime.
     """
     excesses, within = _found(dataset)
-    return (*(each.line for each in excesses), *(within if inside else ()))
+    return (*(line for _, line in excesses), *(within if inside else ()))
 
 
 def outside_words(dataset: xr.Dataset) -> str:
@@ -112,7 +102,7 @@ def outside_words(dataset: xr.Dataset) -> str:
     >>> outside_words(swtstudy.solve(rtol=1e-2, **forces))
     'Outside of the model: no equilibrium at 1 of 2 points.'
     """
-    words = "; ".join(filter(None, (each.short for each in _found(dataset)[0])))
+    words = "; ".join(filter(None, (short for short, _ in _found(dataset)[0])))
     return f"Outside of the model: {words}." if words else ""
 
 
@@ -122,14 +112,14 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
     if not dataset.s.size:
         return [], []
     found = [
-        Excess(f"{words}{_where(out)}", f"{words}{_where(out)}{more}")
+        (f"{words}{_where(out)}", f"{words}{_where(out)}{more}")
         for out, words, more in _exceptions(dataset)
         if out.any()
     ]
     found += _lives(dataset)
     within: list[str] = []
     for limit in LIMITS:
-        values = _over_points(dataset, _limited(dataset, limit))
+        values = _limited(dataset, limit)
         out = values > limit.largest
         if not np.isfinite(values).any() and not out.any():
             continue
@@ -139,15 +129,15 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
             place = _place(dataset, values)
             line = "; ".join(filter(None, (line + f",{place}" * bool(place), limit.consequence)))
             short = f"{limit.short}{_where(out)} ({worst} {limit.of})"
-            found.append(Excess(short, f"{limit.words}{_where(out)}: {line}"))
+            found.append((short, f"{limit.words}{_where(out)}: {line}"))
         else:
             within.append(line)
     if "stick_zone" in dataset:
-        zone = _over_points(dataset, dataset.stick_zone)
+        zone = _values(dataset, "stick_zone")
         moved, left = zone != IN_PLACE, (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
         if moved.any() and left.any():
             words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
-            found.append(Excess(words, words))
+            found.append((words, words))
         if (some := zone == APPROXIMATE).any():
             words = "the rise of the stress at the edge in tension is right within 4 %"
             within.append(f"stick zone moved approximately{_where(some)}: {words}")
@@ -169,7 +159,7 @@ def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
     at_tip = (_values(dataset, "exponent") < 2.0) & (np.abs(_values(dataset, "critical_x")) < BESIDE_TIP)
     nearer = f": s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
     yield at_tip, "swt rises up to the tip", nearer
-    out = np.asarray(_above_line(dataset).values)
+    out = _above_line(dataset)
     with np.errstate(divide="ignore", invalid="ignore"):
         factor = np.where(out, surface / s, 0.0)
     times = f"s_surface is up to {_number(factor.max())} times as large"
@@ -206,12 +196,12 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
 
 
-def _limited(dataset: xr.Dataset, limit: Limit) -> xr.DataArray:
+def _limited(dataset: xr.Dataset, limit: Limit) -> FloatArray:
     """Values that a limit is for: no shift of the stick zone that s has; NaN where there are none."""
-    values = dataset.get(limit.variable, xr.full_like(dataset.s, np.nan, float))
-    if limit.variable != "bulk_shift_ratio" or "stick_zone" not in dataset:
+    values = _values(dataset, limit.variable)
+    if limit.variable != "bulk_shift_ratio":
         return values
-    return values.where(dataset.stick_zone == IN_PLACE)
+    return np.where(_values(dataset, "stick_zone", IN_PLACE) == IN_PLACE, values, np.nan)
 
 
 def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
@@ -233,19 +223,19 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     limits = {limit.short: _limited(dataset, limit) > limit.largest for limit in LIMITS}
     if values.name != "s_surface":
         limits["the line y = 0"] = _above_line(dataset)
-    if _is_life(dataset, str(values.name)):
-        limits["known lives"] = values.copy(data=_beyond(values.values))
     for each in limits.values():
-        found = found | each.any([dim for dim in each.dims if dim not in values.dims])
+        of_points = dataset.s.copy(data=each).drop_attrs()
+        found = found | of_points.any([dim for dim in of_points.dims if dim not in values.dims])
+    if _is_life(dataset, str(values.name)):
+        limits["known lives"] = _beyond(values.values)
+        found = found | limits["known lives"]
     words = ", ".join(name for name, each in limits.items() if each.any())
     return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
 
 
-def _above_line(dataset: xr.Dataset) -> xr.DataArray:
+def _above_line(dataset: xr.Dataset) -> BoolArray:
     """Points with a maximum off the line y = 0, so that s, and all that is made of it, is too low."""
-    if "s_surface" not in dataset or "s_error" not in dataset:
-        return xr.zeros_like(dataset.s, bool)
-    return dataset.s_surface > dataset.s + dataset.s_error
+    return _values(dataset, "s_surface") > _values(dataset, "s") + _values(dataset, "s_error")
 
 
 def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
@@ -264,7 +254,7 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
             found = f"{_where(beyond[name])}: {' to '.join(numbers_words(ends, 3))}"
             lines.append(f"{name} extrapolated{found}, while the constants are known for {_KNOWN}")
     short = f"{', '.join(beyond)} extrapolated{_where(np.any([*beyond.values()], axis=0))} (beyond {_KNOWN})"
-    yield from (Excess(short * (k == 0), line) for k, line in enumerate(lines))
+    yield from ((short * (k == 0), line) for k, line in enumerate(lines))
 
 
 def _is_life(dataset: xr.Dataset, name: str) -> bool:
@@ -278,16 +268,12 @@ def _beyond(lives: FloatArray) -> BoolArray:
     return np.asarray(np.isfinite(lives) & ((lives < low) | (lives > high)))
 
 
-def _over_points(dataset: xr.Dataset, values: xr.DataArray) -> FloatArray:
-    """Values in the shape of s."""
-    return np.asarray(values.broadcast_like(dataset.s).transpose(*dataset.s.dims).values, float)
-
-
 def _values(dataset: xr.Dataset, name: str, otherwise: float = np.nan) -> FloatArray:
     """Values of a variable in the shape of s, or one where results do not have it."""
-    if name in dataset.variables:
-        return _over_points(dataset, dataset[name])
-    return np.full(dataset.s.shape, float(otherwise))
+    shape = dataset.variables["s"].sizes
+    if name not in dataset.variables:
+        return np.full([*shape.values()], float(otherwise))
+    return np.asarray(dataset.variables[name].set_dims(shape).transpose(*shape).values, float)
 
 
 def _where(out: BoolArray) -> str:
