@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.profiles.at_rest import check_shape
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 
 RTOLS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 REFERENCE_RTOL = 1e-8

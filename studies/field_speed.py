@@ -20,8 +20,7 @@ from swtstudy.kernel import batch
 from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.field import instants_of, open_cycle, stress_at
 from swtstudy.kernel.growth import find_stretch, solved_places
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of, solve_points
+from swtstudy.solver.points import Points, arguments_of, solve_points
 
 with warnings.catch_warnings():
     warnings.simplefilter("ignore", ImportWarning)

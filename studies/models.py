@@ -37,9 +37,8 @@ from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.work import CONJUGATE
 from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.solver.means import worst_means
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of
-from swtstudy.solver.solve import solve_points as solve
+from swtstudy.solver.points import Points, arguments_of
+from swtstudy.solver.points import solve_points as solve
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]

@@ -19,8 +19,7 @@ from matplotlib.figure import Figure
 
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import save_figure, styled
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 
 COUNTS = (1, 4, 16, 64, 256, 1024, 4096)
 RTOLS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
@@ -42,7 +41,7 @@ START_UP = {
     "import swtstudy and the first value": ["-c", "import swtstudy; swtstudy.solve(phase=0.3)"],
 }
 PEAK = (
-    "import sys; from scaling import batch; from swtstudy.solver.solve import solve_points;"
+    "import sys; from scaling import batch; from swtstudy.solver.points import solve_points;"
     "solve_points(batch(*map(int, sys.argv[1:])));"
     "print(next(line.split()[1] for line in open('/proc/self/status') if line.startswith('VmHWM')))"
 )

@@ -19,7 +19,7 @@ from swtstudy.vocabulary.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.points.found import Found
+    from swtstudy.points.chunk import Arrays
     from swtstudy.points.grid import Grid
 
 
@@ -101,17 +101,17 @@ def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
     return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
-def _found(points: Distinct, rtol: float, asked: Request) -> Found:
+def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
     """All that is asked of points, solved one chunk after another; raises if one has no value."""
-    from swtstudy.points.chunk import chunks, fill
-    from swtstudy.points.found import Found, blank
+    from swtstudy.points.chunk import blank, chunks, fill, put
 
-    found = Found.blank(points.rows)
-    with Progress(len(found)) as progress:
-        for chunk in chunks(points, np.ones(len(found), bool), asked):
+    count = len(points.rows)
+    found = blank(count)
+    with Progress(count) as progress:
+        for chunk in chunks(points, np.ones(count, bool), asked):
             arrays = blank(len(chunk.places))
             fill(arrays, chunk, rtol)
-            found.put(chunk.places, arrays)
+            put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
     return found
 

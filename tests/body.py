@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.kernel.field import criterion_at, instants_at, open_cycle, stress_at
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import arguments_of
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from swtstudy import Study, run
 from swtstudy.solver.points import Points, Solution
 
 #: Where a stand-in goes when there is no argument for it: on the command line and in a search.
-SOLVER = "swtstudy.solver.solve.solve_points"
+SOLVER = "swtstudy.solver.points.solve_points"
 
 
 def smooth(points: Points, rtol: float) -> Solution:

@@ -12,7 +12,7 @@ from plane_loop import plane_loop_s
 from scenes import Scene
 from textbook import textbook_s
 
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import solve_points
 
 RTOLS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 #: Time steps of a textbook run; springs, positions and planes grow with them.

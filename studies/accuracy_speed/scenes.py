@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from textbook import textbook_s
 
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 
 #: Tolerance of the reference values.
 REFERENCE_RTOL = 1e-9

@@ -7,8 +7,7 @@ import time
 
 import numpy as np
 
-from swtstudy.solver.points import Points, Solution
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, Solution, solve_points
 
 
 def cheap(points: Points, rtol: float) -> Solution:

@@ -20,8 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "tests"))
 from brute_shear import INSTANTS, PLANES, STEPS, brute
 from scenes import random_plane_points, random_points
 
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 
 #: Profiles of revolution, and plane ones.
 PROFILES = ("paraboloid", "rounded_punch", "wavy_paraboloid", "power_law"), ("cylinder", "rounded_flat")

@@ -21,8 +21,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]

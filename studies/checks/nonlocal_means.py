@@ -31,8 +31,7 @@ from swtstudy.kernel.field import criterion_at, direction_at, largest_radius, me
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solver.means import DOWN, GROWTH, RTOL, worst_means
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of, solve_points
+from swtstudy.solver.points import Points, arguments_of, solve_points
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.parameters import Control
 

@@ -34,7 +34,7 @@ from swtstudy.kernel.field import Opened, criterion_at, largest_radius, mean_abo
 from swtstudy.kernel.mean import SPHERE
 from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.solver.means import DOWN, RTOL
-from swtstudy.solver.solve import arguments_of, solve_points
+from swtstudy.solver.points import arguments_of, solve_points
 
 Array = NDArray[np.float64]
 #: By scene: points on circles, in bodies, and with means.

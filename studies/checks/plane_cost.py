@@ -11,8 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 from swtstudy.vocabulary.parameters import Control
 
 POINTS, ROUNDS, RTOLS = 100, 5, (1e-4, 1e-6)

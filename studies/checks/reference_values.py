@@ -20,8 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
 from swtstudy.paper.audit.dense import dense_maximum
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import Points, solve_points
 
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")

@@ -12,9 +12,8 @@ from overlooked import CHUNK, drawn
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.paper.audit import body_maximum
-from swtstudy.solver.points import Points
+from swtstudy.solver.points import Points, solve_points
 from swtstudy.solver.quantities import quantities_of
-from swtstudy.solver.solve import solve_points
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.quantities import Request, error_of
 

@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from overlooked import CHUNK, NEXT_TO_NONE, SCENES
 
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import solve_points
 
 NAMES = (
     "displacements",

@@ -40,7 +40,7 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
     seconds
         Wall time of the run that ends with this archive.
     """
-    dataset = label_found(study.grid, points, found, study.asked)
+    dataset = label_found(study.grid, points, found.arrays, study.asked)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     message = " message" * ("message" in dataset)
@@ -121,21 +121,13 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     """
     path = Path(path)
     if partial or not path.exists():
-        dataset = partial_results(path)
-        if dataset is not None:
-            return dataset
+        parts = read_parts(parts_folder(path))
+        if parts.runs:
+            latest = max(parts.runs, key=lambda run: run.started)
+            study = Study.from_text(latest.study, str(path))
+            points, known = Distinct.of(study.grid, study.asked), known_points(path)
+            found = matching(points, known, known.usable(study.rtol, latest.solver_version))
+            return build(study, points, found.take(slice(None)), history_line("opened unfinished"), 0.0)
     if not path.exists():
         raise FileNotFoundError(f"{path}: no such archive")
     return read_archive(path)
-
-
-def partial_results(path: Path) -> xr.Dataset | None:
-    """Open what the latest run for the archive at `path` has saved so far; None if there are no parts."""
-    parts = read_parts(parts_folder(path))
-    if not parts.runs:
-        return None
-    latest = max(parts.runs, key=lambda run: run.started)
-    study = Study.from_text(latest.study, str(path))
-    points, known = Distinct.of(study.grid, study.asked), known_points(path)
-    found = matching(points, known, known.usable(study.rtol, latest.solver_version)).take(slice(None))
-    return build(study, points, found, history_line("opened unfinished"), 0.0)

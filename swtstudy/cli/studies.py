@@ -115,7 +115,6 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
     """Describe in lines what a run would do, with its time from a few points that are solved."""
-    from swtstudy.points.chunk import solve_points
     from swtstudy.runner.work import assess, estimate
 
     work = assess(study, target)
@@ -144,7 +143,7 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
     if work.coarse:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
     if todo:
-        seconds, timed = estimate(work, study.rtol, solve_points)
+        seconds, timed = estimate(work, study.rtol)
         each = f"{1e3 * seconds / todo:.3g} ms a point, from {timed} point{'s' * (timed > 1)} timed"
         yield f"  time               about {duration(seconds / workers)} with {workers} workers ({each})"
 

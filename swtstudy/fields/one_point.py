@@ -18,8 +18,7 @@ from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.margins import margins_of
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers

@@ -1,23 +1,28 @@
-"""Chunks of points: how points are cut into them, and what a worker makes of one."""
+"""Chunks of points: how points are cut into them, and the values of one as plain arrays."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.points.canonical import COST, SHARED_COLUMNS, Distinct, alike, points_from
-from swtstudy.points.found import Arrays, blank, stacked
+from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
-from swtstudy.vocabulary.variables import COMPUTED, FAILED
+from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
-#: Solves points to a relative accuracy.
-Solver = Callable[[Points, float], Solution]
+#: Arrays of shape (n, …) by name.
+Arrays = dict[str, NDArray[Any]]
+#: Solves points to a relative accuracy; None for `swtstudy.solver.points.solve_points`.
+Solver = Callable[[Points, float], Solution] | None
 
 #: Points of a chunk whose cycles are short, as one compiled call takes them, and where means over the body
 #: are asked: some 0.1 s of work, short enough to lose.
@@ -44,14 +49,11 @@ class Chunk:
     points: Points
     asked: Request
 
-    def at(self, part: slice) -> Chunk:
-        """The chunk of some of its points."""
-        return Chunk(self.places[part], self.points[part], self.asked)
-
-    def halves(self) -> tuple[Chunk, Chunk]:
+    def halves(self) -> list[Chunk]:
         """Its two halves."""
         half = len(self.places) // 2
-        return self.at(slice(half)), self.at(slice(half, None))
+        parts = slice(half), slice(half, None)
+        return [Chunk(self.places[part], self.points[part], self.asked) for part in parts]
 
 
 def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
@@ -94,17 +96,8 @@ def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Ite
     return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
 
 
-def solve_points(points: Points, rtol: float) -> Solution:
-    """The solver, imported where it runs."""
-    from swtstudy.solver import solve
-
-    return solve.solve_points(points, rtol)
-
-
 def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Arrays]:
     """Version of the solver, and the values of a chunk, even if points of it fail; runs in a worker."""
-    from swtstudy.vocabulary.version import SOLVER_VERSION
-
     begin = time.perf_counter()
     arrays = _isolated(chunk, rtol, solver)
     arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
@@ -123,12 +116,12 @@ def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Arrays:
     return arrays
 
 
-def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = solve_points) -> None:
+def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> None:
     """Solve the points of a chunk, and find what else is asked of them; raises if one has no value."""
     points, asked = chunk.points, chunk.asked
     # The caller's np.seterr is not meant for the solver, in which NaN and inf are values.
     with np.errstate(all="ignore"):
-        solution = solver(points, rtol)
+        solution = (solver or mechanics.solve_points)(points, rtol)
         arrays.update(solution._asdict())
         lost = ~np.isin(solution.regime, [REGIMES.index(name) for name in WITHOUT_S]) & np.isnan(solution.s)
         if lost.any():
@@ -140,3 +133,34 @@ def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = solve_point
         if asked.distances:
             arrays["distance"] = np.tile(asked.distances, (len(chunk.places), 1))
     arrays["status"][:] = COMPUTED
+
+
+def blank(n: int, status: int = MISSING, message: str = "") -> Arrays:
+    """Arrays of n points without values, all in one state."""
+    arrays: Arrays = {name: np.full(n, np.nan) for name in SOLVED}
+    arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
+    arrays |= {"status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
+    return arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)}
+
+
+def stacked(parts: Sequence[Arrays]) -> Arrays:
+    """Arrays one after another; NaN where one lacks a name, or is narrower than the widest."""
+
+    def padded(part: Arrays, name: str, tail: Any) -> NDArray[Any]:
+        values = part.get(name, np.full((len(part["status"]), *tail), np.nan))
+        more = [(0, most - size) for most, size in zip(tail, values.shape[1:], strict=True)]
+        return np.pad(values, [(0, 0), *more], constant_values=np.nan) if any(map(max, more)) else values
+
+    found = {}
+    for name in dict.fromkeys(name for part in parts for name in part):
+        tail = np.max([part[name].shape[1:] for part in parts if name in part], axis=0).astype(int)
+        found[name] = np.concatenate([padded(part, name, tail) for part in parts])
+    return found
+
+
+def put(arrays: Arrays, index: IndexArray, some: Arrays) -> None:
+    """Write values of some points in their places."""
+    for name, values in some.items():
+        if name not in arrays:
+            arrays[name] = np.full((len(arrays["status"]), *values.shape[1:]), np.nan)
+        arrays[name][index] = values

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -11,13 +11,11 @@ from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import ROW, Distinct, Table, group_rows
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
-from swtstudy.vocabulary.choices import REGIMES
+from swtstudy.points.chunk import Arrays, blank, put, stacked
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IntArray
 from swtstudy.vocabulary.quantities import NONLOCAL, Request
-from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
+from swtstudy.vocabulary.variables import COMPUTED, FAILED
 
-#: Arrays of shape (n, …) by name.
-Arrays = dict[str, NDArray[Any]]
 #: Names of arrays whose second axis is the critical distance.
 _OF_DISTANCE = {"distance", *(name for row in NONLOCAL.values() for name in row.variables)}
 
@@ -94,13 +92,6 @@ class Found:
         number[used] = np.arange(len(used))
         return Found(arrays | {"run": number[arrays["run"]]}, tuple(self.runs[k] for k in used))
 
-    def put(self, index: IndexArray, arrays: Arrays) -> None:
-        """Write values in some places."""
-        for name, values in arrays.items():
-            if name not in self.arrays:
-                self.arrays[name] = np.full((len(self), *values.shape[1:]), np.nan)
-            self.arrays[name][index] = values
-
     def of_runs(self, values: Iterable[Any], without: Any) -> NDArray[Any]:
         """A value of each run at every point of it, and what stands where there is no run; shape (n,)."""
         return np.array([*values, without])[self["run"]]
@@ -116,29 +107,6 @@ class Found:
         if asked.distances:
             lacks |= np.isnan(self.arrays["distance"]).any(axis=1) if "distance" in self.arrays else True
         return lacks & (self["status"] == COMPUTED)
-
-
-def blank(n: int, status: int = MISSING, message: str = "") -> Arrays:
-    """Arrays of n points without values, all in one state."""
-    arrays: Arrays = {name: np.full(n, np.nan) for name in SOLVED}
-    arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
-    arrays |= {"status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
-    return arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)}
-
-
-def stacked(parts: Sequence[Arrays]) -> Arrays:
-    """Arrays one after another; NaN where one lacks a name, or is narrower than the widest."""
-
-    def padded(part: Arrays, name: str, tail: Any) -> NDArray[Any]:
-        values = part.get(name, np.full((len(part["status"]), *tail), np.nan))
-        more = [(0, most - size) for most, size in zip(tail, values.shape[1:], strict=True)]
-        return np.pad(values, [(0, 0), *more], constant_values=np.nan) if any(map(max, more)) else values
-
-    found = {}
-    for name in dict.fromkeys(name for part in parts for name in part):
-        tail = np.max([part[name].shape[1:] for part in parts if name in part], axis=0).astype(int)
-        found[name] = np.concatenate([padded(part, name, tail) for part in parts])
-    return found
 
 
 def join(parts: Iterable[Found]) -> Found:
@@ -176,7 +144,7 @@ def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
     found, at = Found.blank(points.rows), look_up(points.rows, known, candidates)
     found.runs, there = known.runs, np.flatnonzero(at >= 0)
     own = {name: values for name, values in known.arrays.items() if name not in {*_OF_DISTANCE, "row"}}
-    found.put(there, {name: values[at[there]] for name, values in own.items()})
+    put(found.arrays, there, {name: values[at[there]] for name, values in own.items()})
     if points.distances.size and "distance" in known.arrays:
         i, k = np.nonzero(np.isfinite(known["distance"]) & candidates[:, None])
         pairs = Found({name: known[name][i] for name in ("status", "run")}, known.runs)

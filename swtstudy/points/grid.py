@@ -86,7 +86,7 @@ class Grid:
         """Names of the parameters that it has values of."""
         return (*self.fixed, *self.axes, *self.samples)
 
-    @property
+    @cached_property
     def control(self) -> Control:
         """The control: what is prescribed."""
         return Control.given(self.names)

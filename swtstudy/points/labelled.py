@@ -11,7 +11,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct, alike, points_from
-from swtstudy.points.found import Found
+from swtstudy.points.chunk import Arrays
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
@@ -95,7 +95,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
 
 
 def label_found(
-    grid: Grid, points: Distinct, found: Found, asked: Request, of_runs: bool = True
+    grid: Grid, points: Distinct, found: Arrays, asked: Request, of_runs: bool = True
 ) -> xr.Dataset:
     """The Dataset of a grid whose distinct points have these values; ``of_runs`` with their states."""
     arrays = values_at(grid, points, found, asked, np.arange(grid.size))
@@ -106,15 +106,15 @@ def label_found(
 
 
 def values_at(
-    grid: Grid, points: Distinct, found: Found, asked: Request, places: IndexArray
+    grid: Grid, points: Distinct, found: Arrays, asked: Request, places: IndexArray
 ) -> dict[str, NDArray[Any]]:
     """Values at n places of a grid, and what is asked beside s, NaN where that is not known.
 
     ``points`` are the distinct ones of these places.
     """
     sizes, own = asked.sizes, {name: row.dims for row in asked.rows for name in row.variables}
-    for name in (name for name in own if name not in found.arrays):
-        found.arrays[name] = np.full((len(found), *(sizes[dim] for dim in own[name])), np.nan)
+    for name in (name for name in own if name not in found):
+        found[name] = np.full((len(points.rows), *(sizes[dim] for dim in own[name])), np.nan)
     arrays = {name: found[name][points.index] for name in (*SOLVED, *own)}
     return turned(arrays, points.mirrored, grid.cycles(places) if _per_cycle(own) else 1.0)
 

@@ -8,8 +8,7 @@ from itertools import islice
 from queue import Empty, SimpleQueue
 from typing import Any
 
-from swtstudy.points.chunk import Chunk, Solver, solve_chunk
-from swtstudy.points.found import Arrays, blank
+from swtstudy.points.chunk import Arrays, Chunk, Solver, blank, solve_chunk
 from swtstudy.runner.workers import Workers
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.variables import FAILED

@@ -12,8 +12,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from swtstudy.points.chunk import Solver
-from swtstudy.points.found import Arrays, Found, Run, stacked
+from swtstudy.archive import parts
+from swtstudy.archive.attributes import versions
+from swtstudy.archive.paths import check_archive_path, locked
+from swtstudy.points.chunk import Arrays, Solver, chunks, put, stacked
+from swtstudy.points.found import Found, Run
 from swtstudy.runner.engine import WorkerError, solve
 from swtstudy.runner.work import Work, assess
 from swtstudy.runner.workers import Workers
@@ -54,16 +57,13 @@ class Job:
     """
 
     def __init__(self, study: Study, path: Path, retry_failed: bool) -> None:
-        from swtstudy.archive.parts import clear_unfinished, parts_folder
-        from swtstudy.archive.paths import check_archive_path, locked
-
         require_study(study)
         check_archive_path(path)
         check_writable(path)
-        self.study, self.path, self._folder = study, path, parts_folder(path)
+        self.study, self.path, self._folder = study, path, parts.parts_folder(path)
         with ExitStack() as held:
             held.enter_context(locked(self._folder))
-            clear_unfinished(self._folder)
+            parts.clear_unfinished(self._folder)
             self._begin = self._saved = time.perf_counter()
             self.work = assess(study, path, retry_failed)
             self._what, self._complete = _told(self.work), not self.work.todo.any()
@@ -72,8 +72,6 @@ class Job:
 
     def compute(self, workers: Workers, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
-        from swtstudy.archive.attributes import versions
-
         work, rtol = self.work, self.study.rtol
         now = datetime.now(UTC).isoformat(timespec="seconds")
         run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), now, work.asked.items)
@@ -90,7 +88,7 @@ class Job:
         todo = int(work.todo.sum())
         with self.reporting(), Progress(todo, self.path.stem, delay=0.0) as shown:
             try:
-                solve(work.chunks(), rtol, solver, deliver, workers)
+                solve(chunks(work.points, work.todo, work.asked), rtol, solver, deliver, workers)
             except OSError:  # such as a full disk
                 raise
             except BaseException:
@@ -100,14 +98,12 @@ class Job:
 
     def _save(self) -> None:
         """Save the results of chunks as a part; only then they count."""
-        from swtstudy.archive.parts import save_part
-
         if self._unsaved:
-            several, parts = zip(*self._unsaved, strict=True)
-            places, arrays = np.concatenate(several), stacked(parts)
+            several, of_chunks = zip(*self._unsaved, strict=True)
+            places, arrays = np.concatenate(several), stacked(of_chunks)
             part = Found(arrays | {"row": self.work.points.rows[places]}, self.work.found.runs)
-            save_part(self._folder, part.take(slice(None)))
-            self.work.found.put(places, arrays)
+            parts.save_part(self._folder, part.take(slice(None)))
+            put(self.work.found.arrays, places, arrays)
             self._unsaved, self._saved = [], time.perf_counter()
 
     def finish(self, finished: Finished) -> None:
@@ -120,32 +116,30 @@ class Job:
     def _known(self) -> xr.Dataset | None:
         """The archive, if exactly this study wrote it and nothing had to be done."""
         from swtstudy.archive.netcdf import read_archive
-        from swtstudy.archive.parts import clear_parts, read_parts
 
-        if not (self._complete and self.path.exists()) or len(read_parts(self._folder)):
+        if not (self._complete and self.path.exists()) or len(parts.read_parts(self._folder)):
             return None
         archive = read_archive(self.path)
         if archive.attrs["study"] != self.study.text:
             return None
-        clear_parts(self._folder)  # parts that could not be read
+        parts.clear_parts(self._folder)  # parts that could not be read
         return archive
 
     def _written(self) -> xr.Dataset:
         from swtstudy.archive.archive import build, history_line
         from swtstudy.archive.netcdf import read_archive, save
-        from swtstudy.archive.parts import clear_parts, keeping, kept_folder
 
-        work, kept = self.work, kept_folder(self.path)
+        work, kept = self.work, parts.kept_folder(self.path)
         before = [read_archive(self.path).attrs["history"]] if self.path.exists() else []
         history = "\n".join([history_line(self._what), *before])
         seconds = time.perf_counter() - self._begin
         dataset = build(self.study, work.points, work.found.take(slice(None)), history, seconds)
         try:
-            with keeping(kept, work.others):
+            with parts.keeping(kept, work.others):
                 save(dataset, self.path, beside=self._folder)
         except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
             raise OSError(f"cannot write the archive ({error})") from error
-        clear_parts(self._folder)
+        parts.clear_parts(self._folder)
         if len(work.others):
             _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
         return read_archive(self.path)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.points.chunk import Solver, solve_points
+from swtstudy.points.chunk import Solver
 from swtstudy.runner.job import Finished, Job, Stopped
 from swtstudy.runner.workers import workers_of
 from swtstudy.study.definition import Study, read_studies
@@ -34,7 +34,7 @@ def run(
     processes: bool = False,
     client: Client | None = None,
     retry_failed: bool = False,
-    solver: Solver = solve_points,
+    solver: Solver = None,
 ) -> xr.Dataset:
     """Compute a study and write its archive to ``path``.
 
@@ -59,7 +59,8 @@ def run(
     retry_failed
         Whether to recompute points that failed before.
     solver
-        Solves a batch of points, several batches at a time; processes must be able to import it.
+        Solves a batch of points, several batches at a time, instead of the package's own; processes must be
+        able to import it.
 
     Returns
     -------
@@ -178,7 +179,7 @@ def run_several(
     processes: bool = False,
     client: Client | None = None,
     retry_failed: bool = False,
-    solver: Solver = solve_points,
+    solver: Solver = None,
 ) -> None:
     """Compute studies with the same workers, and write their archives.
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
+from swtstudy.archive.parts import known_points
 from swtstudy.points.canonical import Distinct, group_rows
-from swtstudy.points.chunk import Chunk, Solver, chunk_of, chunks, cut, solve_chunk
+from swtstudy.points.chunk import chunk_of, cut, solve_chunk
 from swtstudy.points.found import Found, look_up, matching
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
@@ -45,11 +46,6 @@ class Work:
     coarse: int
 
     @property
-    def missing(self) -> BoolArray:
-        """True where s is not known, shape (n,)."""
-        return np.asarray(self.found["status"] == MISSING)
-
-    @property
     def incomplete(self) -> BoolArray:
         """True where s is known, but a quantity is not, shape (n,): these points are computed again."""
         return self.found.lacking(self.asked)
@@ -57,17 +53,11 @@ class Work:
     @property
     def todo(self) -> BoolArray:
         """Which points are to be computed, shape (n,)."""
-        return np.asarray(self.missing | self.incomplete)
-
-    def chunks(self) -> Iterator[Chunk]:
-        """The chunks that are to be computed."""
-        return chunks(self.points, self.todo, self.asked)
+        return np.asarray((self.found["status"] == MISSING) | self.incomplete)
 
 
 def assess(study: Study, path: Path, retry_failed: bool = False) -> Work:
     """Find the work that is left of a study whose archive is at `path`; this computes no point."""
-    from swtstudy.archive.parts import known_points
-
     points = Distinct.of(study.grid, study.asked)
     known = known_points(path)
     found = matching(points, known, known.usable(study.rtol, SOLVER_VERSION, retry_failed))
@@ -96,7 +86,7 @@ _BUDGET, _TIMED = 4.0, 16
 _VERTICES = 200
 
 
-def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
+def estimate(work: Work, rtol: float) -> tuple[float, int]:
     """Computing time of what is left in seconds, and how many points have been timed to estimate it.
 
     Chunks are timed at even distances of the list of all, which is sorted by the length of their cycles; each
@@ -107,7 +97,7 @@ def estimate(work: Work, rtol: float, solver: Solver) -> tuple[float, int]:
 
     def timed(places: IndexArray) -> float:
         """Time for each of some points."""
-        return float(solve_chunk(chunk_of(lean, places, work.asked), rtol, solver)[1]["seconds"][0])
+        return float(solve_chunk(chunk_of(lean, places, work.asked), rtol, None)[1]["seconds"][0])
 
     if not todo:
         return 0.0, 0

@@ -190,7 +190,7 @@ def _end_with_parent() -> None:
 
 
 def _warm_up() -> None:
-    import swtstudy.solver.solve  # noqa: F401
+    import swtstudy.kernel.batch  # noqa: F401
 
 
 @contextmanager

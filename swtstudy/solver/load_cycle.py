@@ -18,8 +18,7 @@ from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of, shift_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 
 #: Series of what grew in stick, relative to dv/dn: to rounding.

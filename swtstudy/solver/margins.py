@@ -53,7 +53,7 @@ def margins_of(points: Points) -> Margins:
     """
     # Compiled: whoever only reads a study does without.
     from swtstudy.kernel.batch import margins_batch
-    from swtstudy.solver.solve import arguments_of
+    from swtstudy.solver.points import arguments_of
 
     found = margins_batch(**arguments_of(points))
     return {name: found[name].astype(float) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}

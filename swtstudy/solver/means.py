@@ -34,8 +34,7 @@ from swtstudy.kernel.field import (
     surface_above,
 )
 from swtstudy.kernel.mean import FIRST, LINE, POINT, ROUGHLY, SPHERE
-from swtstudy.solver.points import Points, Solution
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, Solution, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import DIRECTIONS
 

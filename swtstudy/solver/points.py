@@ -1,28 +1,24 @@
-"""Points of parameters and their solution, as named arrays."""
+"""Points of parameters and their solution, as named arrays; from points to s."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.vocabulary.arrays import Columns, FloatArray, IntArray, Shape
-from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
+from swtstudy.vocabulary.parameters import DISPLACEMENTS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.loads.loop import Loop
     from swtstudy.profiles.table import AnyProfile
 
-#: Values that points have unless they are given.
-_UNLESS_GIVEN = {
-    "walker_exponent": 0.5,
-    "normal_sensitivity": 0.0,
-    "bulk_strain_share": 1.0,
-    **dict.fromkeys(("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase"), 0.0),
-}
+#: Numbers that points have unless they are given.
+_UNLESS_GIVEN = {n: row.default for n, row in PARAMETERS.items() if row.optional and row.kind == "number"}
 #: Arrays of shape (0,) are not given.
 _not_given = partial(np.empty, 0)
 
@@ -113,3 +109,44 @@ class Solution(NamedTuple):
     critical_angle: FloatArray
     regime: NDArray[np.int8]
     s_surface: FloatArray
+
+
+def solve_points(points: Points, rtol: float = 1e-4) -> Solution:
+    """s of every point (eqs. 7–20).
+
+    Parameters
+    ----------
+    points
+        n points of one profile family and control.
+    rtol
+        Relative accuracy asked for.
+
+    Returns
+    -------
+    Solution
+        Arrays of shape (n,), NaN where the body slides away. The value of a point does not depend on the
+        others.
+
+    Raises
+    ------
+    ArithmeticError
+        If a load cycle has more pieces than the solver has room for.
+    """
+    # The compiler is imported where points are solved.
+    from swtstudy.kernel.batch import solve_batch
+
+    found = solve_batch(**arguments_of(points), rtol=rtol)
+    own = {name: found[name].copy() for name in Solution._fields}
+    return Solution(**own | {"regime": own["regime"].astype(np.int8)})
+
+
+def arguments_of(points: Points) -> dict[str, Any]:
+    """Points as arguments of `swtstudy.kernel.batch.chunks`."""
+    given = {name.replace("bulk_stress", "bulk"): value for name, value in vars(points).items()}
+    p, q, path, control = (given.pop(name) for name in ("p", "q", "path", "control"))
+    return given | {
+        "pulled": given.pop("bulk_strain_share"),
+        "frequency_ratio": [*map(Fraction, p.tolist(), q.tolist())],
+        "loops": None if path is None else [path] * len(points),
+        "control": (control.normal_force, control.tangential_force),
+    }

@@ -1,20 +1,32 @@
-"""Quantities that are asked of points beside s."""
+"""Quantities that are asked of points beside s, and strain cycles of a round of the load as few numbers.
+
+The strain of a plane is counted by rainflow, each cycle with its own amplitude and its own largest σ_n: a
+swt of its own (`swtstudy.kernel.cycles`). A round does the damage Σ 1/N(SWT_i), which depends on a material's
+constants; so what is kept are the cycles themselves, over the largest swt: those that are alike are one, with
+how many they are.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 
-from swtstudy.kernel.batch import cycle_batch
-from swtstudy.solver.counted import few_cycles
+from swtstudy.kernel.batch import count_batch, cycle_batch
+from swtstudy.kernel.work import OF_CYCLE
 from swtstudy.solver.means import worst_means
-from swtstudy.solver.points import Points, Solution
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, Solution, arguments_of
 from swtstudy.solver.von_mises import largest_von_mises
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.quantities import NAMED, STICK_ENDS, YIELD, Request, error_of
+from swtstudy.vocabulary.quantities import COUNTED_SIZES, NAMED, YIELD, Request, error_of
 
-#: Quantities of the cycle, by their names in `swtstudy.kernel.work.OF_CYCLE`.
-OF_CYCLE = ("work", "stick_radius", *STICK_ENDS, "contact_radius", "force_ratio")
+#: Cycles whose SWT differ by less than this, relative, are equal.
+EQUAL = 1e-6
+#: Cycles are alike whose logarithms of SWT differ by less than a width times that to the largest SWT plus so
+#: much; the first width with which they are few enough. So are 300 random cycles 8, with a damage that is
+#: right to 14 % for lives that go with SWT to the minus 1 to 9. 0.4 in place of 0.05: 27 %.
+WIDTHS, LEAST_DEPTH = 1e-3 * 1.5 ** np.arange(25), 0.05
+#: Cycles that are alike have the mean of this power of SWT, so that a life which goes with SWT to the minus
+#: this power stays as it is.
+POWER = 4.0
 
 
 def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[str, FloatArray]:
@@ -37,7 +49,7 @@ def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[st
     """
     made: dict[str, FloatArray] = {}
     functions = {row.function for row in asked.rows}
-    if functions & {*OF_CYCLE}:
+    if functions & {*(OF_CYCLE.names or ())}:
         cycles = cycle_batch("force_ratio" in functions, **arguments_of(points))
         made |= {name: cycles[name].copy() for name in cycles.dtype.names}
     if YIELD in asked.names:
@@ -51,3 +63,59 @@ def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[st
         for row in asked.rows
         for name, key in zip(row.variables, (row.function, error_of(row.function)), strict=False)
     }
+
+
+def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
+    """Strain cycles in a round of n points with their solution, of shape (n, places, cycles).
+
+    `COUNTED_SIZES` gives the sizes. ``share`` is SWT of a cycle over the largest SWT, descending at each
+    place, and ``number`` how many cycles have it; NaN where there are no more, or no critical plane. Where
+    there is a plane but no critical point, s is that far from the contact.
+    """
+    share, number = np.full((2, len(points), *COUNTED_SIZES.values()), np.nan)
+    double_angle = np.radians(2.0 * solution.critical_angle)
+    found = count_batch(solution.critical_x, double_angle, **arguments_of(points))
+    for point, places in enumerate(found):
+        for place, cycles in enumerate(places):
+            shares, numbers = few(cycles, share.shape[-1])
+            share[point, place, : shares.size], number[point, place, : shares.size] = shares, numbers
+    return {"share": share, "number": number}
+
+
+def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
+    """At most so many cycles instead of many, and how many each stands for.
+
+    The largest stays as it is, so that the damage is never less than its own.
+
+    Parameters
+    ----------
+    shares
+        Shape (k,), positive and descending.
+    most
+        Two at least.
+
+    Examples
+    --------
+    >>> few(np.array([1.0, 1.0, 0.5]), 8)
+    (array([1. , 0.5]), array([2., 1.]))
+    """
+    depth = np.log(shares[0] / shares)
+    equal = int(np.searchsorted(depth, EQUAL, side="right"))
+    rest = depth[equal:]
+    for width in WIDTHS:
+        begins = _begins(rest, width)
+        if len(begins) < most:
+            break
+    groups = np.split(shares[equal:], begins[1 : most - 1]) if rest.size else []
+    means = [float((group**POWER).mean() ** (1.0 / POWER)) for group in groups]
+    return np.array([shares[0], *means]), np.array([equal, *map(len, groups)], float)
+
+
+def _begins(ascending: FloatArray, width: float) -> list[int]:
+    """Where groups begin, by the depths below the largest SWT."""
+    begins: list[int] = []
+    for place, value in enumerate(ascending):
+        begin = ascending[begins[-1]] if begins else -np.inf
+        if value - begin > width * (LEAST_DEPTH + begin):
+            begins.append(place)
+    return begins

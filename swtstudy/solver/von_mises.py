@@ -11,8 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.kernel.field import Opened, largest_radius, open_cycle, passed_radii, von_mises_at
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 
 #: Tolerance of what grew in stick.

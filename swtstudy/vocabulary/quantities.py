@@ -42,7 +42,7 @@ class Quantity:
     function
         Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
         `swtstudy.solver.von_mises`, or its key in
-        `swtstudy.solver.means.Means` or in what `swtstudy.solver.counted.few_cycles` finds.
+        `swtstudy.solver.means.Means` or in what `swtstudy.solver.quantities.few_cycles` finds.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims

@@ -303,7 +303,7 @@ def printed(*lines):
 def test_the_solver_starts_without_scipy():
     # More than half of a worker's start; the profiles and fields that need it import it.
     found = printed(
-        "import sys, swtstudy.points.chunk, swtstudy.solver.solve",
+        "import sys, swtstudy.points.chunk, swtstudy.kernel.batch",
         "print([name for name in sys.modules if name.startswith('scipy')])",
     )
     assert "scipy.special" not in found

@@ -12,7 +12,7 @@ from swtstudy import TabulatedProfile
 from swtstudy.kernel import mean
 from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about, open_cycle
 from swtstudy.solver.means import DOWN
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import arguments_of
 
 
 def opened(batch):

@@ -14,7 +14,7 @@ from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
 from swtstudy.paper.audit.body_maximum import body_maximum
 from swtstudy.solver.means import DOWN
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import arguments_of
 
 Array = NDArray[np.float64]
 NU = 0.3

@@ -17,7 +17,7 @@ import swtstudy
 from swtstudy.kernel.field import direction_at, largest_radius, mean_about, open_cycle
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.solver.means import DOWN, worst_means
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import arguments_of
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}

@@ -62,7 +62,7 @@ class _StopsAfter:
         self.left = points
 
     def __call__(self, points, rtol):
-        from swtstudy.solver.solve import solve_points
+        from swtstudy.solver.points import solve_points
 
         if self.left <= 0:
             raise KeyboardInterrupt
@@ -113,7 +113,7 @@ def test_the_contact_of_an_archive_is_checked(tmp_path):
 KILLED = """
 import os, signal, sys, time
 import swtstudy
-from swtstudy.solver.solve import solve_points
+from swtstudy.solver.points import solve_points
 from swtstudy.runner import job
 
 job.PART_SECONDS = 0.0

@@ -129,7 +129,7 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
     """
     from swtstudy.paper.audit.body_maximum import body_maximum
     from swtstudy.paper.audit.dense import dense_maximum
-    from swtstudy.solver.solve import solve_points
+    from swtstudy.solver.points import solve_points
 
     points = points_from(np.array([tuple(row)], ROW), definitions)
     line = solve_points(points, TOLERANCE / 10.0)

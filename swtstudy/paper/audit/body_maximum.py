@@ -19,8 +19,7 @@ from swtstudy.kernel.field import (
     open_cycle,
     passed_radii,
 )
-from swtstudy.solver.points import Points
-from swtstudy.solver.solve import arguments_of
+from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 
 #: Relative tolerances of the first look, of climbs and of the value.
