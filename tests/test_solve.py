@@ -7,6 +7,7 @@ import dask
 import dask.array
 import numpy as np
 import pytest
+import stand_in
 import xarray as xr
 
 import swtstudy
@@ -167,6 +168,15 @@ def test_axes_of_dask_are_solved_lazily_and_give_the_same_bits():
     assert later.s.chunks == ((2, 2, 1), (2,))
     assert {name for name in later if dask.is_dask_collection(later[name].data)} == {*now.data_vars}
     xr.testing.assert_identical(later.compute(scheduler="threads"), now)
+
+
+def test_axes_of_dask_are_solved_when_they_are_computed_and_once(monkeypatch):
+    counting = stand_in.Counting()
+    monkeypatch.setattr(stand_in.SOLVER, counting)
+    later = swtstudy.solve(phase=dask.array.from_array(np.linspace(0.1, 3.0, 6), chunks=3), rtol=1e-2)
+    assert counting.points == 0
+    later.compute()
+    assert counting.points == 6
 
 
 def test_axes_of_dask_are_checked_at_once():

@@ -90,7 +90,8 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":
             del variable.attrs["units"]
-    lines = validity_lines(dataset) if "regime" in arrays else ()
+    # Of arrays of dask nothing is known before they are computed.
+    lines = validity_lines(dataset) if "regime" in arrays and not dataset.chunks else ()
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
