@@ -21,6 +21,7 @@ import swtstudy
 from swtstudy import Study, open_results
 from swtstudy.archive.netcdf import save
 from swtstudy.runner.work import assess
+from swtstudy.vocabulary.variables import MISSING
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]
 SHELL = [page for page in shown.PAGES if any(b.language == "sh" for b in shown.blocks_of(page))]
@@ -56,7 +57,7 @@ def fresh(tmp_path_factory):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     for study in sorted((folder / "studies").glob("*.toml")):
         work = assess(Study.from_toml(study), folder / "results" / f"{study.stem}.nc")
-        assert not work.missing.any(), f"results/{study.stem}.nc is to be made anew"
+        assert not (work.found["status"] == MISSING).any(), f"results/{study.stem}.nc is to be made anew"
     (rig,) = (block for block in TOML if block.page.name == "README.md")
     (folder / "rig.toml").write_text(rig.text)
     return folder

@@ -23,6 +23,7 @@ from swtstudy.archive.describe import failures
 from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read_parts
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
+from swtstudy.points import chunk
 from swtstudy.runner import engine, work
 from swtstudy.runner import job as job_module
 from swtstudy.runner.run import Stopped
@@ -140,7 +141,7 @@ def test_an_interrupted_study_is_kept_while_another_is_run(line, tmp_path):
         run(other, path, solver=stand_in.smooth, workers=1)
         assert points_saved(kept_folder(path)) == saved > 0
         assert not parts_folder(path).exists()
-        assert int(work.assess(line, path).missing.sum()) == 400 - saved
+        assert int(work.assess(line, path).todo.sum()) == 400 - saved
 
 
 def test_points_that_are_kept_outlive_a_kill_at_any_moment(tmp_path, monkeypatch):
@@ -159,7 +160,7 @@ def test_points_that_are_kept_outlive_a_kill_at_any_moment(tmp_path, monkeypatch
                 run(study, path, solver=stand_in.smooth)
             monkeypatch.undo()
             counting = stand_in.Counting()
-            assert int(work.assess(wide, path).missing.sum()) == 0
+            assert int(work.assess(wide, path).todo.sum()) == 0
         run(study, path, solver=counting)
         assert counting.points == 0
     assert points_saved(kept_folder(path)) == len(read_parts(kept_folder(path))) == 2
@@ -181,7 +182,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
-    for module in (job_module, engine, work):
+    for module in (chunk, job_module, engine, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
