@@ -130,7 +130,7 @@ class SignalTable(FileTable):
         int | None, Allowed(f"a whole number, 1 to {HIGHEST_ORDER}"), Field(ge=1, le=HIGHEST_ORDER)
     ] = key("Highest order of a fit of the file's columns by harmonics: a smooth loop.", None)
     despike: bool = key(
-        "Whether samples that stand out from all other cycles take the median of the cycles.", False
+        "Whether spikes take the value that the samples beside them or the other cycles suggest.", False
     )
 
 
