@@ -1,4 +1,4 @@
-"""Names that parameters take: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts.
+"""Names to choose from: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts, figures.
 
 Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterion`.
 """
@@ -6,6 +6,7 @@ Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterio
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, TypeGuard
 
@@ -77,6 +78,49 @@ def is_plane(profile: object) -> bool:
 def families_with(name: str) -> list[str]:
     """Names of the families that have a shape parameter."""
     return [family.name for family in FAMILIES.values() if name in family.shape]
+
+
+class Drawing(NamedTuple):
+    """A kind of figure.
+
+    Attributes
+    ----------
+    of
+        Whether it shows "lines", a "surface" over x and vertical, or a "sample".
+    words
+        A reader's words for it.
+    lacks
+        The keys of a figure that it has none of, and the reason.
+    over
+        Words for what it is drawn over, instead of x.
+    """
+
+    of: str
+    words: str
+    lacks: Mapping[str, str]
+    over: str = ""
+
+
+_UPRIGHT = {"vertical": ", whose vertical axis is y"}
+#: The kinds of figures.
+FIGURES = {
+    "lines": Drawing("lines", "lines over x", _UPRIGHT),
+    "life": Drawing("lines", "lines with x upright over a life, as S–N curves", {**_UPRIGHT, "regimes": ""}),
+    "contour": Drawing("surface", "contours over x and vertical", {"hue": ""}),
+    "heatmap": Drawing("surface", "a cell for each point over x and vertical", {"hue": "", "regimes": ""}),
+    "scatter": Drawing(
+        "sample",
+        "the points of a sample, with a panel for each of its parameters",
+        {**_UPRIGHT, "panels": ": every sampled parameter has its own", "regimes": ""},
+        "over each sampled parameter",
+    ),
+    "histogram": Drawing(
+        "sample",
+        "how often a sample has which values",
+        {**_UPRIGHT, "regimes": "", "validity": ""},
+        "at the points of the sample",
+    ),
+}
 
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.

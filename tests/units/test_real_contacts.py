@@ -199,7 +199,7 @@ def test_materials_come_by_name_from_a_file(tmp_path):
     for table, words in (
         ('file = "materials.toml"\nname = "wek"', "material.name: found 'wek'; allowed: a material in"),
         ('file = "materials.toml"', "material.name: found nothing; allowed: a material in materials.toml"),
-        ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (No such file"),
+        ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (no such file"),
         ('name = "weak"', "material.file: found nothing; allowed: a TOML file with a table"),
         ('file = "materials.toml"\nname = "weak"\nstrength = 1', "material: found a name and strength;"),
     ):
