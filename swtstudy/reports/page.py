@@ -54,8 +54,8 @@ from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import KINDS, measures
-from swtstudy.vocabulary.choices import FIGURES
+from swtstudy.units.results import measures
+from swtstudy.vocabulary.choices import CRITERIA, FIGURES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
@@ -227,7 +227,7 @@ def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[t
     known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(beside)
     shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
     yield "points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value"
-    lives = [kind.life for kind in KINDS.values() if kind.life]
+    lives = [row.life for row in CRITERIA.values() if row.life]
     for end, one in ends:
         own = dict.fromkeys((*measures(one), *(n for n in one if n in lives), measured(one).name))
         for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:

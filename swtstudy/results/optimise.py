@@ -24,8 +24,8 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
 from swtstudy.solving import solve_grid
-from swtstudy.units.results import LIVES
 from swtstudy.vocabulary.arrays import Columns, FloatArray
+from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     ALLOWED_SEED,

@@ -15,6 +15,7 @@ from pydantic.dataclasses import dataclass
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.choices import FIGURES
+from swtstudy.vocabulary.derived import DERIVED, LIVES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
@@ -279,17 +280,16 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         report("figure.y", f"{literal(y)} ({error})", f"{', '.join(known)}, or {QUANTITY}")
         return
     if place is None:
-        name = y.strip()
-        base, _, kind = name.rpartition("_")
+        name, row = y.strip(), DERIVED.get(y.strip())
         if name in COUNTED:
             found = f"{literal(y)}, which has several values at a point"
             report("figure.y", found, "cycles, which is made of it")
         elif name in EVERY_VARIABLE and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
-        elif name not in known and base in known and f"s_{kind}" in NONLOCAL:
+        elif name not in known and row and row.of in NONLOCAL and name.rpartition("_")[0] in known:
             report("figure.y", literal(y), f"in a study with a {DISTANCE} alone")
-        elif name not in known and (name == "cycles" or base == "cycles"):
+        elif name not in known and row and row.kind and not {*LIVES} & {*known}:
             found = f"{literal(y)}, a life, without fatigue constants"
             report("figure.y", found, f"[material] with them, in a study with units; or {', '.join(known)}")
         elif name not in known:

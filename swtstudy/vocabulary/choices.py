@@ -155,6 +155,15 @@ class Criterion(NamedTuple):
         A reader's words for its values.
     meaning, over_unit
         The meaning of s, in words for attributes, and its symbol over its unit.
+    name, sign, unit, scale
+        Of its values with units the data variable, its symbol, the kind of unit, "stress" or "1", and the
+        property of a contact at rest that is the factor of s.
+    life, subscript, by, constants
+        Of the life at a value the data variable, the index of its symbol, words for the criterion behind it,
+        and the facts of contacts of which one gives it; empty where there is no life.
+    limit, usage
+        The limits that its values are compared with, a fact of contacts, and the data variable that compares
+        them; empty where there are none.
     """
 
     words: str
@@ -164,6 +173,16 @@ class Criterion(NamedTuple):
     values: str
     meaning: str
     over_unit: str
+    name: str
+    sign: str
+    unit: str
+    scale: str
+    life: str = ""
+    subscript: str = ""
+    by: str = ""
+    constants: tuple[str, ...] = ()
+    limit: str = ""
+    usage: str = ""
 
 
 NORMAL_STRAIN = Swing("normal_strain", "strain normal to the plane", r"\varepsilon_n")
@@ -179,6 +198,9 @@ CRITERIA = {
         "SWT",
         "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
         r"\mathrm{SWT}/\mathrm{SWT}_0",
+        *("SWT", r"\mathrm{SWT}", "stress", "swt_of"),
+        life="cycles",
+        constants=("materials",),
     ),
     FATEMI_SOCIE: Criterion(
         "Fatemi-Socie parameter",
@@ -188,6 +210,11 @@ CRITERIA = {
         "Fatemi-Socie parameter",
         "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
         r"G \mathrm{FS}/(E^*\delta_0/a_H)",
+        *("FS", r"\mathrm{FS}", "1", "strain_of"),
+        life="FS_cycles",
+        subscript="FS",
+        by=" by Fatemi and Socie",
+        constants=("materials", "shear_materials"),
     ),
     FINDLEY: Criterion(
         "Findley stress",
@@ -197,6 +224,9 @@ CRITERIA = {
         "Findley stress",
         "maximum Findley stress over E* delta0 / a_H",
         r"f/(E^*\delta_0/a_H)",
+        *("findley_stress", "f", "stress", "stress_scale"),
+        limit="findley_limits",
+        usage="findley_usage",
     ),
 }
 #: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).

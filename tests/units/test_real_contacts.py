@@ -225,6 +225,10 @@ def test_known_units_are_those_of_scipy():
         "in": constants.inch,
         "lbf": constants.lbf,
         "kip": 1e3 * constants.lbf,
+        "kgf": constants.kgf,
+        "ft": constants.foot,
+        "N/mm²": 1e6,
+        "N/mm2": 1e6,
         "psi": constants.psi,
         "ksi": 1e3 * constants.psi,
     }
