@@ -238,7 +238,8 @@ def test_periods_and_swings_are_those_of_the_turning_points():
     straight = STATEMENTS["oscillations_shrink"](of_curves(np.arange(8.0)))
     assert not straight.holds
     assert straight.measured == (
-        "with h grow 0 of 0 periods and 0 of 0 swings on 1 curves; the longest series: period none, swing none"
+        "with h grow 0 of 0 periods and 0 of 0 swings on 1 curves; the longest series: period none, "
+        "swing none"
     )
 
 
