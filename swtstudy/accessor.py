@@ -155,7 +155,7 @@ class SwtAccessor:
         title
             Title of the figure.
         kind
-            "lines", "life", "contour", "heatmap", "scatter" or "histogram".
+            One of `swtstudy.vocabulary.choices.FIGURES`, such as "lines" or "contour".
         vertical
             The other dimension of contours and heat maps.
         regimes

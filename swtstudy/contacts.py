@@ -29,7 +29,7 @@ from swtstudy.units.life import (
 from swtstudy.units.material import warn_of_units
 from swtstudy.units.measured import Measured, headline, words_of
 from swtstudy.units.reading import check_distances, completed, read_contacts
-from swtstudy.units.results import KINDS, NAMES, variables
+from swtstudy.units.results import derived
 from swtstudy.units.rows import (
     LABELS,
     NAMES_KEY,
@@ -44,8 +44,9 @@ from swtstudy.units.rows import (
     wrong_size,
 )
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.choices import FINDLEY, SWT, family_of, is_plane, is_profile
+from swtstudy.vocabulary.choices import CRITERIA, FINDLEY, SWT, family_of, is_plane, is_profile
 from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.derived import DERIVED, LIFE
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     DEFAULT_RTOL,
@@ -57,7 +58,7 @@ from swtstudy.vocabulary.mistakes import (
 )
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, SHIFT
-from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, YIELD, Request, read_quantities
+from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, NONLOCAL, YIELD, Request, read_quantities
 from swtstudy.vocabulary.wording import html_table
 
 if TYPE_CHECKING:
@@ -422,7 +423,7 @@ class PhysicalContact:
 
         self._one  # noqa: B018 – one contact only, or an error
         grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
-        made = (each.name for each in variables(grid, asked) if each.of)
+        made = (each.name for each in derived(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
         if minimise not in known and (lacking := _lacking(grid, minimise, asked)):
             raise StudyError([Mistake("minimise", literal(minimise), f"with {' and '.join(lacking)}")])
@@ -537,7 +538,7 @@ class PhysicalContact:
         """
         from swtstudy.fields.stress import swt_field
 
-        names = {"s_local": KINDS[self._measured(body).criterion].name}
+        names = {"s_local": CRITERIA[self._measured(body).criterion].name}
         return self._field(swt_field, body, names, x=x, y=y, z=z)
 
     def _field(
@@ -603,17 +604,17 @@ def _labels(measured: Measured) -> dict[str, Label]:
 
 def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
     """The arguments without which a data variable is not there."""
+    if minimise not in DERIVED:
+        return []
+    row, criteria = DERIVED[minimise], ("", *grid.values("criterion"))
     constants = ", ".join(field.name for field in fields(FatigueConstants))
     needs = {
-        f"constants (swtstudy.FatigueConstants of {constants})": "cycles" in minimise and not grid.materials,
-        f"a {DISTANCE}": minimise.endswith(("_volume", "_point", "_line")) and not asked.distances,
-        "a yield_strength": minimise in ("yield_ratio", "von_mises") and not grid.yield_strengths,
-        'the criterion "fatemi_socie"': minimise.startswith("FS")
-        and "fatemi_socie" not in grid.values("criterion"),
-        'the criterion "findley"': minimise.startswith("findley")
-        and "findley" not in grid.values("criterion"),
+        f"constants (swtstudy.FatigueConstants of {constants})": LIFE in minimise and not grid.materials,
+        f"a {DISTANCE}": row.of in NONLOCAL and not asked.distances,
+        "a yield_strength": row.of == YIELD and not grid.yield_strengths,
+        f'the criterion "{row.criterion}"': row.criterion not in criteria,
     }
-    return [words for words, lacks in needs.items() if minimise in NAMES and lacks]
+    return [words for words, lacks in needs.items() if lacks]
 
 
 def _of_both(name: str, given: Any, kind: type[Any], report: Report) -> tuple[Any, ...]:

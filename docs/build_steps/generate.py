@@ -5,6 +5,7 @@ from pathlib import Path
 
 from build_steps.citation import citation
 from build_steps.commands import commands
+from build_steps.figure_kinds import figure_kinds
 from build_steps.gallery import gallery, results_of
 from build_steps.house import draw_house
 from build_steps.parameters import parameters
@@ -27,6 +28,7 @@ def generate(folder: Path, reports: bool = False) -> None:
     texts = {
         "citation": citation(ROOT / "CITATION.cff"),
         "commands": commands(),
+        "figure_kinds": figure_kinds(),
         "gallery": gallery(ROOT, reported),
         "parameters": parameters(),
         "rooms_whole": rooms(WHOLE),

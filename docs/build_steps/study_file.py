@@ -34,7 +34,7 @@ def study_file() -> str:
             _table(parts["BlockTable"]["properties"], set(parts["BlockTable"]["required"])),
             *_section("profiles", keys, parts["ProfileTable"], ".NAME"),
             f"## `[figure]`\n\n{keys['figure']['description']}\n",
-            _table(parts["FigureTable"]["properties"], set(parts["FigureTable"]["required"])),
+            _table(parts["FigureLayout"]["properties"], set(parts["FigureLayout"]["required"])),
         ]
     )
 

@@ -59,7 +59,7 @@ def sensitivity(
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.evaluated import draw_sensitivity
     from swtstudy.figures.style import save_figure
-    from swtstudy.paper.statements.parameters import table
+    from swtstudy.paper.statements.indices import table
     from swtstudy.results.sensitivity import sensitivity as indices_of
     from swtstudy.runner.run import run
 
@@ -142,7 +142,7 @@ def check(results: str, output: str | None) -> None:
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
     rows = [
-        (each.statement.place, f"{each.statement.sentence}\n", each.measured, each.verdict)
+        (each.statement.place, f"{each.statement.sentence}\n", each.finding.measured, each.verdict)
         for each in outcomes
         if each.finding is not None
     ]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from operator import itemgetter
 from pathlib import Path
 
 import click
@@ -30,22 +29,28 @@ PARTS = {
 }
 
 
+def by_section(names: Iterable[str]) -> dict[str, list[str]]:
+    """Names of options under the headings of help, parameters first, in the order of `PARTS`."""
+    found: dict[str, list[str]] = {title: [] for title in (*PARTS.values(), "Options")}
+    for name in names:
+        row = AXES.get(name)
+        found[PARTS.get(row.part, "Options") if row else "Options"].append(name)
+    return {title: own for title, own in found.items() if own}
+
+
 class InSections(click.Command):
     """A command whose many parameters are listed by what they are a part of, a line each."""
 
     def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:
-        sections: dict[str, list[tuple[str, str]]] = {title: [] for title in (*PARTS.values(), "Options")}
+        records = {}
         for each in self.get_params(context):
-            row = AXES.get(str(each.name))
-            title = PARTS.get(row.part, "Options") if row else "Options"
-            record = each.get_help_record(context)
-            if record:
-                sections[title].append((record[0].removesuffix(f" {each.metavar}"), record[1]))
+            if record := each.get_help_record(context):
+                records[str(each.name)] = (record[0].removesuffix(f" {each.metavar}"), record[1])
         formatter.write_paragraph()
-        for title, records in filter(itemgetter(1), sections.items()):
+        for title, names in by_section(records).items():
             formatter.write_heading(title)
             with formatter.indentation():
-                formatter.write_dl(records, col_max=32)
+                formatter.write_dl([records[name] for name in names], col_max=32)
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:

@@ -15,7 +15,7 @@ from swtstudy.study.shipped import find_study
 from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
-from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameter import Parameter, short
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
@@ -40,10 +40,6 @@ _FORMATS = {
 }  # fmt: skip
 
 
-def _short(value: object) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
 def with_parameters(
     metavar: str, parameters: Iterable[Parameter]
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
@@ -60,11 +56,11 @@ def with_parameters(
 
 @click.command(cls=InSections)
 @with_parameters(SEVERAL, PARAMETERS.values())
-@click.option("--rtol", default=DEFAULT_RTOL, help=f"Relative accuracy asked of s  [{DEFAULT_RTOL}]")
+@click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Target of the relative error of s.")
 @click.option("--quantities", metavar=SEVERAL, help="Columns beside s, such as dissipation.")
 @with_parameters(SEVERAL, [QUANTITY_AXES[DISTANCE]])
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
-    """Print s for single values or lists of parameters.
+    """Print s for single values or lists: a table, or tabs in a pipe.
 
     \b
     Examples:
@@ -78,7 +74,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
     dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
     dims = [*map(str, dataset.s.dims)]
-    places = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in dims))
+    places = itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in dims))
     found = dict(zip(dims, zip(*places, strict=True), strict=True))
     for name, form in _FORMATS.items():
         found[name] = tuple(f"{value:{form}}" for value in dataset[name].values.ravel())
@@ -87,7 +83,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
         # A quantity with dimensions of its own has a column for each place in them.
         own = [str(dim) for dim in dataset[name].dims if dim not in dims]
         values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
-        beside = itertools.product(*(map(_short, dataset[dim].values.tolist()) for dim in own))
+        beside = itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in own))
         for place, column in zip(beside, values.T, strict=True):
             found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{each:.6g}" for each in column)
     lines, room = [*zip(*found.values(), strict=True)], line_length()

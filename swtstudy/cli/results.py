@@ -11,6 +11,7 @@ import click
 from swtstudy.archive.paths import check_archive_path, locked
 from swtstudy.cli.options import archive_completion, with_width
 from swtstudy.cli.terminal import say
+from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.wording import place_words
@@ -56,7 +57,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
 @click.option("--hue", help="The axis whose values are the lines.")
 @click.option("--panels", help="The axis whose values are the panels.")
 @click.option("--vertical", help="The axis along the vertical axis of contours and heat maps.")
-@click.option("--kind", help="lines, life, contour or heatmap.")
+@click.option("--kind", help=f"{', '.join(FIGURES)}.  [default: lines]")
 @click.option(
     "--y", multiple=True, help="What is drawn, such as s, critical_x or regime; repeat for more rows."
 )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.cli.options import PARTS, with_studies, with_workers
+from swtstudy.cli.options import by_section, with_studies, with_workers
 from swtstudy.cli.terminal import say, say_next
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
@@ -182,11 +182,9 @@ def list_studies(context: click.Context, parameters: bool) -> None:
 
 def _explained(formatter: click.HelpFormatter) -> str:
     """Every parameter with its meaning, by what it is a part of, and every quantity."""
-    for title in dict.fromkeys(PARTS.values()):
-        own = [(row.name, row.explained) for row in PARAMETERS.values() if PARTS[row.part] == title]
-        if own:
-            with formatter.section(title):
-                formatter.write_dl(own)
+    for title, names in by_section(PARAMETERS).items():
+        with formatter.section(title):
+            formatter.write_dl([(name, PARAMETERS[name].explained) for name in names])
     quantities = {name: f"{row.meaning}." for name, row in NAMED.items()}
     with formatter.section("Quantities beside s"):
         formatter.write_dl([*quantities.items(), (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])

@@ -86,7 +86,10 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
         names = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
         allowed = f'columns {names}; columns = {{ xx = "…" }} with other headers; or an order of the last six'
         raise StudyError([Mistake(f"line {table.line}", ", ".join(table.headers), allowed, table.source)])
-    if order is not None and order != found:
+    if found is not None and order not in (None, found):
+        allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
+        raise StudyError([Mistake("order", literal(order), allowed, table.source)])
+    if found is None:
         values, found = table.numbers(table.headers[-len(OURS) :]), order
     else:
         values = table.numbers(ORDERS[str(found)])

@@ -17,7 +17,8 @@ from swtstudy.loads.loop import Loop
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
-from swtstudy.study.figure import LINE_KINDS, NO_AXIS, FigureLayout, wrong_axes, wrong_layout
+from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layout
+from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import require
@@ -112,7 +113,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
     """A row of panels for each quantity, a column for each value of the panels' dimension."""
     parts = slices(dataset, layout.panels)
-    lines, upright = layout.kind in LINE_KINDS, layout.kind == "life"
+    lines, upright = FIGURES[layout.kind].of == "lines", layout.kind == "life"
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
     sheet = Sheet(len(layout.y), len(parts), width)
     figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)

@@ -147,7 +147,7 @@ def _draw_margin(axes: Axes, phase: FloatArray, loads: FloatArray, slope: float,
 
 
 def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
-    """A closed course from the instant on that is nearest to the begin of a cycle, which is smooth."""
+    """The closed load path, started at the vertex nearest to the first sample of the cycle."""
     size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
     first = int((((loads[:-1] - cycle[0]) / size) ** 2).sum(axis=1).argmin())
     rolled = np.roll(loads[:-1], -first, axis=0)

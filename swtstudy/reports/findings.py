@@ -19,8 +19,9 @@ from swtstudy.reports.values import rendered, symbol_html, value_text
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.results import LIVES, measures
+from swtstudy.units.results import measures
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
+from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
 from swtstudy.vocabulary.variables import has_units

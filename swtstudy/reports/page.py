@@ -51,10 +51,11 @@ from swtstudy.reports.values import (
     with_unit,
 )
 from swtstudy.results.evaluate import quantity, quantity_error
-from swtstudy.study.figure import LINE_KINDS, FigureLayout
+from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import KINDS, measures
+from swtstudy.units.results import measures
+from swtstudy.vocabulary.choices import CRITERIA, FIGURES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
@@ -67,8 +68,6 @@ _COORDINATES, _LONG = re.compile(rb' (?:d|x|y|x1|x2|y1|y2|points)="[^"]*"'), re.
 _SOURCE = re.compile(rb"\s*<!--.*?-->|\s*\n\s*", re.DOTALL)
 #: Most rows of a table of extrema, and values of an axis that are listed one by one.
 _ROWS, _LISTED = 12, 8
-#: The horizontal axis of the figures of a sample.
-_SAMPLED = {"scatter": "over each sampled parameter", "histogram": "at the points of the sample"}
 
 
 class Picture(NamedTuple):
@@ -162,7 +161,7 @@ def _study_figure(dataset: xr.Dataset, known: dict[str, Any]) -> dict[str, Any]:
     known["derived"] = derived(dataset, layout, rows_of(dataset))
     fixed = extreme_places(dataset).get("worst", {})
     known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue, "fixed": fixed}
-    words = f"{', '.join(layout.y)} {_SAMPLED.get(layout.kind, f'over {layout.x}')}"
+    words = f"{', '.join(layout.y)} {FIGURES[layout.kind].over or f'over {layout.x}'}"
     live = bool(known["panels"])
     return {"picture": shown, "words": words, "caption": caption_of(dataset, layout), "live": live}
 
@@ -173,9 +172,9 @@ def _panels(figure: Figure, dataset: xr.Dataset, layout: FigureLayout) -> Iterat
     A panel is where it is, as shares of the picture from its upper left corner; the ends of its axes; and the
     columns of the table that it shows.
     """
-    lines = layout.kind in LINE_KINDS
+    lines = FIGURES[layout.kind].of == "lines"
     count = dataset.sizes[layout.panels] if layout.panels else 1
-    known = lines or layout.kind in ("contour", "heatmap")
+    known = FIGURES[layout.kind].of != "sample"
     for index, axes in enumerate(figure.axes[: count * len(layout.y)] if known else ()):
         row, column = divmod(index, count)
         box = axes.get_position()
@@ -208,10 +207,10 @@ def derived(dataset: xr.Dataset, layout: FigureLayout, dims: list[str]) -> dict[
 def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
     """Caption of a figure: its quantities and parameters in symbols."""
     words = Markup(", ").join(y if "/" in y else symbol_of(dataset[y]) for y in layout.y)
-    mark = "a line" if layout.kind in LINE_KINDS else "a colour"
+    mark = "a line" if FIGURES[layout.kind].of == "lines" else "a colour"
     role_words = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
     parts = [
-        escape(_SAMPLED[layout.kind])
+        escape(FIGURES[layout.kind].over)
         if each == SAMPLE
         else Markup("{} {}").format(role_words[role], symbol_of(dataset[each]))
         for role, each in layout.roles()
@@ -228,7 +227,7 @@ def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[t
     known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(beside)
     shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
     yield "points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value"
-    lives = [kind.life for kind in KINDS.values() if kind.life]
+    lives = [row.life for row in CRITERIA.values() if row.life]
     for end, one in ends:
         own = dict.fromkeys((*measures(one), *(n for n in one if n in lives), measured(one).name))
         for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:

@@ -25,8 +25,8 @@ from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.keys import FileTable
 from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
-from swtstudy.units.results import LIVES
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
+from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,

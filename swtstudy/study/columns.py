@@ -19,7 +19,7 @@ from swtstudy.study.keys import SEPARATORS, FileTable
 from swtstudy.units.rows import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
 #: More rows than this are no table that someone recorded for a study, nor are more columns.
 MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
@@ -27,6 +27,7 @@ MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
 WITHIN = 200
 #: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
 ENCODINGS = ("cp1252", "latin-1")
+_ENCODING_WORDS = " or ".join(map(literal, ENCODINGS))
 _READABLE = "a CSV file that can be read"
 _AS_CSV = "the sheet saved as CSV UTF-8"
 #: First bytes of files that are no text, what they are, and the way to export them.
@@ -37,6 +38,10 @@ FORMATS = (
     (b"\x89HDF", "an HDF5 file, as of MATLAB", _OF_MATLAB),
     (b"TDSm", "a LabVIEW TDMS file", "nptdms.TdmsFile(path).as_dataframe().to_csv(...) in Python"),
 )
+
+#: A number with a decimal comma, and its way out.
+COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
 #: Number of the line of a row, and its cells.
 Row = tuple[int, list[str]]
@@ -78,24 +83,28 @@ class UserTable(NamedTuple):
         return [cells[column] for _, cells in self.cells]
 
     def numbers(self, names: Sequence[str]) -> FloatArray:
-        """Columns of numbers, scaled, shape (rows, k)."""
-        return np.stack([self._numbers(name) * self.form.scale.get(name, 1.0) for name in names], axis=1)
+        """Columns of numbers, scaled, shape (rows, k); a StudyError with the first mistake of each kind."""
+        found, hints, report = [], set(), Report(self.source)
+        for name in names:
+            texts = self.texts(name)
+            values = np.array([number(text, self.form.decimal) for text in texts])
+            found.append(values * self.form.scale.get(name, 1.0))
+            for row in np.flatnonzero(~np.isfinite(values))[:1]:
+                hint = self._hint(texts[row], int(row))
+                if hint not in hints:
+                    place, shown = f"line {self.cells[row][0]}, {self.form.header(name)}", literal(texts[row])
+                    report(place, shown if texts[row] else "nothing", f"a finite number{hint}")
+                hints |= {hint} - {""}
+        report.refuse()
+        return np.stack(found, axis=1)
 
-    def _numbers(self, name: str) -> FloatArray:
-        texts = self.texts(name)
-        values = np.array([number(text, self.form.decimal) for text in texts])
-        if (wrong := np.flatnonzero(~np.isfinite(values))).size:
-            text, hint = texts[wrong[0]], ""
-            if not text:
-                hint = "; with the header of the time, time = ..., such rows are left out"
-            elif "," in text and self.form.decimal == ".":
-                hint = "; a comma in numbers is decimal = ','"
-            elif wrong[0] == 0:
-                hint = "; lines above the header are skip_rows, a row of units is units_row = true"
-            place = f"line {self.cells[wrong[0]][0]}, {self.form.header(name)}"
-            found = literal(text) if text else "nothing"
-            raise _refused(self.source, found, f"a finite number{hint}", place)
-        return values
+    def _hint(self, text: str, row: int) -> str:
+        """The key that is usually missing where a cell is no number."""
+        if not text:
+            return "; with the header of the time, time = ..., such rows are left out"
+        if "," in text and self.form.decimal == ".":
+            return COMMA_HINT
+        return "; lines above the header are skip_rows, a row of units is units_row = true" * (row == 0)
 
     def values(self, name: str) -> list[object]:
         """The cells of a column, numbers where they are, scaled, and texts."""
@@ -155,40 +164,53 @@ def read_columns(
     StudyError
         A ValueError with what is wrong in the file, and in which row.
     """
-    known = (*names, *optional, *(kinds or ()))
-    strange = [
-        Mistake(f"{part}.{name}", literal(name), nearest(name, known, {}))
-        for part in ("columns", "scale")
-        for name in getattr(form, part)
-        if name not in known
-    ]
-    if strange:
-        raise StudyError(strange)
-    table = read_table(path, names, optional, form)
-    for name in () if form.columns else (name for name in optional if not table.has(name)):
-        # Such as Bulk, or bulk_stress: left alone it would count as 0.
-        if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-            found, allowed = f"the column {literal(alike[0])}", f"{name}, if that is meant, or another name"
-            raise _refused(table.source, found, allowed, f"line {table.line}")
-    names = [*names, *filter(table.has, optional)]
-    for name in (name for name in kinds or () if labels and name in names and name not in form.scale):
-        kind = kinds[name]  # type: ignore[index]
-        unit, label, units = table.unit(name, kind), str(labels.get(kind)), KNOWN[kind]  # type: ignore[union-attr]
-        if unit and label in units and units[unit] != units[label]:
-            found = f"{literal(form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
-            allowed = f"scale = {{ {name} = {units[unit] / units[label]:g} }}"
-            raise _refused(table.source, found, f"{allowed}; {name} = 1 if the unit in the file is wrong")
-    columns = [table.headers.index(form.header(name)) for name in names]
-    empty = [line for line, cells in table.cells if not all(cells[k] for k in columns)] if gaps else []
-    if empty and len(empty) < len(table.cells):
-        more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
-        _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
-        table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
-    return table.numbers(names)
+    known, report = dict.fromkeys((*names, *optional, *(kinds or ()))), Report()
+    for part in ("scale", "columns"):
+        for name in (each for each in getattr(form, part) if each not in known):
+            report(f"{part}.{name}", literal(name), nearest(name, known, {}))
+    if not known.keys() >= form.columns.keys():
+        report.refuse()  # which column is meant is unknown
+    with report:
+        table = read_table(path, names, optional, form, told=report)
+        for name in () if form.columns else (name for name in optional if not table.has(name)):
+            # Such as Bulk, or bulk_stress: left alone it would count as 0.
+            if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
+                allowed = f"{name}, if that is meant, or another name"
+                found = f"the column {literal(alike[0])}"
+                report.append(Mistake(f"line {table.line}", found, allowed, table.source))
+        names = [*names, *filter(table.has, optional)]
+        for name, kind in (kinds or {}).items():
+            if labels and name in names and name not in form.scale:
+                report += _wrong_unit(table, name, kind, str(labels.get(kind)))
+        columns = [table.headers.index(form.header(name)) for name in names]
+        empty = [line for line, cells in table.cells if not all(cells[k] for k in columns)] if gaps else []
+        if empty and len(empty) < len(table.cells):
+            more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
+            if not report:
+                _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
+            table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
+        values = table.numbers(names)
+    report.refuse()
+    return values
+
+
+def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
+    """The mistake of a column in another unit than the study's, without a factor."""
+    unit, units = table.unit(name, kind), KNOWN[kind]
+    if not unit or label not in units or units[unit] == units[label]:
+        return []
+    found = f"{literal(table.form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
+    allowed = f"scale = {{ {name} = {units[unit] / units[label]:g} }}"
+    return [Mistake("", found, f"{allowed}; {name} = 1 if the unit in the file is wrong", table.source)]
 
 
 def read_table(
-    path: Path, names: Sequence[str], known: Collection[str], form: FileTable, most: int = MOST_ROWS
+    path: Path,
+    names: Sequence[str],
+    known: Collection[str],
+    form: FileTable,
+    most: int = MOST_ROWS,
+    told: Report | None = None,
 ) -> UserTable:
     """The table in a file; separator, header, units and decimal sign are found unless they are given.
 
@@ -204,6 +226,9 @@ def read_table(
         Its form, as far as it is given.
     most
         Largest number of rows.
+    told
+        Told a wrong encoding and the like, with which the table is read all the same; they are raised unless
+        given.
 
     Raises
     ------
@@ -215,23 +240,29 @@ def read_table(
         data = read_file(path, LARGEST_TABLE)
     except OSError as error:
         raise _refused(source, reason_of(error), _READABLE) from None
-    content = _sheet(data, form, source) if data.startswith(b"PK\x03\x04") else _text(data, form, source)
-    separator, above = _found_header(content, names, known, form, source)
-    if separator == form.decimal == ",":
-        raise StudyError([Mistake("separator, decimal", "both ','", "two different signs")])
+    report = Report()
+    if form.separator == form.decimal == ",":
+        report("separator, decimal", "both ','", "two different signs")
+        form = form.model_copy(update={"decimal": None})
+    if data.startswith(b"PK\x03\x04"):
+        content: str | list[Row] = _sheet(data, form, source)
+    else:
+        content = _text(data, form, source, report)
+    separator, above = _found_header(content, names, known, form, source, report)
     try:
-        rows = list(islice(_rows(content, separator, form.skip_rows), above, above + most + 3))
+        rows = list(islice(_rows(content, separator, form.skip_rows), above + most + 3))
     except csv.Error as error:
         raise _refused(source, str(error), _READABLE) from None
-    (line, headers), *rows = rows
+    skipped, (line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
     if wrong := _wrong_headers(headers, names, known, form):
         raise _refused(source, *wrong, f"line {line}")
+    notices = []
     if above:
-        _tell(source, f"the header is found in line {line}: what is above it is skipped")
+        notices.append(f"the header is found in line {line}: {_skipped_words(skipped)}")
     needed = [headers.index(form.header(name)) for name in names]
     units = _row_of_units(rows, needed, form)
     if units and form.units_row is None:
-        _tell(source, f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
+        notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
     cells = rows[bool(units) :]
     if len(cells) > most:
         raise _refused(source, f"more than {most} rows", f"at most {most}")
@@ -250,12 +281,24 @@ def read_table(
         comma = commas and not points and separator != ","
         form = form.model_copy(update={"decimal": "," if comma else "."})
         if comma:
-            _tell(source, "numbers with a comma are read with decimal = ','")
+            notices.append("numbers with a comma are read with decimal = ','")
+    if told is None:
+        report.refuse()
+    else:
+        told += report
+    for words in notices if not report else ():
+        _tell(source, words)
     return UserTable(headers, units, cells, form, source, line)
 
 
-def _text(data: bytes, form: FileTable, source: str) -> str:
-    """The text in a file, its lines ended by newlines."""
+def _skipped_words(rows: Sequence[Row]) -> str:
+    """Which lines above a header are skipped, and what they begin with."""
+    lines = f"lines {rows[0][0]} to {rows[-1][0]} are" if len(rows) > 1 else f"line {rows[0][0]} is"
+    return f"{lines} skipped, {literal(' '.join(filter(None, rows[0][1])), 40)}"
+
+
+def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
+    """The text in a file, its lines ended by newlines; of a wrong encoding as in Windows'."""
     for start, what, way in FORMATS:
         if data.startswith(start):
             raise _refused(source, what, f"a table in a text file: {way}")
@@ -267,8 +310,8 @@ def _text(data: bytes, form: FileTable, source: str) -> str:
     try:
         text = data.decode(encoding)
     except LookupError:
-        allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
-        raise StudyError([Mistake("encoding", literal(encoding), allowed)]) from None
+        report("encoding", literal(encoding), f"the name of an encoding, such as {_ENCODING_WORDS}")
+        text = data.decode(ENCODINGS[0], "replace")
     except UnicodeDecodeError as error:
         # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
         line = data.count(b"\n", 0, error.start) + 1
@@ -277,8 +320,10 @@ def _text(data: bytes, form: FileTable, source: str) -> str:
         read = literal(piece.decode(ENCODINGS[0], "replace").strip())
         found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
         allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"'
-        raise _refused(source, found, f"{allowed}; or the file saved as UTF-8") from None
+        report.append(Mistake("", found, f"{allowed}; or the file saved as UTF-8", source))
+        text = data.decode(ENCODINGS[0], "replace")
     if "\0" in text:
+        report.refuse()
         raise _refused(source, "a binary file", "a table in a text file")
     return io.StringIO(text, newline=None).read()
 
@@ -324,34 +369,43 @@ def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Ro
 
 
 def _found_header(
-    content: str | list[Row], names: Sequence[str], known: Collection[str], form: FileTable, source: str
+    content: str | list[Row],
+    names: Sequence[str],
+    known: Collection[str],
+    form: FileTable,
+    source: str,
+    report: Report,
 ) -> tuple[str, int]:
-    """The separator, and the number of rows above the header."""
+    """The separator, and the number of rows above the header: the row with most of the names asked for."""
     wanted, others = {*map(form.header, names)}, {*map(form.header, known)}
-    first: dict[str, list[str]] = {}
-    found: dict[str, tuple[int, int]] = {}
+    rows_of: dict[str, list[Row]] = {}
+    score: dict[str, tuple[int, ...]] = {}
+    header: dict[str, int] = {}
     for separator in SEPARATORS:
-        rows: list[Row] = []
+        rows: list[Row] = [(form.skip_rows + 1, [])]
         try:
-            rows.extend(islice(_rows(content, separator, form.skip_rows), WITHIN))
+            rows = [*islice(_rows(content, separator, form.skip_rows), WITHIN)] or rows
         except csv.Error as error:  # a stray quote makes the rest one cell
-            if not rows and separator == SEPARATORS[0]:
+            if separator == SEPARATORS[0]:
                 raise _refused(source, str(error), _READABLE) from None
-        first[separator] = rows[0][1] if rows else []
-        for above, (_, cells) in enumerate(rows):
-            if wanted <= {*cells}:
-                found[separator] = above, len((wanted | others) & {*cells})
-                break
-    likely = max(first, key=lambda each: (each != " ") * len(first[each]))
-    if found:
-        likely = max(found, key=lambda each: found[each][1])
+        scores = [
+            (len(wanted & {*row}), len(others & {*row}), not any(map(_is_number, row)), len(row))
+            for _, row in rows
+        ]
+        rows_of[separator], score[separator] = rows, max(scores)
+        header[separator] = scores.index(max(scores))
+    likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
     own: str = form.separator or likely
-    if own in found:
-        return own, found[own][0]
-    wrong = _missing(first[own], names, form)
-    if likely in found or len(first[likely]) >= len(names) > len(first[own]):
-        wrong = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
-    raise _refused(source, *wrong, f"line {form.skip_rows + 1}")
+    line, headers = rows_of[own][header[own]]
+    if wanted <= {*headers}:
+        return own, header[own]
+    report.refuse()  # in another encoding headers may be right
+    found, allowed = _missing(headers, names, form)
+    if score[likely][0] == len(wanted) or score[likely][-1] >= len(names) > len(headers):
+        found, allowed = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
+    elif above := rows_of[own][: header[own]]:
+        found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
+    raise _refused(source, found, allowed, f"line {line}")
 
 
 def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:

@@ -10,8 +10,11 @@ from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 #: count seven times as much.
 LEAST_EIGENVALUE = 0.01
 
-#: A spike stands out by so many standard deviations, and by this share of the range of the median cycle.
-SPIKE, SPIKE_SHARE = 10.0, 0.5
+#: Cycles from which their median does not follow a spike of one of them.
+FEWEST_CYCLES = 3
+#: A spike stands out by so many standard deviations, and by a share of the range: of the median cycle for a
+#: sample apart from the other cycles, of the record for a single sample apart from the samples beside it.
+SPIKE, SPIKE_SHARE, SINGLE_SHARE = 10.0, 0.5, 0.05
 #: Fewest samples of a record, and of a cycle, of which it is asked whether they repeat.
 FEWEST_SAMPLES, FEWEST_IN_CYCLE = 16, 4
 #: Correlation of a repeating record with itself one cycle later, and of a column that is noise at most.
@@ -69,10 +72,7 @@ def drift(cycles: FloatArray) -> float:
 
 
 def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> tuple[BoolArray, FloatArray]:
-    """Samples that stand out from the median of the cycles.
-
-    Such a sample is far from that median, and either outside of the range of the median cycle or outside of
-    both samples beside it: the steep side of a cycle that comes a little late is none.
+    """Samples that stand out from the samples beside them, or from the median of the cycles.
 
     Parameters
     ----------
@@ -83,22 +83,59 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
     -------
     out
         Shape (k, d), True for spikes.
-    median
-        Shape (k, d): the median of the cycles at the phase of each sample.
+    usual
+        Shape (k, d): the value that the other samples suggest, which is on the line between the samples
+        beside a single spike, and the median of the cycles at the phase of any other sample.
     """
+    out, usual = _single_spikes(time, values)
+    if count < FEWEST_CYCLES:
+        return out, usual
     cycle = np.median(folded(time, values, period, count), axis=0)
     phase = np.mod((time - time[0]) / period, 1.0) * len(cycle)
     closed = np.concatenate([cycle, cycle[:1]])
     median = np.stack([np.interp(phase, np.arange(len(closed)), column) for column in closed.T], axis=-1)
-    off = values - median
-    least = SPIKE * np.median(np.abs(off), axis=0) / 0.6745
+    off = np.abs(values - median)
+    # A pulse of every cycle is a load.
+    out &= off > 0.5 * np.abs(values - usual)
+    apart = _apart_from_cycles(values, off, cycle) & ~out
+    return out | apart, np.where(out, usual, median)
+
+
+def _apart_from_cycles(values: FloatArray, off: FloatArray, cycle: FloatArray) -> BoolArray:
+    """Samples far from the median cycle, and outside of its range or of both samples beside them.
+
+    The second condition spares the steep side of a cycle that comes a little late.
+    """
+    least = SPIKE * np.median(off, axis=0) / 0.6745
     least = np.maximum(least, SPIKE_SHARE * np.ptp(cycle, axis=0))
     beside = np.stack([np.roll(values, 1, axis=0), np.roll(values, -1, axis=0)])
     beside[0, 0], beside[1, -1] = beside[1, 0], beside[0, -1]
     outside = np.zeros_like(values, bool)
     for low, high in ((cycle.min(axis=0), cycle.max(axis=0)), (beside.min(axis=0), beside.max(axis=0))):
         outside |= (values > high + least) | (values < low - least)
-    return outside & (np.abs(off) > least), median
+    return outside & (off > least)
+
+
+def _single_spikes(time: FloatArray, values: FloatArray) -> tuple[BoolArray, FloatArray]:
+    """Single samples off the line between the samples beside them, and the values on these lines.
+
+    A spike of height h is h above the line between the samples beside it, and takes each of these samples
+    below its own line, by h times the share of the spike in it. All three must give the same sign, and the
+    smallest of the three heights counts: the tip of a triangle leaves the samples beside it on their lines,
+    and a smooth tip takes all three to one side.
+    """
+    out, usual = np.zeros_like(values, bool), values.copy()
+    if len(values) < FEWEST_SAMPLES:
+        return out, usual
+    share = ((time[1:-1] - time[:-2]) / (time[2:] - time[:-2]))[:, None]  # of the later sample in a line
+    usual[1:-1] = (1.0 - share) * values[:-2] + share * values[2:]
+    off = values - usual
+    sign = np.sign(off[2:-2])
+    before, after = -off[1:-3] / share[:-2], -off[3:-1] / (1.0 - share[2:])
+    height = np.min([sign * off[2:-2], sign * before, sign * after], axis=0)
+    least = SPIKE * np.median(np.abs(off), axis=0) / 0.6745
+    out[2:-2] = height > np.maximum(least, SINGLE_SHARE * np.ptp(values, axis=0))
+    return out, usual
 
 
 def repeats(time: FloatArray, values: FloatArray) -> float | None:

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.reading import GivenAxes, Range, read_distances, read_grid
+from swtstudy.points.reading import Range, read_distances, read_grid
 from swtstudy.study.figure import FigureLayout, check_figure
 from swtstudy.study.keys import Parts, read_study
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
 from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.choices import SWT, families_with
-from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
+from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, YIELD, Request, read_quantities
@@ -29,6 +29,13 @@ if TYPE_CHECKING:
     from swtstudy.vocabulary.parameter import Parameter
 
 _READABLE = "a readable study file (TOML)"
+_NAMED = 'a study (TOML) that names it: file = "…" under [loads.NAME], [profiles.NAME] or [sample]'
+#: Files that are no studies, by how their names end: what they are, and what takes them.
+_OTHER_FILES = {
+    ".nc": ("an archive", f"{_READABLE}; archives are for swtstudy report, plot and info"),
+    **dict.fromkeys((".csv", ".tsv", ".txt", ".dat"), ("a table of values (CSV)", _NAMED)),
+    **dict.fromkeys((".xlsx", ".xlsm", ".xls"), ("an Excel workbook", _NAMED)),
+}
 
 
 def require_study(study: object) -> None:
@@ -101,19 +108,8 @@ class Study:
         """
         if not isinstance(path, str | PathLike):
             raise StudyError([Mistake("path", literal(path), "the path or the name of a study")])
-        source = str(path)
-        file = find_study(source)
-        try:
-            text = read_text(file)
-        except FileNotFoundError:
-            allowed = "a study file (TOML)"
-            if not Path(path).suffix:
-                allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
-            raise StudyError([Mistake("", "no such file", allowed, source)]) from None
-        except (OSError, ValueError) as error:
-            found = "an archive" if Path(path).suffix == ".nc" else reason_of(error)
-            raise StudyError([Mistake("", found, _READABLE, source)]) from None
-        return cls.from_text(text, source, file.parent)
+        source, file = str(path), find_study(str(path))
+        return cls.from_text(_text_of(file, source), source, file.parent)
 
     @classmethod
     def from_text(cls, text: str, source: str = "study", folder: str | PathLike[str] = ".") -> Study:
@@ -135,10 +131,7 @@ class Study:
         """
         if not isinstance(text, str):
             raise StudyError([Mistake("text", literal(text), "the text of a study file")])
-        try:
-            raw = parse_toml(text)
-        except ValueError as error:
-            raise StudyError([Mistake("", str(error), "TOML", source)]) from None
+        raw = _parsed(text, source)
         study = study_from(raw, text, source, Path(folder))
         _unused(raw, study.grid, source).refuse()
         for line in _doubts(study.grid, "units" in raw):
@@ -177,10 +170,36 @@ def _doubts(grid: Grid, has_units: bool) -> Iterator[str]:
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:
     """Read the tables of a study file; a StudyError with the reason if that cannot be."""
+    return _parsed(_text_of(Path(path), str(path)), str(path))
+
+
+def _text_of(file: Path, source: str) -> str:
+    """The text of a study file; a StudyError with the reason if that cannot be read."""
     try:
-        return parse_toml(read_text(path))
-    except (OSError, ValueError) as error:
-        raise StudyError([Mistake("", reason_of(error), _READABLE, str(path))]) from None
+        return read_text(file)
+    except FileNotFoundError as error:
+        found, allowed = reason_of(error), "a study file (TOML)"
+        if not file.suffix:
+            known = nearest(source, shipped_studies())
+            found, allowed = "no such file", f"{allowed}, or a study of the paper: {known}"
+        raise StudyError([Mistake("", found, allowed, source)]) from None
+    except OSError as error:
+        raise StudyError([Mistake("", reason_of(error), _READABLE, source)]) from None
+    except ValueError as error:
+        found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), _READABLE))
+        raise StudyError([Mistake("", found, allowed, source)]) from None
+
+
+def _parsed(text: str, source: str) -> dict[str, Any]:
+    """The tables in the text of a study; a StudyError if it is not TOML, such as a table that is none."""
+    try:
+        return parse_toml(text)
+    except TomlError as error:
+        other = _OTHER_FILES.get(Path(source).suffix.lower())
+        mistake = (
+            Mistake("", *other, source) if other else Mistake("", str(error), "TOML", source, error.shown)
+        )
+        raise StudyError([mistake]) from None
 
 
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
@@ -193,13 +212,9 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     report += of_structure
     known = read_definitions(raw, parts, folder, report)
     blocks = read_blocks(raw, parts, known["load"], report)
-    fixed, axes = with_loads(parts.fixed, _axes_of(parts), [block.load for block in blocks])
-    contacts, distance = _contacts(raw, parts, fixed, folder, report)
-    if distance is not None:
-        if DISTANCE in {*fixed, *axes}:
-            report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
-        fixed = {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
-        places[DISTANCE] = "material"
+    fixed, axes = with_loads(parts.fixed, parts.axes, [block.load for block in blocks])
+    contacts, fixed = _contacts(raw, parts, fixed, axes, folder, report)
+    places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
     own: Mapping[str, Parameter] = rows(contacts.units) if contacts else PARAMETERS
     sample, scatter = None, None
     sampled: list[str] = []
@@ -217,7 +232,13 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
     asked = Request(names, *distances)
     if contacts is not None:
         contacts = replace(contacts, blocks=tuple(blocks), scatter=scatter)
-        asked = _asked_of(contacts, asked, raw, report)
+        strong = (YIELD,) if contacts.yield_strengths and YIELD not in asked.names else ()
+        counts = bool(contacts.materials or contacts.shear_materials)
+        asked = replace(asked, names=(*asked.names, *strong), counts=counts)
+        wrong_material = any(mistake.key.startswith("material") for mistake in report)
+        if blocks and not counts and "material" in raw and not wrong_material:
+            found = "blocks with a [material] without lives"
+            report("blocks", found, "constants of lives: Miner's sum needs them")
     grid, wrong = None, Report()
     if is_sampled and not sampled:
         pass  # what is sampled is unknown: nothing else is missing
@@ -230,10 +251,17 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
             fixed, axes, contacts, report.key, source, samples, known, asked.distances
         )
     report += wrong
-    figure = _figure_of(parts)
+    figure = parts.figure
     if figure is not None:
-        dims = [SAMPLE] * is_sampled + _dims(axes, grid)
-        check_figure(figure, dims, grid, asked, report, _every_name() if contacts and report else ())
+        # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
+        dims = [name if name in AXES else meant(name, AXES) or name for name in axes]
+        dims += [dim for dim in (grid.dims if grid else ()) if dim not in (*dims, SAMPLE)]
+        unsure: set[str] = set()
+        if contacts and report:
+            from swtstudy.units.results import NAMES
+
+            unsure = {*NAMES, *EVERY_VARIABLE}
+        check_figure(figure, [SAMPLE] * is_sampled + dims, grid, asked, report, unsure)
     if report or grid is None:
         told = {mistake.key for mistake in of_structure}  # once
         raise StudyError(dict.fromkeys(m for m in report if m in of_structure or m.key not in told))
@@ -245,36 +273,26 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
 
 
 def _contacts(
-    raw: Mapping[str, Any], parts: Parts, fixed: Mapping[str, Any], folder: Path, report: Report
-) -> tuple[ContactDetails | None, float | None]:
-    """Units and materials, None for a study without units; and the critical distance of the materials."""
-    if parts.units is not None:
-        from swtstudy.units.material import read_given
+    raw: Mapping[str, Any],
+    parts: Parts,
+    fixed: dict[str, Any],
+    axes: Mapping[str, Any],
+    folder: Path,
+    report: Report,
+) -> tuple[ContactDetails | None, dict[str, Any]]:
+    """Units and materials, None without units; and the fixed values with the materials' critical distance."""
+    if parts.units is None:
+        if "material" in raw and "units" not in raw:
+            report("material", "constants without [units]", "with [units] only: a life needs a real contact")
+        return None, fixed
+    from swtstudy.units.material import read_given
 
-        return read_given(parts.units, parts.material, fixed, folder, report)
-    if "material" in raw and "units" not in raw:
-        report("material", "constants without [units]", "with [units] only: a life needs a real contact")
-    return None, None
-
-
-def _asked_of(contacts: ContactDetails, asked: Request, raw: Mapping[str, Any], report: Report) -> Request:
-    """The request with stresses for contacts with strengths, and strain cycles for those with constants."""
-    if contacts.yield_strengths:
-        asked = replace(asked, names=tuple(dict.fromkeys((*asked.names, YIELD))))
-    counts = bool(contacts.materials or contacts.shear_materials)
-    wrong = any(mistake.key.startswith("material") for mistake in report)
-    if contacts.blocks and not counts and "material" in raw and not wrong:
-        found = "blocks with a [material] without lives"
-        report("blocks", found, "constants of lives: Miner's sum needs them")
-    return replace(asked, counts=counts)
-
-
-def _figure_of(parts: Parts) -> FigureLayout | None:
-    """The layout of a study's figure, if it has one that is sound."""
-    if parts.figure is None:
-        return None
-    y = parts.figure.y
-    return FigureLayout(**{**dict(parts.figure), "y": (y,) if isinstance(y, str) else tuple(y)})
+    contacts, distance = read_given(parts.units, parts.material, fixed, folder, report)
+    if distance is None:
+        return contacts, fixed
+    if DISTANCE in {*fixed, *axes}:
+        report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
+    return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
 
 def with_loads(
@@ -288,31 +306,9 @@ def with_loads(
     return ({**fixed, "load": loads[0]} if loads else fixed), axes
 
 
-def _axes_of(parts: Parts) -> GivenAxes:
-    """The axes as they are read; None for one that is wrong."""
-    return {
-        name: axis if axis is None or isinstance(axis, list) else Range(**dict(axis))
-        for name, axis in parts.axes.items()
-    }
-
-
 def _sampled_of(own: Mapping[str, Parameter]) -> dict[str, Parameter]:
     """The parameters that may be sampled."""
     return {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
-
-
-def _dims(axes: Mapping[str, Any], grid: Grid | None) -> list[str]:
-    """The dimensions that a figure may name beside a sample, also without a grid because of mistakes."""
-    # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
-    names = [name if name in AXES else meant(name, AXES) or name for name in axes]
-    return names + [dim for dim in (grid.dims if grid else ()) if dim not in (*names, SAMPLE)]
-
-
-def _every_name() -> set[str]:
-    """Names of all data variables that a study with units may have."""
-    from swtstudy.units.results import NAMES
-
-    return {*NAMES, *EVERY_VARIABLE}
 
 
 #: Parts of a study that no single contact has.
@@ -352,7 +348,7 @@ def one_of_study(
     parts, mistakes = read_study(raw, path)
     if mistakes:
         raise StudyError(mistakes)
-    fixed, axes = with_loads(parts.fixed, _axes_of(parts), [block.load for block in parts.blocks])
+    fixed, axes = with_loads(parts.fixed, parts.axes, [block.load for block in parts.blocks])
     profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
     if Path(name).suffix == ".csv":
         file, name = str(Path(name).resolve()), Path(name).stem

@@ -6,26 +6,21 @@ import json
 import re
 import unicodedata
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import asdict, dataclass
-from typing import Literal, get_args
+from dataclasses import asdict, fields
+from typing import Annotated, ClassVar
+
+from pydantic import BeforeValidator, ConfigDict, Field, StrictBool, WithJsonSchema
+from pydantic.dataclasses import dataclass
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
+from swtstudy.vocabulary.choices import FIGURES
+from swtstudy.vocabulary.derived import DERIVED, LIVES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
-
-#: Kinds of figures of a sample: points over each of its parameters, or how often there are which values.
-SAMPLE_KINDS = ("scatter", "histogram")
-#: Kinds of lines: over x, or x upright over the quantity, as S–N curves are drawn.
-LINE_KINDS = ("lines", "life")
-#: Kinds of surfaces over x and vertical.
-SURFACES = ("contour", "heatmap")
-#: Kinds of figures: lines, a surface over x and vertical, or figures of a sample.
-Kind = Literal["lines", "life", "contour", "heatmap", "scatter", "histogram"]
-KINDS: tuple[Kind, ...] = get_args(Kind)
 
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
@@ -34,51 +29,50 @@ VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surfac
 QUANTITY = '"s/s(name=value)"'
 
 
-@dataclass(frozen=True)
+Axis = Annotated[str, "the name of an axis"]
+OtherAxis = Annotated[str | None, "the name of an axis"]
+_EITHER = [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]
+Quantities = Annotated[
+    tuple[str, ...],
+    'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
+    BeforeValidator(lambda y: (y,) if isinstance(y, str) else y),
+    WithJsonSchema({"anyOf": _EITHER}),
+    Field(
+        description=f"One row of panels for each: {', '.join(VARIABLES)}, a quantity that the study asks "
+        f"for, or {QUANTITY} for s over its value at one place."
+    ),
+]
+
+
+@dataclass(frozen=True, config=ConfigDict(extra="forbid", use_attribute_docstrings=True))
 class FigureLayout:
-    """Layout of a figure.
+    """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
 
-    Attributes
-    ----------
-    x
-        Dimension along the horizontal axis; "sample" for a figure of a sample.
-    hue
-        Dimension whose values are the lines, or None for one line.
-    panels
-        Dimension whose values are the panels side by side, or None for one panel.
-    y
-        Quantities, with a row of panels each: the name of a data variable, such as "s" or "critical_x", or
-        "s/s(name=value)" for s over its value at one place, with the name or the symbol of a parameter.
-    title
-        Title over the figure, or None.
-    kind
-        "lines"; "life", lines with x upright over a logarithmic axis of the quantity, as S–N curves;
-        "contour", which for s also shows where it is least and greatest along x; or "heatmap", with a cell
-        for each point; or, of a sample, "scatter", with a panel for each of its parameters, or "histogram".
-    vertical
-        Dimension along the vertical axis of a contour or heat map, None for lines.
-    regimes
-        Whether to mark where a regime of the contact begins along a line, or the borders of regimes on a
-        contour map.
-    validity
-        Whether to mark the points that are outside of what the model holds for.
-    caption
-        Words beneath it, in reports; or None.
-    message
-        The headline of reports, in place of what the results say first; or None.
-    """
+    #: Words for it as a whole, in messages.
+    allowed: ClassVar[str]
 
-    x: str
-    hue: str | None = None
-    panels: str | None = None
-    y: tuple[str, ...] = ("s",)
+    x: Axis
+    """Axis along the horizontal axis; "sample" for a scatter or histogram."""
+    hue: OtherAxis = None
+    """Axis whose values are the lines."""
+    panels: OtherAxis = None
+    """Axis whose values are the panels side by side."""
+    y: Quantities = ("s",)
     title: str | None = None
-    kind: str = "lines"
-    vertical: str | None = None
-    regimes: bool = False
-    validity: bool = False
+    """Title over the figure."""
+    kind: Annotated[str, Field(json_schema_extra={"enum": [*FIGURES]})] = "lines"
+    """Lines over x, or x upright over life; contours or a heat map over x and vertical; scatter or histogram
+    of a sample."""
+    vertical: OtherAxis = None
+    """Axis along the vertical axis of contours or a heat map."""
+    regimes: StrictBool = False
+    """Whether to mark where a regime of the contact begins along a line."""
+    validity: StrictBool = False
+    """Whether to mark points outside of what the model holds for, such as beyond first yield."""
     caption: str | None = None
+    """What there is to say beneath the figure, in reports."""
     message: str | None = None
+    """Headline of reports, instead of what the results say first."""
 
     def to_json(self) -> str:
         """The layout as text, for an archive."""
@@ -96,6 +90,10 @@ class FigureLayout:
             name = getattr(self, role)
             if name is not None:
                 yield role, name
+
+
+_, *_OPTIONAL, _LAST = (field.name for field in fields(FigureLayout))
+FigureLayout.allowed = f"a table with x and, optionally, {', '.join(_OPTIONAL)} and {_LAST}"
 
 
 def reference(y: str) -> tuple[str, Value] | None:
@@ -136,8 +134,8 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         if name in used:
             yield f"figure.{role}", f"{literal(name)}, also used for {used[name]}", "each axis once"
         used.setdefault(name, role)
-    if layout.kind not in KINDS:
-        yield "figure.kind", literal(layout.kind), nearest(layout.kind, KINDS)
+    if layout.kind not in FIGURES:
+        yield "figure.kind", literal(layout.kind), nearest(layout.kind, FIGURES)
     else:
         yield from _wrong_roles(layout)
     if not layout.y:
@@ -149,26 +147,20 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 
 def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     """Find mistakes in what is combined with the kind of figure."""
-    kind, surface, of_sample = layout.kind, layout.kind in SURFACES, layout.kind in SAMPLE_KINDS
-    named = f'kind = "{kind}"'
-    if surface and layout.vertical is None:
+    kind, named = FIGURES[layout.kind], f'kind = "{layout.kind}"'
+    if kind.of == "surface" and layout.vertical is None:
         yield "figure.vertical", "nothing", f"the name of an axis ({named} needs it)"
-    for role, wrong, allowed in (
-        ("vertical", not surface, f"none for {named}, whose vertical axis is y"),
-        ("hue", surface, f"none for {named}"),
-        ("panels", kind == "scatter", f"none for {named}: every sampled parameter has its own"),
-        ("regimes", of_sample or kind in ("heatmap", "life"), f"False for {named}"),
-        ("validity", kind == "histogram", f"False for {named}"),
-    ):
-        if wrong and getattr(layout, role):
-            yield f"figure.{role}", literal(getattr(layout, role)), allowed
+    for part, why in kind.lacks.items():
+        if given := getattr(layout, part):
+            yield f"figure.{part}", literal(given), f"{False if given is True else 'none'} for {named}{why}"
+    of_samples = " or ".join(name for name, each in FIGURES.items() if each.of == "sample")
     for role, name in layout.roles():
         is_name = name in AXES and AXES[name].kind == "name"
-        if role in ("x", "vertical") and is_name and kind != "heatmap":
+        if role in ("x", "vertical") and is_name and layout.kind != "heatmap":
             yield f"figure.{role}", literal(name), "an axis of numbers"
-        if name == SAMPLE and (role != "x" or not of_sample):
-            yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {' or '.join(SAMPLE_KINDS)}"
-    if of_sample and layout.x != SAMPLE:
+        if name == SAMPLE and (role != "x" or kind.of != "sample"):
+            yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {of_samples}"
+    if kind.of == "sample" and layout.x != SAMPLE:
         yield "figure.x", literal(layout.x), f'"{SAMPLE}" for {named}'
 
 
@@ -197,7 +189,7 @@ def wrong_axes(
         elif layout.kind == "contour" and role in ("x", "vertical") and sizes[name] == 1:
             yield f"figure.{role}", f"{name} with a single value", "an axis of two values or more"
     names = [name for _, name in layout.roles()]
-    lacks_vertical = layout.kind in SURFACES and layout.vertical is None
+    lacks_vertical = layout.kind in FIGURES and FIGURES[layout.kind].of == "surface" and not layout.vertical
     placed = {name if name in sizes else meant(name, sizes) for name in names} - {None}
     lacking = [name for name in sizes if name not in placed and name in (*AXES, SAMPLE)]
     # A place whose mistake is said already may name an axis without one.
@@ -288,17 +280,16 @@ def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, 
         report("figure.y", f"{literal(y)} ({error})", f"{', '.join(known)}, or {QUANTITY}")
         return
     if place is None:
-        name = y.strip()
-        base, _, kind = name.rpartition("_")
+        name, row = y.strip(), DERIVED.get(y.strip())
         if name in COUNTED:
             found = f"{literal(y)}, which has several values at a point"
             report("figure.y", found, "cycles, which is made of it")
         elif name in EVERY_VARIABLE and name not in known:
             found = f"{literal(y)}, which this study does not ask for"
             report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
-        elif name not in known and base in known and f"s_{kind}" in NONLOCAL:
+        elif name not in known and row and row.of in NONLOCAL and name.rpartition("_")[0] in known:
             report("figure.y", literal(y), f"in a study with a {DISTANCE} alone")
-        elif name not in known and (name == "cycles" or base == "cycles"):
+        elif name not in known and row and row.kind and not {*LIVES} & {*known}:
             found = f"{literal(y)}, a life, without fatigue constants"
             report("figure.y", found, f"[material] with them, in a study with units; or {', '.join(known)}")
         elif name not in known:

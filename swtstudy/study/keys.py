@@ -6,20 +6,21 @@ table. Values of parameters are checked against their own table.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping
 from copy import deepcopy
-from dataclasses import dataclass
 from inspect import signature
 from typing import Annotated, Any, ClassVar, Literal, TypeVar, get_args, get_origin
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
+from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from swtstudy.loads.smooth_path import HIGHEST_ORDER
-from swtstudy.points.reading import LONGEST_AXIS
-from swtstudy.study.figure import KINDS, QUANTITY, VARIABLES, Kind
+from swtstudy.points.reading import LONGEST_AXIS, Range
+from swtstudy.study.figure import FigureLayout
+from swtstudy.study.writing import quoted
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, plain
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain
 from swtstudy.vocabulary.naming import Function, with_arguments
 
 #: Designs: a Sobol sequence, a Latin hypercube, independent random points, and the points for Sobol indices.
@@ -30,35 +31,18 @@ Separator = Literal[",", ";", "\t", "|", " "]
 SEPARATORS: tuple[Separator, ...] = get_args(Separator)
 
 
-@dataclass(frozen=True)
-class Allowed:
-    """Words for what a key may hold, where its type does not say it.
-
-    Attributes
-    ----------
-    words
-        The words.
-    whole
-        Whether the mistakes of its parts are one mistake of the key.
-    """
-
-    words: str
-    whole: bool = False
-
-
-#: Words for what a key of a type may hold.
-_OF_TYPES = {bool: "true or false", str: "a text", int: "a whole number"}
-
-
-def key(description: str, default: Any = ..., **limits: Any) -> Any:
-    """A key with its description in the schema."""
-    return Field(default, description=description, **limits)
+def _words_of(kind: Any) -> str:
+    """Words for what a key of a type may hold; none for most types."""
+    if get_origin(kind) is Literal:
+        *others, last = map(quoted, get_args(kind))
+        return f"{', '.join(others)} or {last}"
+    return {bool: "true or false", str: "a text", int: "a whole number"}.get(kind, "")
 
 
 class Table(BaseModel):
-    """A table of a study file."""
+    """A table of a study file: a text among the annotations of a key says what messages allow for it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True)
     #: Words for the table as a whole, in messages.
     allowed: ClassVar[str]
 
@@ -66,44 +50,29 @@ class Table(BaseModel):
 AnyTable = TypeVar("AnyTable", bound=Table)
 
 
-def _quoted(names: Sequence[str]) -> str:
-    *others, last = (f'"{name}"' for name in names)
-    return f"{', '.join(others)} or {last}"
-
-
-AxisName = Annotated[str, Allowed("the name of an axis")]
-OtherAxisName = Annotated[str | None, Allowed("the name of an axis")]
-File = Annotated[str | None, Allowed("the path of a CSV file")]
-Positive = Annotated[float | None, Allowed("a positive number"), Field(gt=0.0, allow_inf_nan=False)]
+File = Annotated[str | None, "the path of a CSV file"]
+Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
 
 
 class FileTable(Table):
     """The form of a table in a file."""
 
-    columns: Annotated[
-        dict[str, str], Allowed('a table of headers, such as { normal = "Fn [N]" }', whole=True)
-    ] = key("Headers of the file's columns, where they are not the names that they have here.", {})
-    separator: Annotated[Separator | None, Allowed(f"one of {', '.join(map(repr, SEPARATORS))}")] = key(
-        "Between cells; a blank for any number of blanks. Found from the header unless given.", None
-    )
-    decimal: Annotated[Literal[".", ","] | None, Allowed("one of '.', ','")] = key(
-        "The decimal sign in numbers. Found from the first rows unless given.", None
-    )
-    encoding: Annotated[str | None, Allowed('the name of an encoding, such as "cp1252"')] = key(
-        'Encoding of the text, UTF-8 unless given; "cp1252" or "latin-1" for older programs.', None
-    )
-    scale: Annotated[
-        dict[str, float], Allowed("a table of numbers, such as { normal = 1000 }", whole=True)
-    ] = key("Factors of columns, such as { normal = 1000 } for kN, or -1 for the other sign.", {})
-    skip_rows: Annotated[int, Allowed("a whole number of lines, 0 or more")] = key(
-        "Lines above the header. Found unless given, and told.", 0, ge=0
-    )
-    units_row: bool | None = key(
-        "Whether a row of units follows the header. Found unless given, and told.", None
-    )
-    sheet: Annotated[
-        str | int | None, Allowed("the name of a sheet, or its number from 1 on", whole=True)
-    ] = key("Sheet of a workbook; the first one unless given.", None)
+    columns: Annotated[dict[str, str], 'a table of headers, such as { normal = "Fn [N]" }'] = {}
+    """Headers of the file's columns, where they are not the names that they have here."""
+    separator: Separator | None = None
+    """Between cells; a blank for any number of blanks. Found from the header unless given."""
+    decimal: Literal[".", ","] | None = None
+    """The decimal sign in numbers. Found from the first rows unless given."""
+    encoding: Annotated[str | None, 'the name of an encoding, such as "cp1252"'] = None
+    """Encoding of the text, UTF-8 unless given; "cp1252" or "latin-1" for older programs."""
+    scale: Annotated[dict[str, float], "a table of numbers, such as { normal = 1000 }"] = {}
+    """Factors of columns, such as { normal = 1000 } for kN, or -1 for the other sign."""
+    skip_rows: Annotated[int, "a whole number of lines, 0 or more", Field(ge=0)] = 0
+    """Lines above the header. Found unless given, and told."""
+    units_row: bool | None = None
+    """Whether a row of units follows the header. Found unless given, and told."""
+    sheet: Annotated[str | int | None, "the name of a sheet, or its number from 1 on"] = None
+    """Sheet of a workbook; the first one unless given."""
 
     def header(self, name: str) -> str:
         """The header of a column."""
@@ -113,37 +82,33 @@ class FileTable(Table):
 class SignalTable(FileTable):
     """The form of a signal in a file, and its cycles."""
 
-    absolute: bool = key(
-        "Whether the normal column is the load itself: its mean is the mean load of the study.", False
-    )
-    time: Annotated[str | None, Allowed("the header of the column of the time")] = key(
-        "Header of the file's column of the time; without it samples are even.", None, min_length=1
-    )
-    recorded_cycles: Annotated[int | None, Allowed("a whole number of cycles, 1 or more")] = key(
-        "Number of cycles that the file holds: they are folded into their mean.", None, ge=1
-    )
-    period: Positive = key(
-        "Length of a cycle instead of their number, in the unit of the time, or in samples.", None
-    )
-    frequency: Positive = key("Cycles per unit of the time, such as Hz, instead of the period.", None)
+    absolute: bool = False
+    """Whether the normal column is the load itself: its mean is the mean load of the study."""
+    time: Annotated[str | None, "the header of the column of the time", Field(min_length=1)] = None
+    """Header of the file's column of the time; without it samples are even."""
+    recorded_cycles: Annotated[int | None, "a whole number of cycles, 1 or more", Field(ge=1)] = None
+    """Number of cycles that the file holds: they are folded into their mean."""
+    period: Positive = None
+    """Length of a cycle instead of their number, in the unit of the time, or in samples."""
+    frequency: Positive = None
+    """Cycles per unit of the time, such as Hz, instead of the period."""
     harmonics: Annotated[
-        int | None, Allowed(f"a whole number, 1 to {HIGHEST_ORDER}"), Field(ge=1, le=HIGHEST_ORDER)
-    ] = key("Highest order of a fit of the file's columns by harmonics: a smooth loop.", None)
-    despike: bool = key(
-        "Whether samples that stand out from all other cycles take the median of the cycles.", False
-    )
+        int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)
+    ] = None
+    """Highest order of a fit of the file's columns by harmonics: a smooth loop."""
+    despike: bool = False
+    """Whether spikes take the value that the samples beside them or the other cycles suggest."""
 
 
 class TraceTable(FileTable):
     """A trace in a file, and the profile that is made of it."""
 
-    level: bool = key(
-        "Whether the tilt of a trace is taken off; smoothing is by its noise unless given.", True
-    )
-    smoothing: Any = key("Root mean square of what the fit may miss of the heights; 0 to miss none.", None)
-    geometry: Any = key(
-        '"axisymmetric", or "plane" for a long body: its radii are then half-widths.', AXISYMMETRIC
-    )
+    level: bool = True
+    """Whether the tilt of a trace is taken off; smoothing is by its noise unless given."""
+    smoothing: Any = None
+    """Root mean square of what the fit may miss of the heights; 0 to miss none."""
+    geometry: Any = AXISYMMETRIC
+    """"axisymmetric", or "plane" for a long body: its radii are then half-widths."""
 
 
 class RangeTable(Table):
@@ -151,23 +116,22 @@ class RangeTable(Table):
 
     allowed = "a list of values or {start, stop, num}"
 
-    start: Any = key('First value; a number, or a text such as "2*pi".')
-    stop: Any = key("Last value, included.")
-    num: int = key("Number of values.")
-    spacing: Annotated[Literal["linear", "log"], Allowed('"linear" or "log"')] = key(
-        'Equal steps ("linear") or equal ratios ("log").', "linear"
-    )
-    also: Annotated[list[Any], Allowed("a list of values")] = key(
-        "Further values, put in among those: where curves bend, for example.", []
-    )
-
-
-def _axis_kind(raw: object) -> str:
-    return "range" if isinstance(raw, dict | RangeTable) else "list"
+    start: Any
+    """First value; a number, or a text such as "2*pi"."""
+    stop: Any
+    """Last value, included."""
+    num: int
+    """Number of values."""
+    spacing: Literal["linear", "log"] = "linear"
+    """Equal steps ("linear") or equal ratios ("log")."""
+    also: Annotated[list[Any], "a list of values"] = []
+    """Further values, put in among those: where curves bend, for example."""
 
 
 Axis = Annotated[
-    Annotated[list[Any], Tag("list")] | Annotated[RangeTable, Tag("range")], Discriminator(_axis_kind)
+    Annotated[list[Any], Tag("list")]
+    | Annotated[RangeTable, AfterValidator(lambda table: Range(**dict(table))), Tag("range")],
+    Discriminator(lambda raw: "range" if isinstance(raw, dict) else "list"),
 ]
 
 
@@ -176,63 +140,24 @@ class SampleTable(FileTable):
 
     allowed = "a table with design, size and ranges, with points, or with file"
 
-    design: Annotated[DesignName | None, Allowed(_quoted(DESIGNS))] = key(
-        "How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity).", None
+    design: DesignName | None = None
+    """How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity)."""
+    size: Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)] = (
+        None
     )
-    size: Annotated[
-        int | None, Allowed(f"a whole number from 1 to {LONGEST_AXIS}"), Field(ge=1, le=LONGEST_AXIS)
-    ] = key(
-        "Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2).", None
-    )
-    seed: Annotated[int, Allowed(rules.ALLOWED_SEED)] = key(
-        "Seed of the random numbers.", 0, ge=0, le=rules.LARGEST_SEED
-    )
-    ranges: Annotated[dict[str, Any], Allowed("a table of ranges")] = key(
-        "Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution.", {}
-    )
-    covariance: Annotated[dict[str, Any], Allowed("a table of covariances")] = key(
-        "Variances and covariances of constants, which scatter normally about those of [material].", {}
-    )
-    target_life: Annotated[float | None, Allowed("a number")] = key(
-        "Load cycles before which the probability of a crack is asked for.", None
-    )
-    file: File = key("CSV file of points: a row with names of parameters, then a row for each point.", None)
-    points: Annotated[dict[str, list[Any]], Allowed("a table of lists of values")] = key(
-        "Points given here: a list of values for each parameter, all of one length.", {}
-    )
-
-
-class FigureTable(Table):
-    """The layout of the figure: x, hue, vertical and panels are dimensions of the study."""
-
-    kind: Annotated[Kind, Allowed(_quoted(KINDS))] = key(
-        "Lines over x, or x upright over life; contours or a heat map over x and vertical; "
-        "scatter or histogram of a sample.",
-        "lines",
-    )
-    x: AxisName = key('Axis along the horizontal axis; "sample" for a scatter or histogram.')
-    vertical: OtherAxisName = key("Axis along the vertical axis of contours or a heat map.", None)
-    hue: OtherAxisName = key("Axis whose values are the lines.", None)
-    panels: OtherAxisName = key("Axis whose values are the panels side by side.", None)
-    y: Annotated[
-        str | list[str],
-        Allowed('a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"', whole=True),
-    ] = key(
-        f"One row of panels for each: {', '.join(VARIABLES)}, "
-        f"a quantity that the study asks for, or {QUANTITY} for s over its value at one place.",
-        "s",
-    )
-    title: str | None = key("Title over the figure.", None)
-    regimes: bool = key("Whether to mark where a regime of the contact begins along a line.", False)
-    caption: str | None = key("What there is to say beneath the figure, in reports.", None)
-    message: str | None = key("Headline of reports, instead of what the results say first.", None)
-    validity: bool = key(
-        "Whether to mark points outside of what the model holds for, such as beyond first yield.", False
-    )
-
-
-*_OPTIONAL, _LAST = (name for name, field in FigureTable.model_fields.items() if not field.is_required())
-FigureTable.allowed = f"a table with x and, optionally, {', '.join(_OPTIONAL)} and {_LAST}"
+    """Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2)."""
+    seed: Annotated[int, rules.ALLOWED_SEED, Field(ge=0, le=rules.LARGEST_SEED)] = 0
+    """Seed of the random numbers."""
+    ranges: Annotated[dict[str, Any], "a table of ranges"] = {}
+    """Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution."""
+    covariance: Annotated[dict[str, Any], "a table of covariances"] = {}
+    """Variances and covariances of constants, which scatter normally about those of [material]."""
+    target_life: Annotated[float | None, "a number"] = None
+    """Load cycles before which the probability of a crack is asked for."""
+    file: File = None
+    """CSV file of points: a row with names of parameters, then a row for each point."""
+    points: Annotated[dict[str, list[Any]], "a table of lists of values"] = {}
+    """Points given here: a list of values for each parameter, all of one length."""
 
 
 class LoadTable(SignalTable):
@@ -240,28 +165,22 @@ class LoadTable(SignalTable):
 
     allowed = "a table with vertices, with normal and tangential, or with file"
 
-    vertices: Any = key(
-        "Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the "
-        "tangential one its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b.",
-        None,
-    )
-    file: File = key(
-        "Path of a table, relative to the study, with a header and the columns normal, tangential "
-        "and, optionally, bulk, of one cycle or of several.",
-        None,
-    )
-    normal: Any = key(
-        "Harmonics of c_n instead of vertices: rows of order k, amplitude A and phase α of A sin(kφ + α).",
-        None,
-    )
-    tangential: Any = key("Harmonics of c_t: rows of order, amplitude and phase.", None)
-    bulk: Any = key("Harmonics of c_b, beside those: rows of order, amplitude and phase.", None)
-    mean_normal: Any = key(
-        "The mean normal load from which c_n of vertices or harmonics deviates, in its unit.", None
-    )
-    keep_cycles: bool = key(
-        "Whether blocks of the load run all recorded cycles in turn, not their mean.", False
-    )
+    vertices: Any = None
+    """Pairs c_n, c_t, or triples with c_b: the normal load is 1 + its amplitude times c_n, the tangential one
+    its amplitude times c_t, the bulk stress its mean plus its amplitude times c_b."""
+    file: File = None
+    """Path of a table, relative to the study, with a header and the columns normal, tangential and,
+    optionally, bulk, of one cycle or of several."""
+    normal: Any = None
+    """Harmonics of c_n instead of vertices: rows of order k, amplitude A and phase α of A sin(kφ + α)."""
+    tangential: Any = None
+    """Harmonics of c_t: rows of order, amplitude and phase."""
+    bulk: Any = None
+    """Harmonics of c_b, beside those: rows of order, amplitude and phase."""
+    mean_normal: Any = None
+    """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
+    keep_cycles: bool = False
+    """Whether blocks of the load run all recorded cycles in turn, not their mean."""
 
 
 class BlockTable(Table):
@@ -269,12 +188,10 @@ class BlockTable(Table):
 
     allowed = "[[blocks]] with load and rounds"
 
-    load: Annotated[str, Allowed("the name of a load")] = key(
-        "Name of a load; of a signal that keeps its cycles all of them in turn."
-    )
-    rounds: Annotated[Any, Allowed(allowed)] = key(
-        "How many rounds of it there are in each repetition of the sequence."
-    )
+    load: Annotated[str, "the name of a load"]
+    """Name of a load; of a signal that keeps its cycles all of them in turn."""
+    rounds: Annotated[Any, allowed]
+    """How many rounds of it there are in each repetition of the sequence."""
 
 
 class ProfileTable(TraceTable):
@@ -282,55 +199,46 @@ class ProfileTable(TraceTable):
 
     allowed = "a table with radius and height, or file"
 
-    radius: Any = key("Radii r, in a length a_H: at least 8, ascending from 0.", None)
-    height: Any = key("Heights f at these radii, in a depth δ0: 0 at the axis.", None)
-    file: File = key(
-        "Path of a CSV file, relative to the study, with a header and the columns radius and height.", None
-    )
-    two_sided: bool = key(
-        "Whether the file is a trace across the body, with the columns position and height.", False
-    )
+    radius: Any = None
+    """Radii r, in a length a_H: at least 8, ascending from 0."""
+    height: Any = None
+    """Heights f at these radii, in a depth δ0: 0 at the axis."""
+    file: File = None
+    """Path of a CSV file, relative to the study, with a header and the columns radius and height."""
+    two_sided: bool = False
+    """Whether the file is a trace across the body, with the columns position and height."""
 
 
 class StudyTable(Table):
     """A study file."""
 
-    title: Annotated[str, Allowed("a text that is not empty")] = key(
-        "One line that describes the study.", min_length=1
+    title: Annotated[str, "a text that is not empty", Field(min_length=1)]
+    """One line that describes the study."""
+    rtol: Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)] = (
+        rules.DEFAULT_RTOL
     )
-    rtol: Annotated[float, Allowed(rules.ALLOWED_RTOL)] = key(
-        "Relative accuracy asked of s.", rules.DEFAULT_RTOL, ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL
-    )
-    # Checked against the table of quantities.
-    quantities: Any = key("What is computed beside s, as data variables of the results.", [])
-    fixed: Annotated[dict[str, Any], Allowed("a table of single values")] = key(
-        "Parameters with a single value. Parameters not given have the values of the paper's Table 1.", {}
-    )
-    axes: Annotated[dict[str, Axis], Allowed("a table of axes")] = key(
-        "Parameters with several values, in the order of the dimensions: a list or a range.", {}
-    )
-    sample: SampleTable | None = key(
-        "Parameters that vary together along the dimension sample: a design, or given points.", None
-    )
-    # Checked where units and constants are read.
-    units: Annotated[dict[str, Any] | None, Allowed("a table with length, force and stress")] = key(
-        "Labels of length, force and stress, any consistent set: then the parameters have these units.", None
-    )
-    material: Annotated[dict[str, Any] | None, Allowed("a table of fatigue constants")] = key(
-        "Fatigue constants, each a value or one for each body; or names from a file. For cycles.", None
-    )
-    loads: Annotated[dict[str, LoadTable], Allowed("a table of loops, [loads.NAME]")] = key(
-        "Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, "
-        "optionally, bulk, or harmonics.",
-        {},
-    )
-    profiles: Annotated[dict[str, ProfileTable], Allowed("a table of profiles, [profiles.NAME]")] = key(
-        "Profiles by name: radius and height, or a CSV file with these columns.", {}
-    )
-    blocks: Annotated[list[BlockTable], Allowed(BlockTable.allowed)] = key(
-        "Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only.", []
-    )
-    figure: FigureTable | None = key("What the figure puts where; every axis needs a place.", None)
+    """Relative accuracy asked of s."""
+    quantities: Any = []
+    """What is computed beside s, as data variables of the results."""
+    fixed: Annotated[dict[str, Any], "a table of single values"] = {}
+    """Parameters with a single value. Parameters not given have the values of the paper's Table 1."""
+    axes: Annotated[dict[str, Axis], "a table of axes"] = {}
+    """Parameters with several values, in the order of the dimensions: a list or a range."""
+    sample: SampleTable | None = None
+    """Parameters that vary together along the dimension sample: a design, or given points."""
+    units: Annotated[dict[str, Any] | None, "a table with length, force and stress"] = None
+    """Labels of length, force and stress, any consistent set: then the parameters have these units."""
+    material: Annotated[dict[str, Any] | None, "a table of fatigue constants"] = None
+    """Fatigue constants, each a value or one for each body; or names from a file. For cycles."""
+    loads: Annotated[dict[str, LoadTable], "a table of loops, [loads.NAME]"] = {}
+    """Loops of the load, by name: vertices, a CSV file with the columns normal, tangential and, optionally,
+    bulk, or harmonics."""
+    profiles: Annotated[dict[str, ProfileTable], "a table of profiles, [profiles.NAME]"] = {}
+    """Profiles by name: radius and height, or a CSV file with these columns."""
+    blocks: Annotated[list[BlockTable], BlockTable.allowed] = []
+    """Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only."""
+    figure: FigureLayout | None = None
+    """What the figure puts where; every axis needs a place."""
 
 
 class Parts(StudyTable):
@@ -347,23 +255,25 @@ _LEVELS = {"axes": 2, "loads": 2, "profiles": 2, "sample": 3}
 
 def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake]]:
     """The sound parts of the tables of a study, and all mistakes in their structure."""
-    table, mistakes = read_keys(StudyTable, raw, source)
+    left: dict[Any, Any] = {name: plain(value) for name, value in deepcopy(dict(raw)).items()}
+    mistakes: list[Mistake] = []
+    while True:
+        try:
+            table = StudyTable.model_validate(left)
+            break
+        except ValidationError as error:
+            mistakes = mistakes or _mistakes(StudyTable, error, source)
+            places = (detail["loc"] for detail in error.errors())
+        for place in {place[: _LEVELS.get(str(place[0]), 1)] for place in places}:
+            if place == ("title",):
+                left["title"] = "-"
+            elif place == ("blocks",) and isinstance(left["blocks"], list):  # their loads are still known
+                loads = [each.get("load") for each in left["blocks"] if isinstance(each, dict)]
+                left["blocks"] = [{"load": each, "rounds": 1} for each in loads if isinstance(each, str)]
+            elif not _drop(left, *place):
+                left.pop(place[0], None)
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
-    left: dict[Any, Any] = deepcopy(dict(raw)) if table is None else {}
-    if isinstance(blocks := left.get("blocks"), list):  # the loads of wrong ones are still known
-        loads = [each for each in blocks if isinstance(each, dict) and isinstance(each.get("load"), str)]
-        left["blocks"] = [{"load": each["load"], "rounds": each.get("rounds", 1)} for each in loads]
-    while table is None:
-        try:
-            table = StudyTable.model_validate({name: plain(value) for name, value in left.items()})
-        except ValidationError as error:
-            places = (detail["loc"] for detail in error.errors())
-            for place in {place[: _LEVELS.get(str(place[0]), 1)] for place in places}:
-                if place == ("title",):
-                    left["title"] = "-"
-                elif not _drop(left, *place):
-                    left.pop(place[0], None)
     found = {name: getattr(table, name) for name in StudyTable.model_fields}
     for part in ("axes", "loads", "profiles"):
         names = raw.get(part)
@@ -379,23 +289,17 @@ def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
     return left.pop(first, left) is not left
 
 
-def read_keys(
-    model: type[AnyTable], raw: Mapping[str, Any], source: str = ""
-) -> tuple[AnyTable | None, list[Mistake]]:
-    """The table with these keys, or every mistake in them."""
-    try:
-        return model.model_validate({name: plain(value) for name, value in raw.items()}), []
-    except ValidationError as error:
-        found = {_mistake(model, detail, source) for detail in error.errors(include_url=False)}
-        return None, sorted(found, key=lambda mistake: mistake.key)
-
-
 def sound_keys(model: type[AnyTable], given: Mapping[str, Any]) -> AnyTable:
     """The table with the keys that are not None; a StudyError with every mistake in them."""
-    found, mistakes = read_keys(model, {name: value for name, value in given.items() if value is not None})
-    if found is None:
-        raise StudyError(mistakes)
-    return found
+    try:
+        return model.model_validate({n: plain(value) for n, value in given.items() if value is not None})
+    except ValidationError as error:
+        raise StudyError(_mistakes(model, error, "")) from None
+
+
+def _mistakes(model: type[Table], error: ValidationError, source: str) -> list[Mistake]:
+    found = {_mistake(model, detail, source) for detail in error.errors(include_url=False)}
+    return sorted(found, key=lambda mistake: mistake.key)
 
 
 def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
@@ -407,23 +311,28 @@ def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
         allowed = inner.allowed
     elif inner is None or len(path) < levels:
         levels, inner = 0, model
-    if not allowed and (row := inner.model_fields.get(str(path[levels]))):
-        words = next((each for each in row.metadata if isinstance(each, Allowed)), None)
+    keys = _keys(inner)
+    if not allowed and (row := keys.get(str(path[levels]))):
         kinds = (row.annotation, *get_args(row.annotation))
-        words = words or next((Allowed(_OF_TYPES[kind]) for kind in kinds if kind in _OF_TYPES), None)
-        if words and (words.whole or len(path) == levels + 1):
-            path, allowed = path[: levels + 1], words.words
+        if row.annotation != dict[str, list[Any]]:
+            path = path[: levels + 1]  # what follows are kinds of values, or places in a list
+        words = [*(each for each in row.metadata if isinstance(each, str)), *map(_words_of, kinds)]
+        allowed = next(filter(None, words), "")
     name = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
-    if detail["type"] == "extra_forbidden":
-        known = nearest(str(path[-1]), inner.model_fields)
-        return Mistake(name, f"unknown key {literal(path[-1])}", known, source)
+    if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
+        return Mistake(name, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), keys), source)
     found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
     return Mistake(name, found, allowed or detail["msg"], source)
 
 
-def _inner(kind: Any) -> tuple[int, type[Table] | None]:
+def _keys(table: Any) -> dict[str, Any]:
+    """The keys of a table, which may be a dataclass."""
+    return dict(getattr(table, "model_fields", None) or table.__pydantic_fields__)
+
+
+def _inner(kind: Any) -> tuple[int, Any]:
     """The table within the type of a key, and how many keys lead to it."""
-    if isinstance(kind, type) and issubclass(kind, Table):
+    if isinstance(kind, type) and hasattr(kind, "allowed"):
         return 1, kind
     for each in get_args(kind):
         levels, table = _inner(each)
@@ -437,7 +346,12 @@ def with_keys(model: type[Table]) -> Callable[[Function], Function]:
     return with_arguments(signature(model).parameters.values())
 
 
-def place_of(mistake: Mistake) -> str:
-    """Where in a file or a list the mistake is."""
-    place = ": ".join(part for part in (mistake.source, mistake.key) if part)
-    return f" ({place})" if place else ""
+def report_under(report: Report, key: str, error: StudyError, part: str = "") -> None:
+    """Report the mistakes in a table: each at its key, or with its place at one of them."""
+    for each in error.mistakes:
+        if not each.source and re.split(r"[,.]", each.key)[0] in SignalTable.model_fields:
+            report(f"{key}.{each.key}", each.found, each.allowed)
+        else:
+            place = ": ".join(filter(None, (each.source, each.key)))
+            found = f"{each.found} ({place})" if place else each.found
+            report(f"{key}.{part}" if part else key, found, each.allowed)

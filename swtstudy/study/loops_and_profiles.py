@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,15 @@ from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
-from swtstudy.study.keys import FileTable, LoadTable, Parts, ProfileTable, SignalTable, place_of, sound_keys
+from swtstudy.study.keys import (
+    FileTable,
+    LoadTable,
+    Parts,
+    ProfileTable,
+    SignalTable,
+    report_under,
+    sound_keys,
+)
 from swtstudy.study.signal import BULK, COLUMNS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.units.life import Block, wrong_rounds
@@ -93,13 +102,7 @@ def _read_load(
             report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
         return {name: signal.loop, **kept}
     except StudyError as error:
-        for mistake in error.mistakes:
-            first = re.split(r"[,.]", mistake.key)[0]
-            if kind == "file" and first in SignalTable.model_fields and not mistake.source:
-                report(f"{key}.{mistake.key}", mistake.found, mistake.allowed)
-            else:
-                where = key if kind == "normal" else f"{key}.{kind}"
-                report(where, f"{mistake.found}{place_of(mistake)}", mistake.allowed)
+        report_under(report, key, error, "" if kind == "normal" else kind)
         return {}
 
 
@@ -139,7 +142,9 @@ def _harmonics(rows: Any, column: str) -> Any:
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
     """The signal that a load of a sound study is; None for one that comes from no file."""
     table = sound_keys(LoadTable, parse_toml(text).get("loads", {}).get(name, {}))
-    return signal_from(folder / table.file, name, table) if table.file else None
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # told when the study was read
+        return signal_from(folder / table.file, name, table) if table.file else None
 
 
 def _read_profile(
@@ -162,8 +167,7 @@ def _read_profile(
     try:
         return profile_from(name, table, folder, parts.units)
     except StudyError as error:
-        for each in error.mistakes:
-            report(key, f"{each.found}{place_of(each)}", each.allowed)
+        report_under(report, key, error)
         return None
 
 

@@ -8,7 +8,7 @@ further points: each draw of theirs has a life at every point.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,11 +19,19 @@ from swtstudy.points.canonical import Table, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
-from swtstudy.study.columns import read_table
-from swtstudy.study.keys import DesignName, FileTable, SampleTable, place_of
+from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
+from swtstudy.study.keys import DesignName, FileTable, SampleTable, report_under
 from swtstudy.units.life import SCATTERED, Scatter
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import Report, StudyError, literal, more_like_it, nearest, plain_number
+from swtstudy.vocabulary.mistakes import (
+    Report,
+    StudyError,
+    literal,
+    more_like_it,
+    nearest,
+    plain_number,
+    refused,
+)
 from swtstudy.vocabulary.parameter import Parameter
 
 if TYPE_CHECKING:
@@ -31,9 +39,6 @@ if TYPE_CHECKING:
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")
-#: Key of the file in messages.
-POINTS_KEY = "sample.file"
-ALLOWED_POINTS = "a CSV file: a row with names of parameters, then a row with their values for each point"
 ALLOWED_RANGE = (
     'both ends, [low, high], or a table such as {distribution = "normal", mean = …, deviation = …}'
 )
@@ -264,11 +269,11 @@ def read_points(
     try:
         table = read_table(path, needed, names, form, LONGEST_AXIS)
     except StudyError as error:
-        for each in error.mistakes:
-            report(POINTS_KEY, f"{each.found}{place_of(each)}", each.allowed)
+        report_under(report, "sample", error, "file")
         return None
     if not table.cells:
-        report(POINTS_KEY, f"{path} without points", ALLOWED_POINTS)
+        allowed = "a CSV file: a row with names of parameters, then a row with their values for each point"
+        report("sample.file", f"{path} without points", allowed)
         return None
     names_of = {form.header(name): name for name in (*needed, *names)}
     return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
@@ -301,11 +306,8 @@ def _design(table: SampleTable, dimensions: int, report: Report) -> Design | Non
         return None  # reported with the structure
     size, balanced = table.size, table.design in BALANCED
     if size is None or (balanced and size & (size - 1)):
-        kind, found = (
-            "power of 2" if balanced else "whole number",
-            "nothing" if size is None else literal(size),
-        )
-        report("sample.size", found, f"a {kind} from 1 to {LONGEST_AXIS}")
+        allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
+        report("sample.size", "nothing" if size is None else literal(size), allowed)
         return None
     design = Design(table.design, size, table.seed)
     if (count := design.count(dimensions)) > LONGEST_AXIS:
@@ -317,18 +319,17 @@ def _distributions(
     ranges: Mapping[str, Any], rows: Mapping[str, Parameter], report: Report
 ) -> dict[str, Distribution]:
     """The sound distributions of parameters."""
-    of_each = {
-        name: _distribution(rows[name], entry, f"sample.ranges.{name}", report)
-        for name, entry in ranges.items()
-        if name in rows
-    }
-    return {name: each for name, each in of_each.items() if each is not None}
+    read = {}
+    for name in (each for each in ranges if each in rows):
+        with report:
+            read[name] = _distribution(rows[name], ranges[name], f"sample.ranges.{name}")
+    return read
 
 
 def _given(
     points: Mapping[str, Any], key: str, report: Report, known: Known, rows: Mapping[str, Parameter]
 ) -> NamedValues:
-    """Points given one by one; none with mistakes."""
+    """Points given one by one; none with mistakes. The first wrong value of each parameter is reported."""
     lengths = {name: len(column) for name, column in points.items()}
     if not lengths or min(lengths.values()) == 0:
         report(key, "no points", "at least one point")
@@ -344,60 +345,48 @@ def _given(
     for name, column in points.items():
         if name not in rows:
             report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
-        elif good := _column(rows[name], column, f"{key}.{name}", report, known):
-            values[name] = good
+            continue
+        good: list[Value] = []
+        wrong: list[str] = []
+        for index, raw in enumerate(column):
+            try:
+                good.append(read_value(rows[name], raw, known.get(name, NOTHING)))
+            except ValueError as error:
+                wrong.append(f"{literal(raw)} ({error}) at [{index}]")
+        if wrong:
+            comma = any(isinstance(raw, str) and DECIMAL_COMMA.fullmatch(raw) for raw in column)
+            allowed = rows[name].allowed + COMMA_HINT * comma
+            report(f"{key}.{name}", wrong[0] + more_like_it(len(wrong)), allowed)
+        values[name] = tuple(good)
     return {} if len(report) > before else values
 
 
-def _column(
-    row: Parameter, column: Sequence[object], key: str, report: Report, known: Known
-) -> tuple[Value, ...] | None:
-    """Checked values of a parameter; the first that is wrong is reported, with the number of others."""
-    good: list[Value] = []
-    wrong: list[str] = []
-    for index, raw in enumerate(column):
-        try:
-            good.append(read_value(row, raw, known.get(row.name, NOTHING)))
-        except ValueError as error:
-            wrong.append(f"{literal(raw)} ({error}) at [{index}]")
-    if not wrong:
-        return tuple(good)
-    report(key, wrong[0] + more_like_it(len(wrong)), row.allowed)
-    return None
-
-
-def _distribution(parameter: Parameter, raw: object, key: str, report: Report) -> Distribution | None:
-    """The distribution of a parameter that a user wrote; None if there are mistakes, which are reported."""
+def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
+    """The distribution of a parameter that a user wrote; a StudyError with the mistakes in it."""
     if isinstance(raw, list) and len(raw) == 2:
         raw = {"distribution": "uniform", "low": raw[0], "high": raw[1]}
     if not isinstance(raw, Mapping):
-        report(key, literal(raw), ALLOWED_RANGE)
-        return None
+        raise refused(key, literal(raw), ALLOWED_RANGE)
     kind = raw.get("distribution")
     if not isinstance(kind, str) or kind not in DISTRIBUTIONS:
         found = literal(kind) if "distribution" in raw else "nothing"
-        report(f"{key}.distribution", found, nearest(str(kind or ""), DISTRIBUTIONS))
-        return None
-    before = len(report)
-    known = ("distribution", "low", "high", *DISTRIBUTIONS[kind])
+        raise refused(f"{key}.distribution", found, nearest(str(kind or ""), DISTRIBUTIONS))
+    report, known = Report(), ("distribution", "low", "high", *DISTRIBUTIONS[kind])
     for name in (each for each in raw if each not in known):
         report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
     bounds = {"low": parameter.lower, "high": parameter.upper} if kind in _UNBOUNDED else {}
-    numbers = {
-        name: _number(parameter, name, raw.get(name, bounds.get(name)), f"{key}.{name}", report)
-        for name in known[1:]
-    }
-    if len(report) > before:
-        return None
-    low, high = numbers.pop("low"), numbers.pop("high")
-    distribution = Distribution(kind, numbers, low, high)
-    wrong = _wrong_distribution(distribution)
-    if wrong is not None:
-        report(f"{key}{wrong[0]}", *wrong[1:])
-    return distribution if wrong is None else None
+    numbers: dict[str, float] = {}
+    for name in known[1:]:
+        with report:
+            numbers[name] = _number(parameter, name, raw.get(name, bounds.get(name)), f"{key}.{name}")
+    report.refuse()
+    distribution = Distribution(kind, numbers, numbers.pop("low"), numbers.pop("high"))
+    for part, found, allowed in _wrong_distribution(distribution):
+        raise refused(f"{key}{part}", found, allowed)
+    return distribution
 
 
-def _number(parameter: Parameter, name: str, raw: object, key: str, report: Report) -> float:
+def _number(parameter: Parameter, name: str, raw: object, key: str) -> float:
     """A number of a distribution: a bound is a value of the parameter, a deviation is positive."""
     bound = name in ("low", "high")
     try:
@@ -409,27 +398,25 @@ def _number(parameter: Parameter, name: str, raw: object, key: str, report: Repo
         return as_number(read_value(parameter, raw)) if bound else float(read(raw))
     except ValueError as error:
         found = "nothing" if raw is None else f"{literal(raw)} ({error})"
-        report(key, found, parameter.allowed if bound else "a number")
-        return math.nan
+        raise refused(key, found, parameter.allowed if bound else "a number") from None
 
 
-def _wrong_distribution(of: Distribution) -> tuple[str, str, str] | None:
-    """Key, found and allowed of what does not go together in a distribution."""
+def _wrong_distribution(of: Distribution) -> Iterator[tuple[str, str, str]]:
+    """Part of the key, found and allowed of what does not go together in a distribution."""
     bounds, deviation = f"the bounds {of.low:g} and {of.high:g}", of.given.get("deviation", 1.0)
     if not of.low < of.high:
-        return "", bounds, "the lower bound first, and a higher one"
+        yield "", bounds, "the lower bound first, and a higher one"
     if of.kind == "lognormal" and deviation > _LARGEST_DEVIATION:
         allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
-        return ".deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed
+        yield ".deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed
     for name in ("deviation", "median"):
         if of.given.get(name, 1.0) <= 0.0:
-            return f".{name}", f"{of.given[name]:g}", "a number greater than 0"
+            yield f".{name}", f"{of.given[name]:g}", "a number greater than 0"
     mode = of.given.get("mode", of.low)
     if not of.low <= mode <= of.high:
-        return ".mode", f"{mode:g}", f"a number in [{of.low:g}, {of.high:g}]"
+        yield ".mode", f"{mode:g}", f"a number in [{of.low:g}, {of.high:g}]"
     if of.share() < _LEAST_SHARE:
-        return "", f"{bounds}, which hold none of the distribution", "bounds that hold some of it"
-    return None
+        yield "", f"{bounds}, which hold none of the distribution", "bounds that hold some of it"
 
 
 def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: Report) -> Scatter | None:
@@ -487,9 +474,7 @@ def _root(
     """Names of the constants of a covariance, and its root, shape (k, k)."""
     nothing: tuple[list[str], FloatArray] = ([], np.empty((0, 0)))
     sound = all(isinstance(row, dict) for row in covariance.values())
-    names = list(
-        dict.fromkeys([*covariance, *(name for row in covariance.values() if sound for name in row)])
-    )
+    names = [*dict.fromkeys([*covariance, *(n for row in covariance.values() if sound for n in row)])]
     if not sound or not {*names} <= {*SCATTERED}:
         report("sample.covariance", literal(covariance), f"{_MATRIX}, of {', '.join(SCATTERED)}")
         return nothing

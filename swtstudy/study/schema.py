@@ -24,16 +24,12 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "|β|/μ up to which two bodies count as similar, β Dundurs' constant (eq. 1); with units only"
-#: Keys of the figure whose values are names of axes.
-_ROLES = ("x", "vertical", "hue", "panels")
-#: Where a sample may be beside axes.
-_SAMPLED = {"x": (SAMPLE,)}
 
 
 def study_schema() -> dict[str, Any]:
     """The JSON schema of study files, from their structure and the table of parameters."""
     schema = StudyTable.model_json_schema()
-    schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_without_titles(schema)}
+    schema = {"$schema": "http://json-schema.org/draft-07/schema#", **_plain(schema)}
     parts, keys = schema["$defs"], schema["properties"]
     keys["quantities"] = {
         "description": keys["quantities"]["description"],
@@ -49,12 +45,10 @@ def study_schema() -> dict[str, Any]:
     keys["material"] = {"description": keys["material"]["description"], **_material()}
     _name_keys(keys, parts["SampleTable"]["properties"], given)
     schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
-    roles = parts["FigureTable"]["properties"]
-    for role in _ROLES:
-        roles[role] = {
-            "enum": [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *_SAMPLED.get(role, ())],
-            "description": roles[role]["description"],
-        }
+    for role in ("x", "vertical", "hue", "panels"):
+        entry = parts["FigureLayout"]["properties"][role]
+        names = [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *((SAMPLE,) if role == "x" else ())]
+        parts["FigureLayout"]["properties"][role] = {"enum": names, "description": entry["description"]}
     return schema
 
 
@@ -138,9 +132,8 @@ def _value(parameter: Parameter) -> dict[str, Any]:
 def _values(parameter: Parameter) -> dict[str, Any]:
     """Schema of a list of values."""
     value = _value(parameter)
-    description = value.pop("description")
     value.pop("default", None)
-    return {"description": description, "type": "array", "items": value, "minItems": 1}
+    return {"description": value.pop("description"), "type": "array", "items": value, "minItems": 1}
 
 
 def _axis(parameter: Parameter) -> dict[str, Any]:
@@ -148,29 +141,26 @@ def _axis(parameter: Parameter) -> dict[str, Any]:
     values = _values(parameter)
     if parameter.kind == "name":
         return values
-    description = values.pop("description")
-    return {"description": description, "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+    return {"description": values.pop("description"), "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 
 
 def _range(parameter: Parameter) -> dict[str, Any]:
     """Schema of the range of a sampled parameter: both ends, or a distribution."""
-    ends = _values(parameter)
-    description = ends.pop("description")
-    ends["items"]["type"] = ["number", "string"]
-    number = {"type": ["number", "string"]}
-    numbers = {name: number for names in DISTRIBUTIONS.values() for name in names}
+    ends, number = _values(parameter), {"type": ["number", "string"]}
+    ends["items"] |= number
     distribution = {
         "type": "object",
         "properties": {
             "distribution": {"enum": list(DISTRIBUTIONS)},
             "low": ends["items"],
             "high": ends["items"],
-            **numbers,
+            **{name: number for names in DISTRIBUTIONS.values() for name in names},
         },
         "required": ["distribution"],
         "additionalProperties": False,
     }
-    return {"description": description, "anyOf": [ends | {"minItems": 2, "maxItems": 2}, distribution]}
+    both = ends | {"minItems": 2, "maxItems": 2}
+    return {"description": both.pop("description"), "anyOf": [both, distribution]}
 
 
 def _description(parameter: Parameter) -> str:
@@ -184,14 +174,13 @@ def _description(parameter: Parameter) -> str:
     return "; ".join(filter(None, words))
 
 
-def _without_titles(part: Any) -> Any:
-    """A part without the titles that pydantic makes from the names of fields: they add nothing."""
+def _plain(part: Any) -> Any:
+    """A part with descriptions in one line, and without pydantic's titles: the names of fields and tables."""
     if isinstance(part, list):
-        return [_without_titles(each) for each in part]
+        return [_plain(each) for each in part]
     if not isinstance(part, dict):
         return part
-    return {
-        key: _without_titles(each)
-        for key, each in part.items()
-        if not (key == "title" and isinstance(each, str))
-    }
+    titled = isinstance(part.get("title"), str)
+    plain = {key: _plain(each) for key, each in part.items() if not (titled and key == "title")}
+    words = plain.get("description")
+    return plain | ({"description": " ".join(words.split())} if isinstance(words, str) else {})

@@ -26,9 +26,6 @@ ROUNDING = 1e-6
 #: amplitude when they are folded, 1 − sin(πx)/πx.
 MOST_DRIFT = 0.08
 
-#: Cycles from which a spike is told: the median of fewer follows it.
-FEWEST_CYCLES = 3
-
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
 #: Kinds of columns, with units.
@@ -219,8 +216,9 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.
     despike
-        Whether samples that stand out from all other cycles take the median of the cycles at their phase;
-        without it a warning names them.
+        Whether spikes are taken out: a single sample apart from the samples beside it takes the value on the
+        line between them, and a sample apart from all other cycles takes their median; without it a warning
+        names the spikes.
 
     Returns
     -------
@@ -325,16 +323,10 @@ def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
 def _without_spikes(
     name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: SignalTable
 ) -> FloatArray:
-    """The values, with ``despike`` the median of the cycles where one stands out; else a warning names it."""
-    if given.despike and count < FEWEST_CYCLES:
-        allowed = f"{FEWEST_CYCLES} recorded cycles at least, from whose median spikes are told; "
-        allowed += "in a shorter record take the row of the spike out of the file"
-        raise StudyError([Mistake("despike", f"{count} cycle{'s' * (count > 1)}", allowed)])
-    if count < FEWEST_CYCLES:
-        return values
-    out, median = spikes(time, values, period, count)
+    """The values; with ``despike`` a spike takes the value that other samples suggest, else it is named."""
+    out, usual = spikes(time, values, period, count)
     if given.despike:
-        return np.where(out, median, values)
+        return np.where(out, usual, values)
     rows, columns = np.nonzero(out)
     if rows.size:
         row, column = int(rows[0]), int(columns[0])
@@ -342,6 +334,6 @@ def _without_spikes(
         more = f", and {rows.size - 1} more" if rows.size > 1 else ""
         place = f"in cycle {cycle}, row {row + 1} below the header"
         found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} {place}"
-        usual = f"where the median of the cycles is {median[row, column]:.4g}{more}"
-        warnings.warn(f"{name}: {found}, {usual}: a spike? despike = true takes it out", stacklevel=4)
+        suggested = f"where the other samples suggest {usual[row, column]:.4g}{more}"
+        warnings.warn(f"{name}: {found}, {suggested}: a spike? despike = true takes it out", stacklevel=4)
     return values

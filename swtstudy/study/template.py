@@ -14,7 +14,7 @@ from swtstudy.study.writing import quoted
 from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameter import Parameter, short
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
@@ -50,8 +50,7 @@ def _filled(name: str, title: str, known: Mapping[str, Parameter]) -> str:
 def _commented(row: Parameter) -> str:
     """A parameter with its default, and what it may be."""
     note = f"; {row.note}" if row.note else ""
-    default = "…" if row.default is None else row.default
-    value = f"{default:.6g}" if isinstance(default, float) else default if default == "…" else quoted(default)
+    value = "…" if row.default is None else quoted(str(row.default)) if row.names else short(row.default)
     return f"# {row.described}: {row.allowed}{note}\n# {row.name} = {value}"
 
 

@@ -183,12 +183,14 @@ class Fold:
     @classmethod
     def of(cls, position: FloatArray, height: FloatArray, level: bool) -> Fold:
         """Fold a trace, of positions and heights (k,) in any order; with ``level`` without its tilt."""
+        from scipy.interpolate import CubicSpline
+
         kept = _without_sentinels(height)
         middle, tilt, rise = _middle(position[kept], height[kept], level)
         kept[kept] = ~_outliers(position[kept], height[kept] - tilt * position[kept], middle, rise)
         sides = _sides(position[kept], height[kept] - tilt * position[kept], middle)
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
-        values = np.array([_cubic(*side)(radius) for side in sides])
+        values = np.array([CubicSpline(*side)(radius) for side in sides])
         known = np.array([_reached(side[0], radius) for side in sides])
         weight = np.where(known.any(axis=0), known, True).astype(float)
         mean = (weight * values).sum(axis=0) / weight.sum(axis=0)
@@ -201,12 +203,6 @@ class Fold:
         if radius[rises] > LEAST_FACE * radius[-1]:
             mean[:rises] = 0.0
         return cls(radius, mean, noise, middle, kept)
-
-
-def folded(position: FloatArray, height: FloatArray, level: bool) -> tuple[FloatArray, FloatArray, float]:
-    """Radii and heights of both sides of a trace together, and their noise, as of a `Fold`."""
-    fold = Fold.of(position, height, level)
-    return fold.radius, fold.height, fold.noise
 
 
 def _without_sentinels(height: FloatArray) -> BoolArray:
@@ -385,12 +381,6 @@ def _merged(distance: FloatArray, height: FloatArray) -> tuple[FloatArray, Float
     group = np.append(0, np.cumsum(steps > 0.1 * np.median(steps[steps > 0.0])))
     count = np.bincount(group)
     return np.bincount(group, distance) / count, np.bincount(group, height) / count
-
-
-def _cubic(distance: FloatArray, height: FloatArray):  # type: ignore[no-untyped-def]
-    from scipy.interpolate import CubicSpline
-
-    return CubicSpline(distance, height)
 
 
 def _reached(distance: FloatArray, radius: FloatArray) -> BoolArray:

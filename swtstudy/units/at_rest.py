@@ -150,6 +150,14 @@ class Contact:
         """Unit of SWT, E* (δ0/a_H)², of the half-space with E*; E* δ0/R (eq. 19) where a_H = √(R δ0)."""
         return self.moduli.normal * (self.depth / self.length_scale) ** 2
 
+    def swt_of(self, body: int) -> float:
+        """Unit of SWT of body 0 or 1."""
+        return self.swt_scale * self.moduli.swt_share(body)
+
+    def strain_of(self, body: int) -> float:
+        """Unit of the shear strain of body 0 or 1."""
+        return self.stress_scale / self.moduli.shear[body]
+
     @property
     def contact_radius(self) -> float:
         """a at the mean depth δ0; of a strip half its width."""

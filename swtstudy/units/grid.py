@@ -131,6 +131,11 @@ class ContactDetails:
     findley_limits: tuple[float, ...] = ()
     scatter: Scatter | None = None
 
+    @property
+    def target_life(self) -> float:
+        """The life before which the probability of a crack is asked for; 0 for none."""
+        return self.scatter.target if self.scatter else 0.0
+
 
 @dataclass(frozen=True)
 class ContactsAtRest:

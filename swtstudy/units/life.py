@@ -118,7 +118,7 @@ class FatigueConstants:
     def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
 
-        The place and plane with the largest sum count.
+        The place and plane with the largest sum decide.
 
         Parameters
         ----------

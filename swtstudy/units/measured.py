@@ -11,9 +11,9 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.labelled import margins
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.grid import PhysicalGrid, are_measured
-from swtstudy.units.results import KINDS
+from swtstudy.units.results import scale_of
 from swtstudy.units.rows import REST_DEPENDS_ON, SCALES, UNIT_KINDS, Units, rows
-from swtstudy.vocabulary.choices import SWT
+from swtstudy.vocabulary.choices import CRITERIA, SWT
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.variables import ATTRIBUTES
@@ -129,7 +129,7 @@ class Measured(NamedTuple):
 
     def scales(self) -> dict[str, tuple[float, str, str]]:
         """By name of a variable the scale, the label of its unit, and its symbol."""
-        contact, kind = self.contact, KINDS[self.criterion]
+        contact, row = self.contact, CRITERIA[self.criterion]
         length, stress, share = (
             contact.length_scale,
             contact.stress_scale,
@@ -145,7 +145,7 @@ class Measured(NamedTuple):
             "height": (contact.depth, "length", "-z"),
             "spring_depth": (contact.depth, "length", "g"),
             "normal_strain": (contact.depth / length * share, "1", r"\varepsilon_n"),
-            "s_local": (kind.scale(contact, self.body), kind.unit, kind.symbol),
+            "s_local": (scale_of(row.scale)(contact, self.body), row.unit, row.sign),
             "dissipation": (contact.work_scale, "work", "W"),
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),
         }

@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES, STRAIN_SHARE
 
@@ -22,13 +22,37 @@ if TYPE_CHECKING:
 #: Kinds of numbers that have a unit of their own.
 UNIT_KINDS = ("length", "force", "stress")
 
-#: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
+#: Labels that are known, in m, N and Pa.
 KNOWN: dict[str, dict[str, float]] = {
-    "length": {"m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9, "in": 0.0254},
-    "force": {"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "µN": 1e-6, "μN": 1e-6, "lbf": 4.4482216152605},
-    "stress": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "psi": 6894.757293168, "ksi": 6894757.293168},
+    "length": {
+        **{"m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9},
+        **{"in": 0.0254, "ft": 0.3048},
+    },
+    "force": {
+        **{"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "µN": 1e-6, "μN": 1e-6, "uN": 1e-6},
+        **{"lbf": 4.4482216152605, "kip": 4448.2216152605, "kgf": 9.80665},
+    },
+    "stress": {
+        **{"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm²": 1e6, "N/mm2": 1e6},
+        **{"psi": 6894.757293168, "ksi": 6894757.293168},
+    },
 }
-KNOWN["force"]["kip"] = 1e3 * KNOWN["force"]["lbf"]
+#: Their names as people write them out, and in labels.
+_PREFIXES = {
+    "": "",
+    "kilo": "k",
+    "mega": "M",
+    "giga": "G",
+    "centi": "c",
+    "milli": "m",
+    "micro": "µ",
+    "nano": "n",
+}
+_WRITTEN_OUT = {
+    f"{prefix}{name}": f"{letter}{label}"
+    for name, label in {"meter": "m", "metre": "m", "newton": "N", "pascal": "Pa"}.items()
+    for prefix, letter in _PREFIXES.items()
+} | {"micron": "µm", "inch": "in", "foot": "ft", "pound": "lbf"}
 
 #: Relative rounding of the numbers above.
 _ROUNDING = 1e-9
@@ -62,21 +86,14 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     before = len(report)
     for name in (each for each in raw if each not in UNIT_KINDS):
         report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), UNIT_KINDS))
-    for kind in UNIT_KINDS:
-        label = raw.get(kind)
-        named = isinstance(label, str) and label.strip() not in ("", "1", "rad")
-        word = str(label).strip()
-        alike = [each for each in KNOWN[kind] if each.lower() == word.lower()]
-        if named and alike and word not in alike:
-            report(f"units.{kind}", literal(label), f"did you mean {' or '.join(alike)}?")
-        elif not named or not str(label).isprintable():
-            found = literal(label) if kind in raw else "nothing"
-            report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
+    labels = {kind: str(raw[kind]).strip() if isinstance(raw.get(kind), str) else "" for kind in UNIT_KINDS}
+    for kind, label in labels.items():
+        if label not in KNOWN[kind]:
+            found = literal(raw[kind]) if kind in raw else "nothing"
+            found += "".join(f", a unit of {other}" for other in UNIT_KINDS if label in KNOWN[other])
+            report(f"units.{kind}", found, _allowed_unit(kind, label))
     if len(report) > before:
         return None
-    labels = {kind: str(raw[kind]).strip() for kind in UNIT_KINDS}
-    if not all(label in KNOWN[kind] for kind, label in labels.items()):
-        return Units(**labels)
     length, force, stress = (KNOWN[kind][labels[kind]] for kind in UNIT_KINDS)
     if math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
         return Units(**labels)
@@ -84,6 +101,28 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     found = f"{labels['force']} over {labels['length']}², which is {number} {labels['stress']}"
     report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {labels['stress']}")
     return None
+
+
+def _allowed_unit(kind: str, label: str) -> str:
+    """The units of a kind in words, and the one that an unknown label probably means.
+
+    Examples
+    --------
+    >>> _allowed_unit("length", "milimeter")
+    'did you mean mm? known: m, cm, mm, µm, nm, in, ft'
+    >>> _allowed_unit("force", "mn")
+    'did you mean MN or mN? known: N, kN, MN, mN, µN, lbf, kip, kgf'
+    """
+    known = KNOWN[kind]
+    every = ", ".join(
+        {size: each for each, size in reversed(known.items())}[size] for size in dict.fromkeys(known.values())
+    )
+    written = {name: each for name, each in _WRITTEN_OUT.items() if each in known}
+    close = meant(label, [*known, *written], {}) or ""
+    likely = [each for each in known if each.lower() == label.lower()] or [written.get(close, close)]
+    if not likely[0] or any(label in others for others in KNOWN.values()):
+        return f"the name of a unit, such as {literal(next(iter(known)))}: one of {every}"
+    return f"did you mean {' or '.join(likely)}? known: {every}"
 
 
 #: No unit makes a quantity smaller or larger; the product of three of them, and a square, is still a number.

@@ -1,4 +1,4 @@
-"""Names that parameters take: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts.
+"""Names to choose from: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts, figures.
 
 Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterion`.
 """
@@ -6,6 +6,7 @@ Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterio
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, TypeGuard
 
@@ -79,6 +80,49 @@ def families_with(name: str) -> list[str]:
     return [family.name for family in FAMILIES.values() if name in family.shape]
 
 
+class Drawing(NamedTuple):
+    """A kind of figure.
+
+    Attributes
+    ----------
+    of
+        Whether it shows "lines", a "surface" over x and vertical, or a "sample".
+    words
+        A reader's words for it.
+    lacks
+        The keys of a figure that it has none of, and the reason.
+    over
+        Words for what it is drawn over, instead of x.
+    """
+
+    of: str
+    words: str
+    lacks: Mapping[str, str]
+    over: str = ""
+
+
+_UPRIGHT = {"vertical": ", whose vertical axis is y"}
+#: The kinds of figures.
+FIGURES = {
+    "lines": Drawing("lines", "lines over x", _UPRIGHT),
+    "life": Drawing("lines", "lines with x upright over a life, as S–N curves", {**_UPRIGHT, "regimes": ""}),
+    "contour": Drawing("surface", "contours over x and vertical", {"hue": ""}),
+    "heatmap": Drawing("surface", "a cell for each point over x and vertical", {"hue": "", "regimes": ""}),
+    "scatter": Drawing(
+        "sample",
+        "the points of a sample, with a panel for each of its parameters",
+        {**_UPRIGHT, "panels": ": every sampled parameter has its own", "regimes": ""},
+        "over each sampled parameter",
+    ),
+    "histogram": Drawing(
+        "sample",
+        "how often a sample has which values",
+        {**_UPRIGHT, "regimes": "", "validity": ""},
+        "at the points of the sample",
+    ),
+}
+
+
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
 #: Those in which s is no finite number.
@@ -111,6 +155,15 @@ class Criterion(NamedTuple):
         A reader's words for its values.
     meaning, over_unit
         The meaning of s, in words for attributes, and its symbol over its unit.
+    name, sign, unit, scale
+        Of its values with units the data variable, its symbol, the kind of unit, "stress" or "1", and the
+        property of a contact at rest that is the factor of s.
+    life, subscript, by, constants
+        Of the life at a value the data variable, the index of its symbol, words for the criterion behind it,
+        and the facts of contacts of which one gives it; empty where there is no life.
+    limit, usage
+        The limits that its values are compared with, a fact of contacts, and the data variable that compares
+        them; empty where there are none.
     """
 
     words: str
@@ -120,6 +173,16 @@ class Criterion(NamedTuple):
     values: str
     meaning: str
     over_unit: str
+    name: str
+    sign: str
+    unit: str
+    scale: str
+    life: str = ""
+    subscript: str = ""
+    by: str = ""
+    constants: tuple[str, ...] = ()
+    limit: str = ""
+    usage: str = ""
 
 
 NORMAL_STRAIN = Swing("normal_strain", "strain normal to the plane", r"\varepsilon_n")
@@ -135,6 +198,9 @@ CRITERIA = {
         "SWT",
         "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
         r"\mathrm{SWT}/\mathrm{SWT}_0",
+        *("SWT", r"\mathrm{SWT}", "stress", "swt_of"),
+        life="cycles",
+        constants=("materials",),
     ),
     FATEMI_SOCIE: Criterion(
         "Fatemi-Socie parameter",
@@ -144,6 +210,11 @@ CRITERIA = {
         "Fatemi-Socie parameter",
         "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
         r"G \mathrm{FS}/(E^*\delta_0/a_H)",
+        *("FS", r"\mathrm{FS}", "1", "strain_of"),
+        life="FS_cycles",
+        subscript="FS",
+        by=" by Fatemi and Socie",
+        constants=("materials", "shear_materials"),
     ),
     FINDLEY: Criterion(
         "Findley stress",
@@ -153,6 +224,9 @@ CRITERIA = {
         "Findley stress",
         "maximum Findley stress over E* delta0 / a_H",
         r"f/(E^*\delta_0/a_H)",
+        *("findley_stress", "f", "stress", "stress_scale"),
+        limit="findley_limits",
+        usage="findley_usage",
     ),
 }
 #: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).

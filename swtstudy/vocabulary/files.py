@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import errno
 import os
 import re
@@ -51,8 +52,32 @@ def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
 
 
 def reason_of(error: Exception) -> str:
-    """Say why a file cannot be read, without its name."""
-    return getattr(error, "strerror", None) or str(error)
+    """Say why a file cannot be read, without its name; for a missing one, the most similar name beside it."""
+    if not isinstance(error, FileNotFoundError) or not error.filename:
+        return getattr(error, "strerror", None) or str(error)
+    path = Path(os.fsdecode(error.filename))
+    folder = path.parent.resolve()
+    if not folder.is_dir():
+        return f"no folder {folder}"
+    close = difflib.get_close_matches(path.name, [each.name for each in folder.iterdir()], n=1)
+    return f"no such file in the folder {folder}" + "".join(f": did you mean {name!r}?" for name in close)
+
+
+class TomlError(ValueError):
+    """A text that is not TOML.
+
+    Attributes
+    ----------
+    shown
+        The line of the text, and beneath it a caret where reading it failed; empty if that is unknown.
+    """
+
+    def __init__(self, reason: str, shown: str = "") -> None:
+        self.shown = shown
+        super().__init__(reason, shown)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -60,17 +85,33 @@ def parse_toml(text: str) -> dict[str, Any]:
 
     Raises
     ------
-    ValueError
-        With the reason only.
+    TomlError
+        A ValueError with the reason, and the line.
     """
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise ValueError(f"a syntax error: {error}") from None
+        raise _toml_error(str(error), text) from None
     except RecursionError:
-        raise ValueError("a syntax error: nested too deeply") from None
+        raise TomlError("a syntax error: nested too deeply") from None
     except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
-        raise ValueError("an integer with too many digits") from None
+        raise TomlError("an integer with too many digits") from None
+
+
+def _toml_error(reason: str, text: str) -> TomlError:
+    """The error with its line, the key that is there twice, and the way out of a decimal comma."""
+    lines = text.splitlines() or [""]
+    place = re.search(r"line (\d+), column (\d+)", reason)
+    row, column = (int(place[1]), int(place[2])) if place else (len(lines), len(lines[-1]) + 1)
+    line = lines[row - 1] if row <= len(lines) else ""
+    key = line.partition("=")[0].strip()
+    reason = re.sub(r"^Cannot overwrite a value", f"the key {key!r} twice", reason)
+    reason = re.sub(r"^Cannot declare \((.*?),?\) twice", r"the table \1 twice", reason)
+    if number := re.search(r"=\s*([+-]?\d+),(\d[\de+-]*)\s*(#|$)", line):
+        reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"
+    start = max(0, column - 60)
+    mark = " " * (min(column, len(line) + 1) - 1 - start) + "^"
+    return TomlError(f"a syntax error: {reason}", f"{row:>4} | {line[start : start + 100]}\n     | {mark}")
 
 
 def plain_float(cell: str) -> float:

@@ -29,19 +29,26 @@ class Mistake:
         The values that are allowed there.
     source
         File that holds the entry; empty for a call from Python.
+    shown
+        Lines that follow the message: a line of the file, and a mark beneath the place.
     """
 
     key: str
     found: str
     allowed: str
     source: str = ""
+    shown: str = ""
 
     def __str__(self) -> str:
         place = ": ".join(part for part in (self.source, self.key) if part)
         message = f"found {self.found}; allowed: {self.allowed}"
         line = f"{place}: {message}" if place else message
         # One line, whatever characters a name or a value contains.
-        return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+        return "\n".join(map(_escaped, (line, *self.shown.splitlines())))
+
+
+def _escaped(line: str) -> str:
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
 class StudyError(ValueError):
@@ -59,6 +66,11 @@ class StudyError(ValueError):
 
     def __reduce__(self) -> tuple[type[StudyError], tuple[tuple[Mistake, ...]]]:
         return StudyError, (self.mistakes,)
+
+
+def refused(key: str, found: str, allowed: str, source: str = "") -> StudyError:
+    """The error of a single mistake."""
+    return StudyError([Mistake(key, found, allowed, source)])
 
 
 class Report(list[Mistake]):

@@ -101,21 +101,26 @@ class Parameter:
     @property
     def allowed(self) -> str:
         """The allowed range in words, for messages and help."""
-        if self.words:
-            return self.words
-        if self.kind == "name":
-            return "one of " + ", ".join(self.names)
+        return " ".join(filter(None, self._allowed))
+
+    @property
+    def _allowed(self) -> tuple[str, str]:
+        """The kind of value, empty where the range says it, and the range."""
         interval = f"{'(' if self.open_lower else '['}{self.lower:g}, {self.upper:g}]"
+        if self.words:
+            return "", self.words
+        if self.kind == "name":
+            return "one of", ", ".join(self.names)
         if self.kind == "ratio":
-            return f"a positive rational p/q with p, q ≤ {self.upper:g}"
+            return "a positive rational", f"p/q with p, q ≤ {self.upper:g}"
         if self.units == "rad":
-            return f'a finite angle in {interval} rad, or such as "90 deg"'
-        return f"a number in {interval}"
+            return "a finite angle", f'in {interval} rad, or "90 deg"'
+        return "a number", f"in {interval}"
 
     @property
     def explained(self) -> str:
         """The meaning, the range and the default as a sentence, for docstrings and lists."""
-        default = "" if self.default is None else f"default {self._default}"
+        default = "" if self.default is None else f"default {short(self.default)}"
         return f"{'; '.join(filter(None, (self.described, self.note, self.allowed, default)))}."
 
     @property
@@ -128,18 +133,17 @@ class Parameter:
         >>> for name in ("phase", "profile", "exponent"):
         ...     print(PARAMETERS[name].brief)
         ψ in [-1000, 1000] rad, or "90 deg"  [0]
-        paraboloid, rounded_punch …  [paraboloid]
+        paraboloid, rounded_punch, …  [paraboloid]
         n in (1, 20]
         """
-        default = "" if self.default is None else f"  [{self._default}]"
-        if self.kind == "name":
-            return shorten(", ".join(self.names), 32, placeholder=" …").replace(", …", " …") + default
-        allowed = self.allowed.replace("a positive rational", "=").replace("or such as", "or")
-        return f"{self.notation} {re.sub('^a (finite angle|number) ', '', allowed)}{default}"
+        default = "" if self.default is None else f"  [{short(self.default)}]"
+        allowed = shorten(self._allowed[1], 34, placeholder=" …")
+        return f"{self.notation} {allowed}{default}".strip()
 
-    @property
-    def _default(self) -> str:
-        return f"{self.default:.6g}" if isinstance(self.default, float) else str(self.default)
+
+def short(value: object) -> str:
+    """A number with six digits; any other value as it is."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _greek(name: str) -> str:

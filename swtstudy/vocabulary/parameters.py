@@ -278,7 +278,7 @@ class Control:
         return FORCE_OF[name] if forces.get(name) else name
 
 
-#: Amplitudes that the paper prescribes.
+#: The control of the paper: both displacements are prescribed.
 DISPLACEMENTS = Control()
 
 #: The names of what is prescribed.

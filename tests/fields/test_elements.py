@@ -142,5 +142,10 @@ def test_what_a_study_lacks_is_named(tmp_path: Path) -> None:
     assert poisson.startswith("fixed.poisson_ratio: found nothing")
     with pytest.raises(StudyError, match="order: found 'ansys'; allowed: one of swtstudy, abaqus"):
         read_history(tmp_path / "stress.csv", order="ansys")
+    (tmp_path / "ours.csv").write_text("id,step,xx,yy,zz,yz,xz,xy\n1,0,1,2,3,4,5,6\n")
+    with pytest.raises(
+        StudyError, match="order: found 'abaqus'; allowed: no order: the headers xx, yy, zz, yz, xz"
+    ):
+        read_history(tmp_path / "ours.csv", order="abaqus")
     with pytest.raises(StudyError, match="body: found 3"):
         evaluate_history(tmp_path / "stress.csv", study(tmp_path), 3)

@@ -280,7 +280,7 @@ vertices = {}
             r"loads.mine.vertices: found 'square'.*; allowed: a list of pairs of numbers",
         ),
         ("file = 3", "loads.mine.file: found 3; allowed: the path of a CSV file"),
-        ('file = "no.csv"', r"loads.mine.file: found No such file or directory \(.*no.csv\)"),
+        ('file = "no.csv"', r"loads.mine.file: found no such file in the folder .* \(.*no.csv\)"),
         ('file = "few.csv"', r"loads.mine.file: found the columns time, normal .*; allowed: a header with"),
         ('file = "hole.csv"', r"loads.mine.file: found nothing .*line 3, tangential\)"),
         ('file = "nan.csv"', r"loads.mine.file: found 'nan' .*line 3, tangential\)"),

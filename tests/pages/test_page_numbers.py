@@ -447,9 +447,12 @@ def test_the_first_screen() -> None:
     says("{} values in {} s on two cores", *seconds)
     text = (RESULTS / "statements.md").read_text(encoding="utf-8")
     statements = map(int, re.findall(r"\*\*(\d+) statements: (\d+) hold, (\d+) do not", text)[0])
-    says("`swtstudy check` tests {} statements of the paper: {} hold, {} do not", *statements)
+    says(
+        "`swtstudy check` compares {} statements of the paper with computed values: {} agree, {} do not",
+        *statements,
+    )
     alone, *_, many = tables("scaling.md")[0][1][1:]
-    said = "A point of Table 1 takes {} ms alone, and {} ms in a batch of {}"
+    said = "The point of Table 1 takes {} ms alone and {} ms in a batch of {}"
     says(said, float(alone), float(many), 4096)
     error = max(float(row[4]) for row in tables("accuracy.md")[0] if row[1] == "1e-04")
     says("With the default tolerance the error was at most {} at random points", AtMost(error))

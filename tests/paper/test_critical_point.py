@@ -8,8 +8,8 @@ import xarray as xr
 from made_up import made_up, made_up_audit
 from solved import REGIMES
 
-from swtstudy.paper.statements import critical_point
 from swtstudy.paper.statements.critical_point import stick_radius
+from swtstudy.paper.statements.statement import STATEMENTS
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:
@@ -38,7 +38,7 @@ def test_the_radius_of_permanent_stick():
 def test_the_critical_point_lies_outside_of_stick(x, holds):
     results = located()
     results["critical_x"] = results.critical_x * x
-    finding = critical_point.outside_of_stick(results, results)
+    finding = STATEMENTS["outside_of_stick"](results, results)
     assert finding.holds == holds
     assert finding.measured.startswith("2 of 4 points")
 
@@ -47,12 +47,12 @@ def test_the_critical_point_lies_outside_of_stick(x, holds):
 def test_the_critical_plane(angle, holds):
     results = located()
     results["critical_angle"] = results.critical_angle + angle
-    assert critical_point.normal_along_x(results).holds == holds
+    assert STATEMENTS["normal_along_x"](results).holds == holds
 
 
 @pytest.mark.parametrize(("off_line", "holds"), [(0, True), (1, True), (5, False)])
 def test_the_critical_point_is_on_the_line(off_line, holds):
-    finding = critical_point.on_the_line(made_up_audit(40, off_line))
+    finding = STATEMENTS["on_the_line"](made_up_audit(40, off_line))
     assert finding.holds == holds
     assert f"off the line {off_line}" in finding.measured
     assert ("4.0% higher, for ν ≥ 0.45" in finding.measured) == (off_line > 0)
@@ -62,7 +62,7 @@ def test_the_critical_point_is_on_the_line(off_line, holds):
 def test_the_regime(regime, holds):
     results = located()
     results["regime"] = results.regime * regime
-    finding = critical_point.slips_partially(results)
+    finding = STATEMENTS["slips_partially"](results)
     assert finding.holds == holds
     assert REGIMES[regime].replace("_", " ") in finding.measured
-    assert "the regime is partial slip" in critical_point.slips_partially.criterion
+    assert "the regime is partial slip" in STATEMENTS["slips_partially"].criterion

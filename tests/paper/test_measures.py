@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from made_up import PHASES, made_up
 
-from swtstudy.paper.statements.statement import (
+from swtstudy.paper.statements.measures import (
     NotInArchiveError,
     coupling,
     even,

@@ -283,7 +283,7 @@ def test_degrees_in_axes_and_samples():
     assert Study.from_text(axis).grid.axes["phase"] == (0.0, np.pi / 2, np.pi)
     drawn = 'title = "t"\n[sample]\ndesign = "sobol"\nsize = 4\n[sample.ranges]\nphase = ["0 deg", "180 deg"]'
     assert max(Study.from_text(drawn).grid.samples["phase"]) <= np.pi
-    with pytest.raises(swtstudy.StudyError, match='or such as "90 deg"'):
+    with pytest.raises(swtstudy.StudyError, match='or "90 deg"'):
         swtstudy.solve(phase="90 grad")
 
 

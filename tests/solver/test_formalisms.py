@@ -12,20 +12,21 @@ from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 from scipy.integrate import trapezoid
 
-from swtstudy.paper.statements.formalisms import JaegerContact, MemoryDiagram
+from swtstudy.paper.statements.formalisms import JaegerContact, MemoryDiagram, random_path
 
 Array = NDArray[np.float64]
 
 
-def random_path(seed: int, corners: int = 40) -> tuple[Array, Array]:
-    """δ and u of a random polygon; every fourth one loses contact now and then."""
-    rng = np.random.default_rng(seed)
-    depth = rng.uniform(-0.3 if seed % 4 == 0 else 0.05, 1.6, corners)
-    # From nearly normal to nearly tangential motion.
-    displacement = np.cumsum(rng.normal(size=corners)) * 10.0 ** rng.uniform(-1.0, 0.2)
-    displacement[0] = 0.0
-    depth[0] = 1.0
-    return depth, displacement
+def traction_of_hertz(jaeger: JaegerContact, r: Array) -> Array:
+    """q/μ in E* √(δ0/R) by Hertz's pressures."""
+    hertz = (c * 2.0 / np.pi * np.sqrt(np.maximum(d - r * r, 0.0)) for d, c in jaeger.terms)
+    return np.sum([np.zeros_like(r), *hertz], axis=0)
+
+
+def traction_of_punches(diagram: MemoryDiagram, r: Array) -> Array:
+    """q/μ in E* √(δ0/R): flat punches with ∂p/∂η = 1/(π √(η − r²)), as a paraboloid has η = a²."""
+    root = np.sqrt(np.maximum(diagram.edge[:, None] - r * r, 0.0))
+    return 2.0 / np.pi * (diagram.value @ np.diff(root, axis=0))
 
 
 def traction_of_springs(radius: Array, force: Array, r: Array) -> Array:
@@ -40,7 +41,7 @@ POSITIONS = np.linspace(0.03, 1.27, 80)
 @pytest.mark.quick(4)
 @pytest.mark.parametrize("seed", range(12))
 def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
-    depth, displacement = random_path(seed)
+    depth, displacement = random_path(seed, 40)
     radius = np.linspace(0.0, 1.3, 3001)
     instants = np.arange(len(depth), dtype=float)
     forces = spring_forces(polygon(depth, displacement), radius**2, instants)
@@ -48,21 +49,24 @@ def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
     for k in range(1, len(depth)):
         jaeger.step(depth[k], displacement[k])
         diagram.step(depth[k], displacement[k])
-        expected = jaeger.traction(POSITIONS)
+        expected = traction_of_hertz(jaeger, POSITIONS)
         # The same breakpoints, to rounding accumulated over the path …
-        np.testing.assert_allclose(diagram.traction(POSITIONS), expected, rtol=0.0, atol=1e-10)
-        assert diagram.force() == pytest.approx(jaeger.force(), abs=1e-10)
+        np.testing.assert_allclose(traction_of_punches(diagram, POSITIONS), expected, rtol=0.0, atol=1e-10)
+        # Hertz's forces, and ∫ D dN with N = 4/3 η^(3/2).
+        force = sum(c * 4.0 / 3.0 * d**1.5 for d, c in jaeger.terms)
+        of_diagram = diagram.value @ np.diff(4.0 / 3.0 * np.maximum(diagram.edge, 0.0) ** 1.5)
+        assert of_diagram == pytest.approx(force, abs=1e-10)
         # … while springs a cell h apart find a kink of τ within h only, which q sees to √h next to it.
         error = np.abs(traction_of_springs(radius, forces[k], POSITIONS) - expected)
         assert error.max() < np.sqrt(radius[1])
         assert error.mean() < radius[1]
         total = trapezoid(2.0 * forces[k], radius)
-        assert total == pytest.approx(jaeger.force(), abs=radius[1] ** 1.5)
+        assert total == pytest.approx(force, abs=radius[1] ** 1.5)
 
 
 @pytest.mark.parametrize("seed", range(12))
 def test_force_of_every_spring_is_the_sum_of_jaegers_terms(seed: int) -> None:
-    depth, displacement = random_path(seed)
+    depth, displacement = random_path(seed, 40)
     g = np.linspace(0.0, 1.6, 401)
     instants = np.arange(len(depth), dtype=float)
     forces = spring_forces(polygon(depth, displacement), g, instants)
@@ -70,7 +74,6 @@ def test_force_of_every_spring_is_the_sum_of_jaegers_terms(seed: int) -> None:
     regimes = set()
     for k in range(1, len(depth)):
         jaeger.step(depth[k], displacement[k])
-        expected = np.sum([np.zeros_like(g), *(c * np.maximum(d - g, 0.0) for d, c in jaeger.terms)], axis=0)
-        np.testing.assert_allclose(forces[k], expected, rtol=0.0, atol=1e-11)
+        np.testing.assert_allclose(forces[k], jaeger.springs(g), rtol=0.0, atol=1e-11)
         regimes.add(min(len(jaeger.terms), 3))
     assert 3 in regimes  # partial slip with a memory

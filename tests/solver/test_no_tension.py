@@ -9,7 +9,7 @@ from solved import REGIMES, solve_points
 from soundness import SHAPES
 
 import swtstudy
-from swtstudy.paper.statements import critical_point
+from swtstudy.paper.statements.statement import STATEMENTS
 
 IDLE = [
     {"poisson_ratio": 0.5, "friction": 0.0},
@@ -47,7 +47,7 @@ def test_what_needs_a_critical_point_lives_without_one() -> None:
 def test_statements_on_critical_points_leave_out_where_there_is_none() -> None:
     some = swtstudy.solve(poisson_ratio=[0.3, 0.5], friction=0.0)
     alone = swtstudy.solve(poisson_ratio=[0.3], friction=0.0)
-    for statement in (critical_point.outside_of_stick, critical_point.normal_along_x):
+    for statement in (STATEMENTS["outside_of_stick"], STATEMENTS["normal_along_x"]):
         assert statement(some).holds == statement(alone).holds
         assert "nan" not in statement(some).measured
 

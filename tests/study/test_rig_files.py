@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import real
+from command import call
 
 import swtstudy
 from swtstudy import Study, StudyError, read_signal
@@ -230,3 +231,64 @@ def test_a_load_that_is_absolute_and_not_said_to_be_is_asked_about(tmp_path: Pat
     assert str(caught.value.mistakes[0]).endswith(
         "or absolute = true under [loads.rig], whose normal column is far from 0"
     )
+
+
+def test_a_title_above_the_header_is_not_taken_for_it(tmp_path: Path) -> None:
+    """The line with most of the names asked for is the header, also where one of them is misspelt."""
+    (tmp_path / "rig.csv").write_text("Rig 7, Monday, run 3\n" + table("time,normal,tangental"))
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(RIG, "s", tmp_path)
+    line = str(caught.value).splitlines()[0]
+    assert "found the columns time, normal, tangental in line 2, which is most like the header; " in line
+    assert "line 1 is skipped, 'Rig 7 Monday run 3'" in line
+    assert "rig.csv: line 2" in line
+    columns = 'columns = { tangential = "Ft [N]" }'
+    with pytest.raises(StudyError, match=r"no column 'Ft \[N\]', which is to be tangential in line 2, "):
+        Study.from_text(RIG + columns, "s", tmp_path)
+    sample = 'title = "t"\n[sample]\nfile = "points.csv"\n'
+    (tmp_path / "points.csv").write_text("Points of Monday\nfriction,phase\n0.3,1\n0.4,2\n")
+    with pytest.warns(UserWarning, match="header is found in line 2: line 1 is skipped, 'Points of Monday'"):
+        assert Study.from_text(sample, "s", tmp_path).grid.samples["friction"] == (0.3, 0.4)
+
+
+def test_decimal_commas_beside_points_name_the_key(tmp_path: Path) -> None:
+    (tmp_path / "rig.csv").write_text("time;normal;tangential\n0;200.5;1\n1;1,5;2\n2;73,1e3;3\n")
+    hint = "; a comma in numbers is decimal = ','"
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(RIG, "s", tmp_path)
+    (line,) = str(caught.value).splitlines()
+    assert "found '1,5' (" in line
+    assert "line 3, normal" in line
+    assert hint in line
+    (tmp_path / "points.csv").write_text("friction;phase\n0,5;1.5\n0,6;1.7\n")
+    with pytest.raises(StudyError, match=r"friction: found '0,5' .* 1 more like it; .*" + hint):
+        Study.from_text('title = "t"\n[sample]\nfile = "points.csv"\n', "s", tmp_path)
+
+
+def test_all_mistakes_in_a_table_are_told_at_once(tmp_path: Path) -> None:
+    """A wrong encoding, a key of no column, a unit and a number, of the first run."""
+    content = "time [µs],Fn [kN],tangential\n0,0.2,0\n1,0.2,x\n2,0.2,1\n"
+    (tmp_path / "rig.csv").write_bytes(content.encode("cp1252"))
+    keys = 'columns = { normal = "Fn [kN]" }\nscale = { norml = 1000 }\n'
+    for encoding, first in (
+        ("", "file: found bytes in line 1"),
+        ('encoding = "cp9"', "encoding: found 'cp9'"),
+    ):
+        with pytest.raises(StudyError) as caught:
+            Study.from_text(RIG + keys + encoding, "s", tmp_path)
+        told = str(caught.value)
+        for words in (first, "scale.norml: found 'norml'; allowed: did you mean normal?", "in kN as normal"):
+            assert words in told
+        assert "found 'x' (" in told
+        assert len(caught.value.mistakes) == 4
+
+
+def test_a_notice_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "rig.csv").write_text("Rig 7\n" + table("time,normal,tangential"))
+    (tmp_path / "rig.toml").write_text(RIG)
+    monkeypatch.chdir(tmp_path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("always")
+        found = call("show", "rig.toml", "--load", "rig")
+    assert found.exit_code == 0
+    assert found.output.count("header is found in line 2") == 1

@@ -361,7 +361,7 @@ HEAD = 'title = "t"\n'
             "sample.file = 'a.csv'\nsample.size=2",
             "sample.size: found 2 beside file; allowed: only with a design",
         ),
-        ("sample.file = 'none.csv'", "sample.file: found .*No such file"),
+        ("sample.file = 'none.csv'", "sample.file: found .*no such file"),
         ("sample.points = {}", "sample.points: found no points"),
         ("sample.points = {phase=[1,2], friction=[0.1]}", "sample.points: found 2 of phase, 1 of friction"),
         (

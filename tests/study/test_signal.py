@@ -366,8 +366,47 @@ def test_a_spike_is_named_and_taken_out_if_asked(tmp_path: Path) -> None:
         found = read_signal(tmp_path / "spike.csv", despike=True, **given)
     assert np.abs(spoilt.mean_cycle - clean.mean_cycle).max() > 30.0
     np.testing.assert_allclose(found.mean_cycle, clean.mean_cycle, atol=0.1)
-    with pytest.raises(StudyError, match="despike: found 2 cycles; allowed: 3 recorded cycles at least"):
-        read_signal(tmp_path / "spike.csv", recorded_cycles=2, despike=True)
+
+
+@pytest.mark.parametrize("cycles", [1, 2, 3, 20])
+@pytest.mark.parametrize("height", [25.0, 85.0, -350.0])
+def test_a_single_spike_is_told_in_any_number_of_cycles(cycles: int, height: float, tmp_path: Path) -> None:
+    phase = 2.0 * np.pi * np.arange(200 * cycles) / 200
+    noise = np.random.default_rng(3).normal(scale=0.5, size=(len(phase), 2))
+    clean = np.stack([500.0 + 0.0 * phase, 60.0 * np.sin(phase)], axis=1) + noise
+    spoilt = clean.copy()
+    spoilt[129, 1] += height
+    given = {"recorded_cycles": cycles, "absolute": True}
+    write(tmp_path / "spoilt.csv", spoilt, "normal,tangential")
+    write(tmp_path / "clean.csv", clean, "normal,tangential")
+    message = f"spoilt: tangential {spoilt[129, 1]:g} in cycle 1, row 130 below the header, .* despike = true"
+    with pytest.warns(UserWarning, match=message):
+        read_signal(tmp_path / "spoilt.csv", **given)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        expected = read_signal(tmp_path / "clean.csv", **given)
+        found = read_signal(tmp_path / "spoilt.csv", despike=True, **given)
+    # A phase of 2π/200 changes the load by 2 N, the noise by three times 0.5 N.
+    np.testing.assert_allclose(found.values, expected.values, atol=3.5)
+    assert np.count_nonzero(found.values != expected.values) == 1
+
+
+def test_sharp_tips_steps_and_pulses_of_every_cycle_are_no_spikes(tmp_path: Path) -> None:
+    turn = np.arange(64) / 64
+    triangle = 60.0 * np.abs(4.0 * turn - 2.0) - 60.0
+    coarse = 60.0 * np.sin(2.0 * np.pi * np.arange(16) / 16)
+    step = np.where(turn < 0.5, 60.0, -60.0)
+    pulses = np.tile(np.where(np.arange(16) == 15, 60.0, -60.0), 4)
+    for name, load, cycles in (
+        ("triangle", triangle, 1),
+        ("coarse", coarse, 1),
+        ("step", step, 1),
+        ("pulses", pulses, 4),
+    ):
+        write(tmp_path / f"{name}.csv", np.stack([500.0 + 0.0 * load, load], axis=1), "normal,tangential")
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            read_signal(tmp_path / f"{name}.csv", recorded_cycles=cycles, absolute=True)
 
 
 def test_steep_cycles_that_come_a_little_late_have_no_spikes(tmp_path: Path) -> None:
@@ -382,8 +421,11 @@ def test_steep_cycles_that_come_a_little_late_have_no_spikes(tmp_path: Path) -> 
 def test_a_record_of_many_cycles_read_as_one_is_told(tmp_path: Path) -> None:
     with_a_spike(tmp_path)
     for name in ("clean", "spike"):
-        with pytest.warns(UserWarning, match=f"{name}: the record repeats 25 times: recorded_cycles = 25[?]"):
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
             read_signal(tmp_path / f"{name}.csv")
+        assert f"{name}: the record repeats 25 times: recorded_cycles = 25?" in [str(w.message) for w in told]
+        assert any("a spike?" in str(w.message) for w in told) == (name == "spike")
     # The period of the normal load and of the tangential one: together they do not repeat.
     phase = 2.0 * np.pi * np.arange(500) / 500
     both = np.stack([20.0 * np.sin(5.0 * phase), 60.0 * np.sin(7.0 * phase)], axis=1)

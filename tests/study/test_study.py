@@ -8,6 +8,7 @@ from fractions import Fraction
 import pytest
 
 from swtstudy import Study, StudyError
+from swtstudy.study.definition import one_of_study
 from swtstudy.study.figure import VARIABLES, FigureLayout
 from swtstudy.study.writing import to_toml
 
@@ -261,7 +262,7 @@ def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
         (FIGURE + "y = []", "figure.y", "empty list"),
         (FIGURE + "title = 'an $\\frca$'", "figure.title", "Unknown symbol: \\frca"),
         (FIGURE + "title = '$x^2^3$'", "figure.title", "Double superscript"),
-        (FIGURE + 'kind = "pie"', "figure.kind", '"contour"'),
+        (FIGURE + 'kind = "pie"', "figure.kind", "lines, life, contour"),
         (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
         (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
         (FIGURE + 'vertical = "friction"', "figure.vertical", "none for"),
@@ -387,11 +388,60 @@ def test_an_integer_that_python_does_not_read_is_one_message():
         Study.from_text(MINIMAL + "[fixed]\nfriction = " + 5000 * "9", "big.toml")
 
 
-def test_a_syntax_error_is_one_message():
+def test_a_syntax_error_shows_its_line():
     with pytest.raises(
-        StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML$"
-    ):
+        StudyError, match=r"^bad\.toml: found a syntax error: Invalid value .*; allowed: TOML\n"
+    ) as caught:
         Study.from_text("title = ", "bad.toml")
+    assert str(caught.value).splitlines()[1:] == ["   1 | title = ", "     |         ^"]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("friction = 0,5", "a decimal comma? Numbers have a decimal point: 0.5;"),
+        ("friction = 73,1e3  # GPa", "a decimal comma? Numbers have a decimal point: 73.1e3;"),
+        ("phase = 0\nphase = 1", "the key 'phase' twice (at line 4, column "),
+        ("[fixed]", "the table 'fixed' twice (at line 3, column 7)"),
+        ("friction = [0.5, ", "Invalid value (at end of document)"),
+    ],
+)
+def test_syntax_errors_name_the_key_and_the_decimal_point(line, words):
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(f'title = "t"\n[fixed]\n{line}\n')
+    first, shown, mark = str(caught.value).splitlines()
+    assert words in first
+    assert line.splitlines()[-1].rstrip() in shown
+    assert mark.strip(" |") == "^"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("r.nc", b"CDF\x01\xff", "found an archive; .* for swtstudy report, plot and info"),
+        ("m.csv", b"normal,tangential\n0,1\n", r"found a table of values \(CSV\); .* file = "),
+        ("m.xlsx", b"PK\x03\x04\xff", "found an Excel workbook; allowed: a study .TOML. that names it"),
+    ],
+)
+def test_other_files_are_told_with_what_takes_them(tmp_path, name, content, words):
+    (tmp_path / name).write_bytes(content)
+    for read in (Study.from_toml, lambda path: one_of_study(str(path), {})):
+        with pytest.raises(StudyError, match=words) as caught:
+            read(tmp_path / name)
+        assert len(caught.value.mistakes) == 1
+        assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_is_searched_beside_it(tmp_path):
+    (tmp_path / "messung.csv").write_text("normal,tangential\n0,1\n0,-1\n")
+    (tmp_path / "mine.toml").write_text('title = "t"\nfixed.load = "a"\n[loads.a]\nfile = "mesung.csv"\n')
+    where = re.escape(f"no such file in the folder {tmp_path.resolve()}: did you mean ")
+    with pytest.raises(StudyError, match=rf"loads\.a\.file: found {where}'messung\.csv'\?"):
+        Study.from_toml(tmp_path / "mine.toml")
+    with pytest.raises(StudyError, match=rf"mime\.toml: found {where}'mine\.toml'\?; allowed: a study file"):
+        Study.from_toml(tmp_path / "mime.toml")
+    with pytest.raises(StudyError, match=rf"found no folder {re.escape(str(tmp_path.resolve()))}.none"):
+        Study.from_toml(tmp_path / "none" / "mine.toml")
 
 
 @pytest.mark.parametrize(

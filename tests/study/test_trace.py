@@ -12,7 +12,7 @@ from folders import DATA
 
 import swtstudy
 from swtstudy import StudyError, read_trace
-from swtstudy.study.trace import folded
+from swtstudy.study.trace import Fold
 
 #: A sphere of R = 50, and a flat face of half-width 0.5 with rounded edges.
 SHAPES = {"sphere": lambda x: x**2 / 100.0, "flat": lambda x: np.maximum(np.abs(x) - 0.5, 0.0) ** 2 / 20.0}
@@ -23,6 +23,11 @@ def trace(shape: str, noise: float, tilt: float, seed: int = 1) -> tuple[np.ndar
     x = np.linspace(-2.0, 2.3, 861)
     error = noise * np.random.default_rng(seed).normal(size=x.size)
     return x, 3.0 + tilt * (x - 0.13) + SHAPES[shape](x - 0.13) + error
+
+
+def folded(position: np.ndarray, height: np.ndarray, level: bool) -> tuple[np.ndarray, np.ndarray, float]:
+    fold = Fold.of(position, height, level)
+    return fold.radius, fold.height, fold.noise
 
 
 @pytest.mark.parametrize("shape", SHAPES)
@@ -129,7 +134,7 @@ tangential_force_amplitude = 300
     for wrong, words in (
         (
             ("position", "psition"),
-            "profiles.ball: found 'psition' .columns.psition.; allowed: did you mean pos",
+            "profiles.ball.columns.psition: found 'psition'; allowed: did you mean pos",
         ),
         (('separator = ";"', 'separator = "ab"'), "profiles.ball.separator: found 'ab'; allowed: one of"),
         (("two_sided = true", "two_sided = 1"), "profiles.ball.two_sided: found 1; allowed: true or false"),

@@ -199,7 +199,7 @@ def test_materials_come_by_name_from_a_file(tmp_path):
     for table, words in (
         ('file = "materials.toml"\nname = "wek"', "material.name: found 'wek'; allowed: a material in"),
         ('file = "materials.toml"', "material.name: found nothing; allowed: a material in materials.toml"),
-        ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (No such file"),
+        ('file = "other.toml"\nname = "weak"', "material.file: found 'other.toml' (no such file"),
         ('name = "weak"', "material.file: found nothing; allowed: a TOML file with a table"),
         ('file = "materials.toml"\nname = "weak"\nstrength = 1', "material: found a name and strength;"),
     ):
@@ -225,6 +225,10 @@ def test_known_units_are_those_of_scipy():
         "in": constants.inch,
         "lbf": constants.lbf,
         "kip": 1e3 * constants.lbf,
+        "kgf": constants.kgf,
+        "ft": constants.foot,
+        "N/mm²": 1e6,
+        "N/mm2": 1e6,
         "psi": constants.psi,
         "ksi": 1e3 * constants.psi,
     }

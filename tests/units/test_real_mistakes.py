@@ -207,6 +207,28 @@ def test_a_unit_that_is_nearly_known_is_asked_about(label: str, meant: str) -> N
         Study.from_text(STUDY.replace('stress = "MPa"', f'stress = "{label}"'))
 
 
+@pytest.mark.parametrize(
+    ("kind", "label", "words"),
+    [
+        ("length", "cm2", "did you mean cm? known: m, cm, mm, µm, nm, in, ft"),
+        ("length", "milimeter", "did you mean mm? known: m, cm, mm, µm, nm, in, ft"),
+        ("length", "MPa", "the name of a unit, such as 'm': one of m, cm, mm, µm, nm, in, ft"),
+        ("force", "Newton", "did you mean N? known: N, kN, MN, mN, µN, lbf, kip, kgf"),
+        ("force", "mn", "did you mean MN or mN? known: N, kN"),
+        ("stress", "megapascals", "did you mean MPa? known: Pa, kPa, MPa, GPa, psi, ksi"),
+    ],
+)
+def test_a_unit_is_a_known_one_of_its_dimension(kind: str, label: str, words: str) -> None:
+    known = {"length": "mm", "force": "N", "stress": "MPa"}[kind]
+    with pytest.raises(StudyError) as error:
+        Study.from_text(STUDY.replace(f'{kind} = "{known}"', f'{kind} = "{label}"'), "mine.toml")
+    of_stress = ", a unit of stress" * (label == "MPa")
+    assert str(error.value).startswith(
+        f"mine.toml: units.{kind}: found '{label}'{of_stress}; allowed: {words}"
+    )
+    assert len(error.value.mistakes) == 1
+
+
 def test_constants_that_no_metal_has_are_warned_of() -> None:
     with pytest.warns(UserWarning, match=r"material.ductility 40.9, of metals 0.001 to 5"):
         Study.from_text(STUDY.replace("ductility = 0.409", "ductility = 40.9"))
@@ -219,3 +241,17 @@ def test_constants_that_no_metal_has_are_warned_of() -> None:
     findley = contact.with_parameters(criterion="findley", normal_sensitivity=0.3)
     with pytest.raises(StudyError, match="constants: found constants with the criterion findley alone"):
         findley.solve(1e-2, constants=ALUMINIUM)
+
+
+@pytest.mark.parametrize(
+    "life", ["cycles", "FS_cycles", "cycles_volume", "repetitions", "FS_damage_share_line"]
+)
+def test_a_life_in_a_figure_asks_for_fatigue_constants(life: str) -> None:
+    text = f'title = "t"\n[axes]\nphase = [0, 1]\n[figure]\nx = "phase"\ny = "{life}"\n'
+    words = rf"figure.y: found '{life}', a life, without fatigue constants; allowed: \[material\] with them"
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(text)
+    # With constants, but without the criterion of this life or its blocks, nothing of the kind is lacking.
+    if life not in ("cycles", "cycles_volume"):
+        with pytest.raises(StudyError, match=rf"figure.y: found '{life}' \(not a quantity\)"):
+            Study.from_text(STUDY.replace('y = ["SWT", "cycles"', f'y = ["{life}", "cycles"'))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -30,7 +30,6 @@ def audit_study(
     seed: int = 0,
     workers: int = 2,
     dense: bool = False,
-    progress: Callable[[int], object] | None = None,
 ) -> xr.Dataset:
     """Solve random points of a study without the surface line's assumptions.
 
@@ -49,8 +48,6 @@ def audit_study(
         Number of worker processes.
     dense
         Whether the surface line is looked at densely, too: 400 positions between any two cusps, on 64 planes.
-    progress
-        Called with the number of points that have been finished since its last call.
 
     Returns
     -------
@@ -68,20 +65,8 @@ def audit_study(
     from swtstudy.runner.workers import start_workers
 
     keys = drawn_rows(study.grid, points, seed).tolist()
-    known: dict[tuple[float, ...], np.void] = {}
-    definitions = study.grid.definitions
-    if Path(path).exists():
-        audit = open_audit(path)
-        there = defined_in(audit.attrs).values()
-        both = {each.code: each for named in there for each in named.values()} | {**definitions}
-        # Nothing of another version of the solver, nor if one name stands for two things.
-        names = {(each.parameter, each.name) for each in both.values()}
-        if audit.attrs.get("solver_version") == SOLVER_VERSION and len(names) == len(both):
-            known, definitions = audited_points(audit), both
-
-    def lacks(key: tuple[float, ...]) -> bool:
-        point = known.get(key)
-        return point is None or (dense and bool(np.isnan(point["s_dense"]) and np.isfinite(point["s"])))
+    known, definitions = _known(Path(path), study.grid.definitions)
+    missing = [key for key in keys if key not in known or (dense and _not_dense(known[key]))]
 
     def dataset(some: Iterable[tuple[float, ...]]) -> xr.Dataset:
         done = [key for key in some if key in known]
@@ -90,24 +75,40 @@ def audit_study(
         own = {"title": study.title, "study": study.text, "seed": seed, "solver_version": SOLVER_VERSION}
         return found.assign_attrs(own)
 
-    missing = [key for key in keys if lacks(key)]
     saved = time.monotonic()
     try:
         with start_workers(workers) as pool, Progress(len(keys), Path(path).stem) as shown:
-            told = (shown.add, *((progress,) if progress else ()))
-            for count in told:
-                count(len(keys) - len(missing))
+            shown.add(len(keys) - len(missing))
             one = partial(audit_point, definitions=definitions, dense=dense)
             for key, point in zip(missing, pool.map(one, missing), strict=True):
                 known[key] = point
-                for count in told:
-                    count(1)
+                shown.add(1)
                 if time.monotonic() - saved > _SAVE_EVERY:
                     save(dataset(known), path)
                     saved = time.monotonic()
     finally:
         save(dataset(known), path)
     return dataset(keys)
+
+
+def _known(path: Path, own: Definitions) -> tuple[dict[tuple[float, ...], np.void], Definitions]:
+    """Audited points in a file, by canonical row, and definitions of the user in it and in the study.
+
+    There are none by another version of the solver, nor if one name stands for two things.
+    """
+    if path.exists():
+        audit = open_audit(path)
+        there = {each.code: each for named in defined_in(audit.attrs).values() for each in named.values()}
+        both = {**there, **own}
+        distinct = {(each.parameter, each.name) for each in both.values()}
+        if audit.attrs.get("solver_version") == SOLVER_VERSION and len(distinct) == len(both):
+            return audited_points(audit), both
+    return {}, own
+
+
+def _not_dense(point: np.void) -> bool:
+    """Return whether a point with a finite s lacks a dense grid."""
+    return bool(np.isnan(point["s_dense"]) and np.isfinite(point["s"]))
 
 
 def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = False) -> np.void:

@@ -106,19 +106,18 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
         summit, height = _climb_from(search, one, highest)
         if height > (1.0 + ROUNDING) * highest:
             place, highest = summit, height
-    (swt, normal), (at_own, own_normal) = (_swt(opened, each[None], VALUE) for each in (place, own))
-    at_line = BodyMaximum(float(at_own[0]), _cartesian(own), own_normal[0])
-    found = BodyMaximum(float(swt[0]), _cartesian(place), normal[0]) if at_own[0] < swt[0] else at_line
+    at_line, found = (_maximum_at(opened, _cartesian(each)) for each in (own, place))
+    found = found if at_line.swt < found.swt else at_line
     from_far = BodyMaximum(far, np.array([np.inf, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]))
     if far > 0.0 and far >= (1.0 - FAR) * found.swt:
         found = from_far
     return found, from_far if line_is_far else at_line
 
 
-def _swt(opened: Opened, places: FloatArray, tolerance: float) -> tuple[FloatArray, FloatArray]:
-    """swt at places r, θ, z, (m,), and the normals of the critical planes, (m, 3)."""
-    swt, _, normal = criterion_at(opened, _cartesian(places), tolerance)
-    return swt, normal
+def _maximum_at(opened: Opened, place: FloatArray) -> BodyMaximum:
+    """swt over all planes at one place, and its critical plane."""
+    swt, _, normal = criterion_at(opened, place[None], VALUE)
+    return BodyMaximum(float(swt[0]), place, normal[0])
 
 
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:

@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.points.canonical import COLUMNS, COST, ROW, Definitions, Table, code_of, value_of
-from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES
-from swtstudy.vocabulary.parameters import PARAMETERS
 
 _LENGTH = "in units of a_H = sqrt(R delta0)"
 #: Numbers that the audit of a point finds.
@@ -29,23 +27,30 @@ FOUND = {
     **{f"body_{axis}": f"position of the body's maximum, {_LENGTH}" for axis in "xyz"},
     **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
 }
-#: Variables that follow from them.
-_DERIVED = {
-    "excess": "s_body/s - 1",
-    "remainder": "s_body/s_surface - 1",
-    "shortfall": "how far s and its error are below s_dense, relative",
-}
+#: An audited point, in an array: its numbers, and its regime's flag value.
+AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Which of the surface line's assumptions the body's maximum breaks, in the order of the flag values; the
 #: last one is for points without a finite s, or with their maximum where the pressure is unbounded.
 VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
-_FLAGS = {
-    "regime": ("regime of the contact over the stationary cycle", REGIMES),
-    "verdict": ("the first assumption of the surface line that the body's maximum breaks", VERDICTS),
+#: Attributes of the variables: what is found, and what follows from it.
+_ATTRIBUTES: dict[str, dict[str, Any]] = {
+    name: {"long_name": meaning, "units": "1"}
+    for name, meaning in {
+        **FOUND,
+        "excess": "s_body/s - 1",
+        "remainder": "s_body/s_surface - 1",
+        "shortfall": "how far s and its error are below s_dense, relative",
+    }.items()
 }
-#: An audited point, in an array: its numbers, and its regime's flag value.
-AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
-#: Parameters whose values are names: their columns hold codes.
-_WITH_NAMES = {name for name, row in PARAMETERS.items() if row.kind == "name"}
+for _name, _meaning, _flags in (
+    ("regime", "regime of the contact over the stationary cycle", REGIMES),
+    ("verdict", "the first assumption of the surface line that the body's maximum breaks", VERDICTS),
+):
+    _values = {"flag_values": np.arange(len(_flags), dtype=np.int8), "flag_meanings": " ".join(_flags)}
+    _ATTRIBUTES[_name] = {"long_name": _meaning, **_values}
+#: Columns of the rows that an audit holds, the cost of a loop being known with the loop; and those of names.
+_COLUMNS = [name for name in COLUMNS if name != COST]
+_NAMES = ("profile", "criterion", "load")
 
 #: Relative excess of the body's maximum that counts; s itself is computed to a tenth of this.
 TOLERANCE = 1e-3
@@ -70,41 +75,33 @@ def audit_dataset(rows: Table, points: NDArray[np.void], definitions: Definition
     xarray.Dataset
         One dimension, ``sample``; the parameters are coordinates along it.
     """
-    # The cost of loops is known with them.
-    coordinates: dict[str, Any] = {name: ("sample", rows[name]) for name in COLUMNS if name != COST}
-    for name in _WITH_NAMES & {*COLUMNS}:
+    columns: dict[str, NDArray[Any]] = {name: rows[name] for name in _COLUMNS}
+    for name in _NAMES:
         names = [str(value_of(code, definitions, name)) for code in rows[name]]
-        coordinates[name] = ("sample", np.array(names, dtype=object))
-    s, dense, body = (points[name] for name in ("s", "s_dense", "s_body"))
-    excess, remainder = _above(body, s), _above(body, points["s_surface"])
+        columns[name] = np.array(names, dtype=object)
+    values = {name: points[name] for name in AUDITED.names or ()}
+    s, dense, body = values["s"], values["s_dense"], values["s_body"]
     with np.errstate(invalid="ignore", divide="ignore"):
-        short = np.where(dense > 0.0, np.maximum(dense - s - points["s_error"], 0.0) / dense, 0.0)
+        # All or nothing above 0.
+        excess, remainder = (
+            np.where(known != 0.0, body / known - 1.0, body > 0.0) for known in (s, values["s_surface"])
+        )
+        short = np.where(dense > 0.0, np.maximum(dense - s - values["s_error"], 0.0) / dense, 0.0)
     breaks = {
-        "not_finite": ~np.isfinite(points["s_surface"]),
+        "not_finite": ~np.isfinite(values["s_surface"]),
         "none": excess <= TOLERANCE,
-        "surface": points["body_z"] > _ZERO,
-        "symmetry_line": np.abs(points["body_y"]) > _ZERO,
-        "plane_through_y": np.abs(points["normal_y"]) > _ZERO,
+        "surface": values["body_z"] > _ZERO,
+        "symmetry_line": np.abs(values["body_y"]) > _ZERO,
+        "plane_through_y": np.abs(values["normal_y"]) > _ZERO,
     }
     verdict = np.select([*breaks.values()], [*map(VERDICTS.index, breaks)], VERDICTS.index("line_search"))
-    values = {name: points[name] for name in AUDITED.names or ()}
     values |= {"excess": excess, "remainder": remainder, "verdict": verdict.astype(np.int8)}
     values["shortfall"] = np.where(np.isfinite(dense), short, np.nan)
-    variables: dict[str, Any] = {
-        name: ("sample", values[name], {"long_name": meaning, "units": "1"})
-        for name, meaning in (FOUND | _DERIVED).items()
-    }
-    for name, (meaning, words) in _FLAGS.items():
-        flags = {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
-        variables[name] = ("sample", values[name], {"long_name": meaning, **flags})
-    own = {"definitions": definitions_text(definitions.values())} if definitions else {}
-    return xr.Dataset(variables, coordinates, own)
-
-
-def _above(value: FloatArray, s: FloatArray) -> FloatArray:
-    """Relative excess of values over s; all or nothing where s is 0."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        return np.where(s != 0.0, value / s - 1.0, value > 0.0)
+    return xr.Dataset(
+        {name: ("sample", values[name], attributes) for name, attributes in _ATTRIBUTES.items()},
+        {name: ("sample", column) for name, column in columns.items()},
+        {"definitions": definitions_text(definitions.values())} if definitions else {},
+    )
 
 
 def open_audit(path: str | PathLike[str]) -> xr.Dataset:
@@ -118,23 +115,19 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     from swtstudy.archive.netcdf import load_file
 
     dataset = load_file(Path(path))
-    if not {*COLUMNS, *FOUND, *_DERIVED, *_FLAGS} - {COST} <= {*dataset.variables}:
+    if not {*_COLUMNS, *_ATTRIBUTES} <= {*dataset.variables}:
         raise ValueError(f"{path}: a netCDF file, but not an audit of swtstudy")
     return dataset
 
 
 def canonical_rows(dataset: xr.Dataset) -> Table:
     """The canonical rows of an audit's points, shape (n,)."""
-    known = defined_in(dataset.attrs)
-    rows = np.zeros(dataset.sizes["sample"], ROW)
-    for name in COLUMNS:
-        own = known.get("load" if name == COST else name, {})
-        if name == COST:
-            rows[name] = [own[value].cost if value in own else 0 for value in dataset["load"].values]
-        elif name in _WITH_NAMES:
-            rows[name] = [code_of(own.get(value, value), name) for value in dataset[name].values]
-        else:
-            rows[name] = dataset[name].values
+    known, rows = defined_in(dataset.attrs), np.zeros(dataset.sizes["sample"], ROW)
+    for name in _COLUMNS:
+        own, values = known.get(name, {}), dataset[name].values
+        rows[name] = [code_of(own.get(each, each), name) for each in values] if name in _NAMES else values
+    loads = known.get("load", {})
+    rows[COST] = [loads[each].cost if each in loads else 0 for each in dataset["load"].values]
     return rows
 
 

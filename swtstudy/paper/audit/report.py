@@ -1,17 +1,17 @@
-"""The report of an audit."""
+"""The report of an audit; its template is ``audit.md``."""
 
 from __future__ import annotations
 
 import itertools
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from swtstudy.archive.attributes import defined_in
 from swtstudy.paper.audit.dataset import TOLERANCE, VERDICTS, canonical_rows
 from swtstudy.paper.rendered import rendered
 from swtstudy.points.canonical import describe_point
-from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.choices import REGIMES, SHARP
 
 _WORDS = {
@@ -36,87 +36,58 @@ def report(dataset: xr.Dataset) -> str:
     dataset
         From `swtstudy.audit_study`.
     """
-    excess, remainder, verdict, ν, s = (
-        dataset[name].values for name in ("excess", "remainder", "verdict", "poisson_ratio", "s")
-    )
-    verdicts = []
-    for code, name in enumerate(VERDICTS):
-        here = verdict == code
-        known = name not in ("none", "not_finite") and here.any()
-        ends = (_percent(excess[here].max(), 1), f"{ν[here].min():.2f}") if known else ("", "")
-        verdicts.append((_WORDS[name], here.sum(), *ends))
-    ranges = itertools.pairwise(_POISSON_ENDS)
-    groups = {"ν": {f"{low:g}–{high:g}": ((ν > low) | (low == 0.0)) & (ν <= high) for low, high in ranges}}
-    regime = np.array(REGIMES)[dataset["regime"].values]
-    for title, values in (("profile", dataset["profile"].values), ("regime", regime)):
-        groups[title] = {str(each).replace("_", " "): values == each for each in np.unique(values)}
-    finite = np.isfinite(excess)
-    above, beyond = finite & (excess > TOLERANCE), finite & (remainder > TOLERANCE)
-    enough: tuple[object, ...] = ()
-    if any(dataset[name].values.any() for name in ("bulk_stress_mean", "bulk_stress_amplitude")):
-        groups["bulk stress"] = _of_bulk_stress(dataset)
-        name, inside = next(iter(groups["bulk stress"].items()))
-        enough = name, (finite & inside & ~(excess > TOLERANCE)).sum(), (finite & inside).sum()
-    shares = {
-        title: [
-            (
-                name,
-                here.sum(),
-                (here & above).sum(),
-                *(_percent(max(v[here].max(), 0.0), 2) for v in (excess, remainder)),
-            )
-            for name, here in ((name, finite & group) for name, group in own.items())
-            if here.any()
-        ]
-        for title, own in groups.items()
-    }
-    flagged = finite & (dataset["s_surface"].values > (1.0 + TOLERANCE) * s)
+    points, groups = dataset.to_dataframe(), ["ν", "profile", "regime"]
+    ranges = [f"{low:g}–{high:g}" for low, high in itertools.pairwise(_POISSON_ENDS)]
+    points["ν"] = pd.cut(points["poisson_ratio"], _POISSON_ENDS, labels=ranges, include_lowest=True)
+    points["regime"] = np.array(REGIMES)[points["regime"]]
+    if points[["bulk_stress_mean", "bulk_stress_amplitude"]].any(axis=None):
+        groups.append("bulk stress")
+        points["bulk stress"] = _of_bulk_stress(points)
+    points["above"], points["beyond"] = points["excess"] > TOLERANCE, points["remainder"] > TOLERANCE
+    finite = points[np.isfinite(points["excess"])]
+    # Nothing, by either route, has no relative difference.
+    some = finite[finite["s"] > 0.0]
+    beyond = finite[finite["beyond"]].sort_values("remainder", ascending=False)
     rows, known = canonical_rows(dataset), defined_in(dataset.attrs)
     definitions = {each.code: each for own in known.values() for each in own.values()}
-    places = np.flatnonzero(beyond)[np.argsort(-remainder[beyond])][:_LISTED]
-    some = finite & (s > 0.0)  # nothing, by either route, has no relative difference
-    away = np.abs(dataset["s_all_planes"].values[some] / s[some] - 1.0)
-    short = dataset["shortfall"].values
     return rendered(
         "audit/audit.md",
         title=dataset.attrs["title"],
-        points=len(excess),
         tolerance=f"{TOLERANCE:.1%}",
-        verdicts=verdicts,
-        shares=shares,
-        enough=enough,
-        flagged=[each.sum() for each in (flagged, flagged & above, flagged & ~above)],
-        exceeded=above.sum(),
-        beyond=beyond.sum(),
-        most=f"{remainder[beyond].max(initial=0.0):.2%}",
-        listed=[
-            f"{remainder[i]:.2%} ({VERDICTS[verdict[i]]}): {describe_point(rows[i], definitions)}"
-            for i in places
+        points=points,
+        finite=finite,
+        flagged=finite[finite["s_surface"] > (1.0 + TOLERANCE) * finite["s"]],
+        beyond=beyond,
+        groups={title: finite.groupby(title, observed=True) for title in groups},
+        verdicts=[
+            (name, words, points[points["verdict"] == VERDICTS.index(name)]) for name, words in _WORDS.items()
         ],
-        away=[f"{each:.0e}" for each in (np.median(away), np.quantile(away, 0.99), away.max())]
-        if some.any()
-        else [],
-        dense=(np.isfinite(short).sum(), (short > 0.0).sum(), f"{np.nanmax(short):.1e}")
-        if np.isfinite(short).any()
-        else (),
+        listed=[
+            f"{share:.2%} ({VERDICTS[verdict]}): {describe_point(rows[number], definitions)}"
+            for number, share, verdict in beyond[["remainder", "verdict"]][:_LISTED].itertuples()
+        ],
+        away=(some["s_all_planes"] / some["s"] - 1.0).abs(),
+        short=points["shortfall"].dropna(),
+        percent=_percent,
     )
 
 
-def _of_bulk_stress(dataset: xr.Dataset) -> dict[str, BoolArray]:
-    """Points by what makes the surface line doubtful with a bulk stress; the first group has none of it."""
+def _of_bulk_stress(points: pd.DataFrame) -> pd.Categorical:
+    """What makes the surface line doubtful with a bulk stress, of each point; nothing in the first group."""
     from swtstudy.kernel.circle import SAFE_POISSON_RATIO  # with the compiler, which takes half a second
 
-    edge = (dataset["profile"].values == SHARP) & (dataset["regime"].values == REGIMES.index("gross_slip"))
-    hard = dataset["poisson_ratio"].values > SAFE_POISSON_RATIO
-    presses = dataset["bulk_stress_mean"].values < 0.0
+    presses, hard = points["bulk_stress_mean"] < 0.0, points["poisson_ratio"] > SAFE_POISSON_RATIO
+    edge = (points["profile"] == SHARP) & (points["regime"] == "gross_slip")
     limit = f"{SAFE_POISSON_RATIO:g}"
-    return {
-        f"mean ≥ 0, ν ≤ {limit}, no truncated paraboloid that slides": ~presses & ~hard & ~edge,
-        f"mean ≥ 0, ν ≤ {limit}, a truncated paraboloid that slides": ~presses & ~hard & edge,
-        f"mean ≥ 0, ν > {limit}": ~presses & hard,
-        f"mean < 0, ν ≤ {limit}": presses & ~hard,
-        f"mean < 0, ν > {limit}": presses & hard,
-    }
+    groups = [
+        f"mean ≥ 0, ν ≤ {limit}, no truncated paraboloid that slides",
+        f"mean ≥ 0, ν ≤ {limit}, a truncated paraboloid that slides",
+        f"mean ≥ 0, ν > {limit}",
+        f"mean < 0, ν ≤ {limit}",
+        f"mean < 0, ν > {limit}",
+    ]
+    number = np.where(presses, 3 + hard, np.where(hard, 2, 1 * edge))
+    return pd.Categorical.from_codes(number, groups)
 
 
 def _percent(share: float, digits: int) -> str:

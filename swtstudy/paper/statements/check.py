@@ -7,30 +7,22 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
+from typing import NamedTuple
 
 import xarray as xr
 
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.rendered import rendered
-from swtstudy.paper.statements import critical_point, face, formalisms, parameters, phase, waviness
-from swtstudy.paper.statements.statement import Finding, NotInArchiveError, Statement
+from swtstudy.paper.statements.measures import NotInArchiveError
+from swtstudy.paper.statements.statement import STATEMENTS, Finding, Statement
 
-#: All statements, in the order of the paper.
-STATEMENTS = tuple(
-    each
-    for file in (formalisms, critical_point, parameters, phase, face, waviness)
-    for each in vars(file).values()
-    if isinstance(each, Statement)
-)
 #: Names of the archives and audits that the statements are about.
-STUDIES = tuple(dict.fromkeys(name for statement in STATEMENTS for name in statement.studies))
+STUDIES = tuple(dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies))
 
 
-@dataclass(frozen=True)
-class Outcome:
+class Outcome(NamedTuple):
     """A statement with its finding, or with the reason why there is none."""
 
     statement: Statement
@@ -43,11 +35,6 @@ class Outcome:
         if self.finding is None:
             return "not checked"
         return "holds" if self.finding.holds else "does not hold"
-
-    @property
-    def measured(self) -> str:
-        """The numbers, or the reason why there are none, in one line."""
-        return self.finding.measured if self.finding else self.problem.replace("\n", "; ")
 
 
 def check(results: str | PathLike[str] = "results") -> list[Outcome]:
@@ -85,7 +72,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
         if gaps:
             lost = f"{gaps} of {archives[name].s.size} points"
             problems[name] = f"{path} has no value at {lost}; made by: {command} --retry-failed"
-    return [_outcome(statement, archives, problems) for statement in STATEMENTS]
+    return [_outcome(statement, archives, problems) for statement in STATEMENTS.values()]
 
 
 def about_archive(name: str, dataset: xr.Dataset) -> list[Outcome]:
@@ -98,7 +85,7 @@ def about_archive(name: str, dataset: xr.Dataset) -> list[Outcome]:
     dataset
         Its results.
     """
-    return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS if each.studies == (name,)]
+    return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS.values() if each.studies == [name]]
 
 
 def _outcome(
@@ -121,9 +108,4 @@ def summary(outcomes: Sequence[Outcome]) -> str:
 
 def markdown(outcomes: Sequence[Outcome]) -> str:
     """The table as a Markdown file."""
-    rows = []
-    for each in outcomes:
-        texts = (each.statement.place, each.statement.sentence, each.statement.criterion, each.measured)
-        verdict = each.verdict if each.verdict == "holds" else f"**{each.verdict}**"
-        rows.append([*(text.replace("|", "\\|").replace("*", "\\*") for text in texts), verdict])
-    return rendered("statements/statements.md", summary=summary(outcomes), rows=rows)
+    return rendered("statements/statements.md", summary=summary(outcomes), outcomes=outcomes)

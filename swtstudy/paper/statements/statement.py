@@ -1,35 +1,21 @@
-"""A statement of the paper, the finding from the archives, and what findings are made of.
-
-Values of an archive are taken at given places; measures say how curves vary, of any labelled array.
-"""
+"""Statements of the paper: the rows of ``statements.toml``, each tested by a function of a file beside it."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from dataclasses import dataclass
-from inspect import signature
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Any, NamedTuple
 
-import numpy as np
 import xarray as xr
 
-from swtstudy.results.evaluate import slice_at
-from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import StudyError
-from swtstudy.vocabulary.wording import value_words
+#: A test's result: whether the statement holds, and the values for the words of the finding, by name.
+Measured = tuple[Any, dict[str, Any]]
 
 
-@dataclass(frozen=True)
-class Finding:
-    """A measurement, and whether the statement holds by it.
-
-    Attributes
-    ----------
-    measured
-        The numbers, in words.
-    holds
-        Whether they meet the criterion of the statement.
-    """
+class Finding(NamedTuple):
+    """A measurement in words, and whether the statement holds by it."""
 
     measured: str
     holds: bool
@@ -37,193 +23,31 @@ class Finding:
 
 @dataclass(frozen=True)
 class Statement:
-    """A statement that can be tested, by calling it with the archives of its studies; see `statement`.
-
-    Attributes
-    ----------
-    place
-        Where it is in the paper.
-    sentence
-        The paper's statement, in other words.
-    criterion
-        When it counts as holding. The paper uses words where a test needs a bound, so the bounds are ours.
-    studies
-        Names of the studies whose archives it is tested on.
-    test
-        The function that tests it.
-    """
+    """A statement of the paper and how it is tested; ``statements.toml`` explains the attributes."""
 
     place: str
     sentence: str
-    criterion: str
-    studies: tuple[str, ...]
-    test: Callable[..., Finding]
+    holds_if: str
+    measured: str
+    test: str
+    studies: list[str] = field(default_factory=list)
+    bounds: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def criterion(self) -> str:
+        """The criterion with its bounds."""
+        return self.holds_if.format(**self.bounds)
 
     def __call__(self, *archives: xr.Dataset) -> Finding:
-        """Test it on the archives of its studies, in their order."""
-        return self.test(*archives)
+        """Test the statement on the archives of its studies, in their order."""
+        holds, values = resolve_name(f"{__package__}.{self.test}")(*archives, **self.bounds)
+        return Finding(self.measured.format(**self.bounds, **values), bool(holds))
 
 
-def statement(place: str, studies: tuple[str, ...] = ()) -> Callable[[Callable[..., Finding]], Statement]:
-    """Make a statement of the function that tests it.
-
-    The docstring of the function is the sentence and, behind "Holds if:", the criterion.
-
-    Parameters
-    ----------
-    place
-        Where it is in the paper.
-    studies
-        Names of the studies whose archives the function takes; the names of its arguments unless given.
-    """
-
-    def made(test: Callable[..., Finding]) -> Statement:
-        sentence, _, criterion = " ".join((test.__doc__ or "").split()).partition(" Holds if: ")
-        return Statement(place, sentence, criterion, studies or tuple(signature(test).parameters), test)
-
-    return made
-
-
-class NotInArchiveError(LookupError):
-    """An archive that lacks values that a statement needs."""
-
-
-def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
-    """The part of a Dataset at given values of its parameters, those dimensions dropped.
-
-    Raises
-    ------
-    NotInArchiveError
-        If the archive lacks a dimension or a value.
-    """
-    try:
-        return slice_at(dataset, places).drop_vars(places)
-    except StudyError as error:
-        mistake = error.mistakes[0]
-        place = f" = {value_words(mistake.key, places[mistake.key])}" if mistake.key in dataset.coords else ""
-        raise NotInArchiveError(f"no {mistake.key}{place}") from None
-
-
-def with_dims(dataset: xr.Dataset, *names: str) -> xr.Dataset:
-    """The Dataset itself, if it has all the named dimensions.
-
-    Raises
-    ------
-    NotInArchiveError
-        If one is missing.
-    """
-    for name in names:
-        if name not in dataset.dims:
-            raise NotInArchiveError(f"no axis {name}")
-    return dataset
-
-
-def even(dataset: xr.Dataset, name: str) -> xr.Dataset:
-    """The Dataset without values that were put in among equal steps, or equal ratios, of an axis.
-
-    Raises
-    ------
-    NotInArchiveError
-        If it lacks the axis.
-    """
-    places = np.sort(with_dims(dataset, name)[name].values)
-    if len(places) < 3:
-        return dataset
-    for scale in (np.asarray, np.log) if places[0] > 0.0 else (np.asarray,):
-        x = scale(places)
-        steps = round((x[-1] - x[0]) / np.diff(x).max())
-        share = (x - x[0]) / (x[-1] - x[0]) * steps
-        kept = np.abs(share - np.round(share)) < 1e-6
-        if kept.sum() == steps + 1:
-            return dataset.sel({name: places[kept]})
-    return dataset
-
-
-def listed(values: xr.DataArray, form: str = ".2f") -> str:
-    """The values of a one-dimensional array with their places: "1/2: 2.74, 1: 1.50"."""
-    (dim,) = map(str, values.dims)
-    places = values[dim].values.tolist()
-    return ", ".join(
-        f"{value_words(dim, place)}: {value:{form}}"
-        for place, value in zip(places, values.values.tolist(), strict=True)
-    )
-
-
-#: Harmonics below this fraction of the largest one are traces of kinks between grid points.
-_SMALLEST_HARMONIC = 0.02
-#: A curve whose harmonics are all below this fraction of its values is constant but for rounding.
-_ROUNDING = 1e-9
-
-
-def spread(dataset: xr.Dataset, dim: str, *others: str) -> xr.DataArray:
-    """Largest over smallest s along a dimension, over its other dimensions in this order, each ascending."""
-    s = with_dims(dataset, dim, *others).s.sortby([*others])
-    return (s.max(dim) / s.min(dim)).transpose(*others)
-
-
-def largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
-    """Largest relative rise (sense 1) or fall (-1) of s from one value of a dimension to the next one above.
-
-    Changes within the estimated errors of the two values do not count; 0 if there is no other one.
-    """
-    ordered = dataset.sortby(dim)
-    before, after = (ordered.isel({dim: part}).drop_vars(dim) for part in (slice(-1), slice(1, None)))
-    change = (sense * (after.s - before.s) - before.s_error - after.s_error) / before.s
-    return max(float(change.max()), 0.0)
-
-
-def coupling(values: xr.DataArray, dim: str) -> float:
-    """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
-
-    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
-    """
-    logarithm = np.log(values)
-    centred = logarithm - logarithm.mean()
-    others = [other for other in values.dims if other != dim]
-    interaction = centred - centred.mean(dim) - centred.mean(others)
-    return float((interaction**2).sum() / (centred**2).sum())
-
-
-def period(values: FloatArray) -> float:
-    """Smallest period of a 2π-periodic curve, from equally spaced samples; the last repeats the first.
-
-    Returns
-    -------
-    float
-        2π over the greatest common divisor of the curve's harmonics; inf for a constant.
-    """
-    harmonics = np.abs(np.fft.rfft(values[:-1]))[1:]
-    if not harmonics.max() > _ROUNDING * np.abs(values).max():
-        return math.inf
-    orders = 1 + np.flatnonzero(harmonics > _SMALLEST_HARMONIC * harmonics.max())
-    return 2 * math.pi / math.gcd(*orders.tolist())
-
-
-def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
-    """Indices where a curve turns by at least a given swing: alternately maxima and minima, without its ends.
-
-    Parameters
-    ----------
-    values
-        Shape (n,).
-    smallest_swing
-        Smaller ripples do not count.
-
-    Examples
-    --------
-    >>> turning_points(np.array([0.0, 3.0, 2.9, 3.1, 1.0, 4.0]), 0.5)
-    [3, 4]
-    """
-    found: list[int] = []
-    low = high = 0
-    sense = 0
-    for index, value in enumerate(values):
-        high = index if value > values[high] else high
-        low = index if value < values[low] else low
-        if sense >= 0 and values[high] - value >= smallest_swing:
-            found.append(high)
-            sense, low = -1, index
-        elif sense <= 0 and value - values[low] >= smallest_swing:
-            found.append(low)
-            sense, high = 1, index
-    return [index for index in found if 0 < index < len(values) - 1]
+#: All statements by name, in the order of the paper.
+STATEMENTS = {
+    name: Statement(**row)
+    for name, row in tomllib.loads(
+        Path(__file__).with_name("statements.toml").read_text(encoding="utf-8")
+    ).items()
+}

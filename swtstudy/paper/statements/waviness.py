@@ -4,33 +4,43 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.paper.statements.face import WEAK, coupling_with
-from swtstudy.paper.statements.statement import (
-    Finding,
-    at,
-    even,
-    listed,
-    spread,
-    statement,
-    turning_points,
-    with_dims,
-)
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.paper.statements.measures import at, even, listed, spread, turning_points, with_dims
+from swtstudy.paper.statements.statement import Measured
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.wording import value_words
 
 #: Ripples below this fraction of a curve's range do not count as oscillations.
 _RIPPLE = 0.1
-#: Share of the steps that must follow a trend for it to hold as a rule.
-AS_A_RULE = 0.8
 
 
-@dataclass(frozen=True)
-class Oscillation:
+def matters(figure7: xr.Dataset, at_least: float) -> Measured:
+    """Largest over smallest s of each curve."""
+    ratios = spread(figure7, "waviness_amplitude", "wavelength", "normal_amplitude")
+    rows = {row.wavelength.item(): "/".join(f"{value:.2f}" for value in row.values) for row in ratios}
+    words = (f"{value_words('wavelength', place)}: {row}" for place, row in rows.items())
+    amplitudes = "/".join(f"{value:g}" for value in ratios.normal_amplitude.values)
+    return (ratios >= at_least).all(), {"ratios": ", ".join(words), "amplitudes": amplitudes}
+
+
+def raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset, by: float) -> Measured:
+    """Extreme s over s of the paraboloid, at each amplitude."""
+    holds, words = True, []
+    for amplitude in figure7.normal_amplitude.values.tolist():
+        relative = (
+            at(figure7, normal_amplitude=amplitude).s / at(figure3, normal_amplitude=amplitude, phase=0).s
+        )
+        low, high = float(relative.min()) - 1, float(relative.max()) - 1
+        holds = holds and low <= -by and high >= by
+        words.append(f"δA/δ0 = {amplitude:g}: {low:+.0%} to {high:+.0%}")
+    return holds, {"changes": "; ".join(words)}
+
+
+class Oscillation(NamedTuple):
     """The oscillation of one curve.
 
     Attributes
@@ -44,157 +54,71 @@ class Oscillation:
     periods: FloatArray
     swings: FloatArray
 
-    @classmethod
-    def of(cls, x: FloatArray, s: FloatArray) -> Oscillation:
-        """The oscillation of s over ascending x."""
+
+def oscillations(dataset: xr.Dataset, *others: str) -> list[Oscillation]:
+    """The oscillation of every curve over h/δ0; the curves differ in other parameters."""
+    curves = with_dims(dataset, "waviness_amplitude", *others).sortby("waviness_amplitude").s
+    h, found = curves.waviness_amplitude.values, []
+    for s in curves.transpose(..., "waviness_amplitude").values.reshape(-1, len(h)):
         turns = turning_points(s, _RIPPLE * float(np.ptp(s)))
-        return cls(x[turns][2:] - x[turns][:-2], np.abs(np.diff(s[turns])))
+        found.append(Oscillation(h[turns][2:] - h[turns][:-2], np.abs(np.diff(s[turns]))))
+    return found
 
 
-def longer_periods(oscillations: Sequence[Oscillation]) -> tuple[int, int]:
-    """Number of steps over which the period grows, and of all steps."""
-    return _growing([np.diff(oscillation.periods) for oscillation in oscillations])
+def growing(found: Sequence[Oscillation]) -> tuple[BoolArray, BoolArray]:
+    """Whether each period exceeds the last one, and each rise, or fall, the last rise, or fall."""
+    periods = np.concatenate([np.diff(one.periods) for one in found])
+    swings = np.concatenate([one.swings[2:] - one.swings[:-2] for one in found])
+    return periods > 0, swings > 0
 
 
-def larger_swings(oscillations: Sequence[Oscillation]) -> tuple[int, int]:
-    """Number of steps over which a rise exceeds the last rise, or a fall the last fall, and of all steps."""
-    return _growing([oscillation.swings[2:] - oscillation.swings[:-2] for oscillation in oscillations])
+def as_a_rule(steps: Sequence[BoolArray], share: float) -> bool:
+    """Return whether so many of the steps follow each trend; False without any step."""
+    return all(len(each) and each.mean() >= share for each in steps)
 
 
-def _growing(changes: list[FloatArray]) -> tuple[int, int]:
-    together = np.concatenate(changes)
-    return int((together > 0).sum()), len(together)
-
-
-def as_a_rule(count: tuple[int, int]) -> bool:
-    """Return whether most of the steps follow a trend; False without any step."""
-    return count[1] > 0 and count[0] >= AS_A_RULE * count[1]
-
-
-@statement("Figure 7")
-def waviness_matters(figure7: xr.Dataset) -> Finding:
-    """Even a very small waviness matters, above all by its amplitude.
-
-    Holds if: max/min over h/δ0 at least 1.2 on every curve
-    """
-    ratios = spread(figure7, "waviness_amplitude", "wavelength", "normal_amplitude")
-    rows = []
-    for row in ratios:
-        values = "/".join(f"{value:.2f}" for value in row.values)
-        rows.append(f"{value_words('wavelength', float(row.wavelength))}: {values}")
-    amplitudes = "/".join(f"{value:g}" for value in ratios.normal_amplitude.values)
-    measured = f"max/min over h/δ0: λ/√(hR) = {', '.join(rows)} (δA/δ0 = {amplitudes})"
-    return Finding(measured, bool((ratios >= 1.2).all()))
-
-
-@statement("Abstract")
-def waviness_raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset) -> Finding:
-    """A small waviness can raise or lower s markedly.
-
-    Holds if: by 10% or more either way against the paraboloid, for both δA/δ0
-    """
-    changes = []
-    for amplitude in figure7.normal_amplitude.values.tolist():
-        smooth = float(at(figure3, normal_amplitude=amplitude, phase=0).s)
-        s = at(figure7, normal_amplitude=amplitude).s
-        changes.append((amplitude, float(s.min()) / smooth - 1, float(s.max()) / smooth - 1))
-    words = "; ".join(f"δA/δ0 = {a:g}: {low:+.0%} to {high:+.0%}" for a, low, high in changes)
-    holds = all(low <= -0.1 and high >= 0.1 for _, low, high in changes)
-    return Finding(f"against the paraboloid, {words}", holds)
-
-
-@statement("Figure 7")
-def oscillations_shrink(figure7: xr.Dataset) -> Finding:
-    """s oscillates at small waviness amplitudes, with periods and amplitudes that shrink as h → 0.
-
-    Holds if: from one oscillation to the next, period and rise (or fall) grow with h in 4 of 5 cases; ripples
-    below 10% of a curve's range do not count
-    """
-    found = oscillations(with_dims(figure7, "wavelength", "normal_amplitude"))
-    periods, swings = longer_periods(found), larger_swings(found)
-    longest = max(found, key=lambda oscillation: len(oscillation.swings))
-    measured = (
-        f"with h grow {periods[0]} of {periods[1]} periods and {swings[0]} of {swings[1]} swings on "
-        f"{len(found)} curves; the longest series: period {_ends(longest.periods)}, "
-        f"swing {_ends(longest.swings)}"
+def oscillations_shrink(figure7: xr.Dataset, share: float) -> Measured:
+    """Growth of periods and swings with h on all curves together."""
+    found = oscillations(figure7, "wavelength", "normal_amplitude")
+    steps, longest = growing(found), max(found, key=lambda one: len(one.swings))
+    periods, swings = (f"{each.sum()} of {len(each)}" for each in steps)
+    ends = (f"{each[0]:.2g} to {each[-1]:.2g}" if len(each) else "none" for each in longest)
+    words = {"periods": periods, "swings": swings, "curves": len(found)}
+    return as_a_rule(steps, share), words | dict(
+        zip(("longest_periods", "longest_swings"), ends, strict=True)
     )
-    return Finding(measured, as_a_rule(periods) and as_a_rule(swings))
 
 
-def oscillations(dataset: xr.Dataset) -> list[Oscillation]:
-    """The oscillation of every curve over h/δ0."""
-    ordered = with_dims(dataset, "waviness_amplitude").sortby("waviness_amplitude")
-    h = ordered.waviness_amplitude.values
-    s = ordered.s.transpose(..., "waviness_amplitude").values.reshape(-1, len(h))
-    return [Oscillation.of(h, curve) for curve in s]
-
-
-@statement("Figure 7")
-def effects_are_alike(figure7: xr.Dataset) -> Finding:
-    """The normal oscillation hardly changes how much the waviness matters.
-
-    Holds if: ln(max/min) over h/δ0, mean over the wavelengths, differs by at most 25% between the two δA/δ0
-    """
+def effects_are_alike(figure7: xr.Dataset, at_most: float) -> Measured:
+    """Logarithm of largest over smallest s, its mean over the wavelengths, at both amplitudes."""
     sizes = np.log(spread(figure7, "waviness_amplitude", "normal_amplitude", "wavelength").values)
-    change = float(sizes[-1].mean() / sizes[0].mean()) - 1
-    each = sizes[-1] / sizes[0] - 1
-    measured = (
-        f"mean of ln(max/min) over h: {sizes[0].mean():.2f} at the smaller, {sizes[-1].mean():.2f} at the "
-        f"larger δA/δ0 ({change:+.0%}; single wavelengths {each.min():+.0%} to {each.max():+.0%})"
-    )
-    return Finding(measured, abs(change) <= 0.25)
+    smaller, larger, each = sizes[0].mean(), sizes[-1].mean(), sizes[-1] / sizes[0] - 1
+    change = larger / smaller - 1
+    values = {"smaller": smaller, "larger": larger, "change": change, "least": each.min(), "most": each.max()}
+    return abs(change) <= at_most, values
 
 
-@statement("Figure 7")
-def curves_are_alike(figure7: xr.Dataset) -> Finding:
-    """Both amplitudes of the normal oscillation give quantitatively similar curves.
-
-    Holds if: at equal h the curves, each over its mean, differ by at most half of the effect of h (rms)
-    """
+def curves_are_alike(figure7: xr.Dataset, at_most: float) -> Measured:
+    """Distance of the curves at both amplitudes, each over its mean, over the effect of h."""
     s = even(with_dims(figure7, "normal_amplitude"), "waviness_amplitude").s.sortby("normal_amplitude")
     effect = s / s.mean("waviness_amplitude") - 1
     distance = effect.isel(normal_amplitude=-1) - effect.isel(normal_amplitude=0)
-    share = float(np.sqrt((distance**2).mean() / (effect**2).mean()))
-    return Finding(f"the distance is {share:.2f} of the effect of h (rms; 1.41: unrelated)", share <= 0.5)
+    share = np.sqrt((distance**2).mean() / (effect**2).mean())
+    return share <= at_most, {"share": share}
 
 
-def _ends(values: FloatArray) -> str:
-    return f"{values[0]:.2g} to {values[-1]:.2g}" if len(values) else "none"
-
-
-@statement("Figure 8")
-def half_differs_most(figure8: xr.Dataset) -> Finding:
-    """Wavy paraboloid: the phases 0 and π differ most at ω2/ω1 = 1/2.
-
-    Holds if: the mean over h of |ln s(π)/s(0)| is largest at 1/2
-    """
+def half_differs_most(figure8: xr.Dataset) -> Measured:
+    """Mean over h of |ln s(π)/s(0)|."""
     curves = even(with_dims(figure8, "phase", "frequency_ratio"), "waviness_amplitude")
     change = np.abs(np.log(at(curves, phase=math.pi).s / at(curves, phase=0).s)).mean("waviness_amplitude")
-    largest = float(change.idxmax("frequency_ratio"))
-    return Finding(f"mean over h of |ln s(π)/s(0)| at ω2/ω1 = {listed(change)}", largest == 0.5)
+    return change.idxmax("frequency_ratio") == 0.5, {"changes": listed(change)}
 
 
-@statement("Figure 8")
-def trends_are_similar(figure8: xr.Dataset) -> Finding:
-    """All curves show similar trends.
-
-    Holds if: every curve oscillates, with periods and swings that grow with h in 4 of 5 cases
-    """
-    found = oscillations(with_dims(figure8, "phase", "frequency_ratio"))
-    alike = sum(as_a_rule(longer_periods([one])) and as_a_rule(larger_swings([one])) for one in found)
+def trends_are_similar(figure8: xr.Dataset, share: float) -> Measured:
+    """Growth of periods and swings with h on each curve, and correlation of two curves."""
+    found = oscillations(figure8, "phase", "frequency_ratio")
+    alike = sum(as_a_rule(growing([one]), share) for one in found)
     curves = figure8.s.transpose(..., "waviness_amplitude").values.reshape(len(found), -1)
     correlation = np.corrcoef(curves)[np.triu_indices(len(curves), 1)]
-    measured = (
-        f"periods and swings grow with h on {alike} of {len(found)} curves; correlation of two curves: "
-        f"median {np.median(correlation):.2f}, from {correlation.min():.2f} to {correlation.max():.2f}"
-    )
-    return Finding(measured, alike == len(found))
-
-
-@statement("Figure 8")
-def loads_couple_weakly(figure8: xr.Dataset) -> Finding:
-    """Waviness and load are weakly coupled.
-
-    Holds if: at most 10% of the variance of ln s is left over by a product f(h)·g(ψ, ω2/ω1)
-    """
-    return coupling_with(even(figure8, "waviness_amplitude"), "waviness_amplitude", WEAK)
+    extent = {"median": np.median(correlation), "least": correlation.min(), "most": correlation.max()}
+    return alike == len(found), {"alike": alike, "curves": len(found), **extent}

@@ -1,0 +1,152 @@
+"""The table of data variables that results of real contacts have besides: with units, and lives.
+
+The door out (`swtstudy.units.results`), figures and messages read it; none repeats a name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from swtstudy.vocabulary.choices import CRITERIA, Criterion
+from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, error_of
+
+#: Per cent of the bodies that have a crack before the life of that name.
+PERCENTS = (10, 50, 90)
+#: Kinds of variables: a life, and what is made of one by blocks and by constants that scatter.
+LIFE, REPETITIONS, SHARE, FAILED = "cycles", "repetitions", "damage_share", "failure_probability"
+RANKS = (*map(str, PERCENTS), FAILED)
+
+
+class Derived(NamedTuple):
+    """One data variable.
+
+    Attributes
+    ----------
+    name, symbol, meaning
+        As of a `swtstudy.vocabulary.quantities.Quantity`; ``{radius}``, ``{mean}``, ``{shear}`` and
+        ``{target}`` in the meaning stand for words that depend on the contacts.
+    unit
+        "length", "force", "stress", "work", or "1".
+    scale
+        Name of its factor, or of its value, among the properties of a contact at rest.
+    of
+        The data variable that it is made of, without units or a life; empty for what a contact at rest has.
+    needs
+        The facts of contacts without which it is not there: one of them is needed.
+    criterion
+        Its criterion; empty for a variable of every criterion.
+    kind
+        `LIFE`, `REPETITIONS`, `SHARE`, or one of `RANKS`; else empty.
+    """
+
+    name: str
+    symbol: str
+    meaning: str
+    unit: str = "1"
+    scale: str = ""
+    of: str = ""
+    needs: tuple[str, ...] = ()
+    criterion: str = ""
+    kind: str = ""
+
+
+def _indexed(letter: str, *parts: str) -> str:
+    """A symbol with an index of some parts, of which some may be empty."""
+    index = ", ".join(filter(None, parts))
+    return rf"{letter}_\mathrm{{{index}}}" if index else letter
+
+
+def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
+    """The values of s and of its means, their errors, lives, and usages of a limit."""
+    for of, end in _ENDS.items():
+        place, words = end.removeprefix("_"), end.replace("_", " ")
+        symbol, meaning = row.sign + rf"_\mathrm{{{place}}}" * bool(place), row.values + words
+        name, scale = f"{row.name}{end}", (row.unit, row.scale)
+        yield Derived(name, symbol, meaning, *scale, of, criterion=criterion)
+        if row.limit:
+            over = rf"{symbol}/f_\mathrm{{lim}}", f"{meaning} over its limit"
+            yield Derived(f"{row.usage}{end}", *over, "1", "stress_scale", of, (row.limit,), criterion)
+        if row.life:
+            life = _indexed("N", row.subscript, place), f"rounds to a crack{words}{'{shear}' * bool(row.by)}"
+            yield Derived(f"{row.life}{end}", *life, "1", row.scale, of, row.constants, criterion, LIFE)
+        error = error_of(name), rf"\Delta {symbol}", f"error of {meaning}"
+        yield Derived(*error, *scale, error_of(of), criterion=criterion)
+
+
+def _of_life(row: Criterion, end: str) -> Iterator[Derived]:
+    """What a sequence of blocks makes of a life."""
+    life, start = f"{row.life}{end}", row.life.removesuffix(LIFE)
+    place, words = end.removeprefix("_"), end.replace("_", " ") + "{shear}" * bool(row.by)
+    for kind, symbol, meaning in (
+        (REPETITIONS, _indexed("N", "seq", row.subscript, place), f"repetitions to a crack{words}"),
+        (SHARE, "D_k/D", f"share of the damage{words}"),
+    ):
+        yield Derived(f"{start}{kind}{end}", symbol, meaning, of=life, needs=("blocks",), kind=kind)
+
+
+def _of_scatter(row: Criterion, end: str) -> Iterator[Derived]:
+    """What constants that scatter make of a life."""
+    life, place = f"{row.life}{end}", end.removeprefix("_")
+    for percent in map(str, PERCENTS):
+        meaning = f"rounds to a crack{end.replace('_', ' ')}, before which {percent} % fail"
+        symbol = _indexed("N", place, percent)
+        yield Derived(f"{life}_{percent}", symbol, meaning, of=life, needs=("scatter",), kind=percent)
+    symbol, meaning = _indexed("P", place), "probability of a crack before {target} load cycles"
+    yield Derived(f"{FAILED}{end}", symbol, meaning, of=life, needs=("target_life",), kind=FAILED)
+
+
+def _rows() -> Iterator[Derived]:
+    for criterion, row in CRITERIA.items():
+        yield from _of_criterion(criterion, row)
+    work, always = "work of friction in a cycle", "that always sticks"
+    length, stress = ("length", "length_scale"), ("stress", "stress_scale")
+    yield Derived("critical_position", "x", "position of the critical point", *length, "critical_x")
+    for place, quantity in NONLOCAL.items():
+        if quantity.is_place:
+            name = f"{place.removesuffix('_x')}_position"
+            yield Derived(name, "x", quantity.meaning, *length, place)
+    yield Derived("dissipation", "W", work, "work", "work_scale", "dissipation")
+    error = error_of("dissipation")
+    yield Derived(error, r"\Delta W", f"error of {work}", "work", "work_scale", error)
+    yield Derived("stick_radius", "c", f"{{radius}} {always}", *length, "stick_radius")
+    for end in STICK_ENDS:
+        side = end.removeprefix("stick_")
+        yield Derived(end, rf"x_\mathrm{{{side}}}", f"{side} end of what always sticks", *length, end)
+    largest = "largest_contact_radius", r"a_\mathrm{max}", "largest contact {radius}"
+    yield Derived(*largest, *length, "contact_radius")
+    yield Derived("bulk_shift", "e", "shift of the stick zone by the bulk strain", *length, "bulk_shift")
+    yield Derived(YIELD, r"\sigma_\mathrm{v}", "largest von Mises stress", *stress, YIELD)
+    over = r"\sigma_\mathrm{v}/\sigma_\mathrm{y}", "largest von Mises stress over the yield strength"
+    yield Derived("yield_ratio", *over, "1", "stress_scale", YIELD, ("yield_strengths",))
+    for name, symbol, meaning, unit in (
+        ("contact_radius", "a_0", "contact {radius} at the mean {mean}", "length"),
+        ("peak_pressure", "p_0", "largest pressure at the mean {mean}", "stress"),
+        ("depth", r"\delta_0", "mean indentation {mean}", "length"),
+        ("normal_force", "F_0", "normal force at the mean {mean}", "force"),
+    ):
+        yield Derived(name, symbol, meaning, unit, name)
+    alive = [row for row in CRITERIA.values() if row.life]
+    for row in alive:
+        for end in _ENDS.values():
+            yield from _of_life(row, end)
+    for end in _ENDS.values():
+        yield from _of_scatter(alive[0], end)
+
+
+#: Ends of names by what they are made of: s, and its means over a critical distance.
+_ENDS = {"s": ""} | {name: name.removeprefix("s") for name, row in NONLOCAL.items() if not row.is_place}
+#: By name.
+DERIVED: dict[str, Derived] = {row.name: row for row in _rows()}
+#: Names of all lives that there may be.
+LIVES = tuple(name for name, row in DERIVED.items() if row.kind == LIFE)
+#: Names without units, for variables that have units in a study with units.
+NORMALISED = {
+    name: f"normalised_{name}"
+    for name in (
+        *("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift"),
+        *STICK_ENDS,
+    )
+}
+#: Names of all that results with units may have besides.
+NAMES = (*DERIVED, *NORMALISED.values())
