@@ -35,7 +35,8 @@ _EITHER = [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]
 Quantities = Annotated[
     tuple[str, ...],
     'a text, or a list of texts, such as "s" or "s/s(flat_radius=0)"',
-    BeforeValidator(lambda y: (y,) if isinstance(y, str) else y),
+    # A tuple, too, of the list in an archive, which is read strictly.
+    BeforeValidator(lambda y: (y,) if isinstance(y, str) else tuple(y) if isinstance(y, list) else y),
     WithJsonSchema({"anyOf": _EITHER}),
     Field(
         description=f"One row of panels for each: {', '.join(VARIABLES)}, a quantity that the study asks "
