@@ -133,7 +133,7 @@ class PhysicalContact:
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
-            return self._plain(self.grid.at_rest.each(lambda contact: getattr(contact, name)))
+            return self._plain(self.grid.each(lambda contact: getattr(contact, name)))
         if name == "grid" or name not in self.grid.rows:
             raise AttributeError(f"a contact has no {name!r}")
         values = self.grid.values(name)
@@ -163,7 +163,7 @@ class PhysicalContact:
     @property
     def moduli(self) -> Moduli:
         """Elastic constants of the two bodies."""
-        return next(iter(self.grid.at_rest.contacts.flat)).moduli
+        return self.grid.distinct[0].moduli
 
     @property
     def shape(self) -> dict[str, Any]:
@@ -457,7 +457,7 @@ class PhysicalContact:
         several = [name for name in self.grid.dims if name != "body"]
         if several:
             raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
-        return self.grid.at_rest.contacts.item()
+        return self.grid.at_rest.item()
 
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
