@@ -44,7 +44,7 @@ from swtstudy.units.rows import (
     wrong_size,
 )
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.choices import CRITERIA, FINDLEY, SWT, family_of, is_plane, is_profile
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, is_profile, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import DERIVED, LIFE
 from swtstudy.vocabulary.mistakes import (
@@ -373,8 +373,8 @@ class PhysicalContact:
         grid = replace(grid, materials=materials, yield_strengths=strengths)
         with report:
             grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
-        if constants is not None and {*grid.values("criterion")} == {FINDLEY}:
-            report("constants", f"constants with the criterion {FINDLEY} alone", "none: it has no life")
+        if constants is not None and (alone := without_life(grid.values("criterion"))):
+            report("constants", f"constants with the criterion {alone} alone", "none: it has no life")
         if blocks and constants is None and not grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(grid, distances[0], report)

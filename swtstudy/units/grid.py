@@ -21,7 +21,7 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
 from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameter import Parameter
@@ -129,6 +129,14 @@ class ContactDetails:
     shear_materials: tuple[ShearConstants, ...] = ()
     findley_limits: tuple[float, ...] = ()
     scatter: Scatter | None = None
+
+    def constants(
+        self, criterion: str, poisson_ratios: Sequence[float]
+    ) -> tuple[FatigueConstants | ShearConstants, ...]:
+        """Constants of both bodies for lives by a criterion, estimated from the tensile ones unless given."""
+        own: tuple[FatigueConstants | ShearConstants, ...]
+        own = getattr(self, CRITERIA[criterion].constants[-1])
+        return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
 
     @property
     def target_life(self) -> float:
@@ -288,9 +296,9 @@ class PhysicalGrid(ContactDetails, Grid):
                 with np.errstate(divide="ignore", invalid="ignore"):
                     found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
-            # κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1.
+            # κ over k: the unit of stress over the strength of the body, or 1 where that does not count.
             one, two = (self.each(SCALES["E* δ0/a_H"].of) / strength for strength in self.yield_strengths)
-            is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
+            is_ours = np.array([bool(CRITERIA[str(each)].normal_unit) for each in self.values("criterion")])
             scale_of_k = one.where(self.bodies == 0, two).where(
                 self.over_dimension("criterion", is_ours), 1.0
             )

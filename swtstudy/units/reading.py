@@ -37,7 +37,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
@@ -110,13 +110,15 @@ def read_contacts(
 
 def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report: Report) -> None:
     """Report constants without their criterion, and criteria without their constants."""
-    if FATEMI_SOCIE in criteria and not given.yield_strengths:
-        allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
-        report("material.yield_strength", "nothing", allowed)
-    if criteria == {FINDLEY} and (given.materials or given.shear_materials):
+    rows = {str(name): CRITERIA[str(name)] for name in criteria}
+    for name, row in rows.items():
+        if row.normal_unit and not getattr(given, row.normal_unit):
+            allowed = f"a stress: the criterion {name} measures the normal stress in it"
+            report(f"material.{row.normal_unit.removesuffix('s')}", "nothing", allowed)
+    if (names := without_life(criteria)) and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
-        report("material", f"constants with the criterion {FINDLEY} alone", allowed)
-    elif given.shear_materials and not given.materials and FATEMI_SOCIE not in criteria:
+        report("material", f"constants with the criterion {names} alone", allowed)
+    elif given.shear_materials and not (given.materials or any(row.constants[1:] for row in rows.values())):
         allowed = f"the criterion {FATEMI_SOCIE}, of whose life they are, or tensile ones as well"
         report("material", "shear constants alone", allowed)
 
