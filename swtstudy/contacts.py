@@ -44,7 +44,7 @@ from swtstudy.units.rows import (
     wrong_size,
 )
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.choices import CRITERIA, FINDLEY, SWT, family_of, is_plane, is_profile
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, is_profile, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import DERIVED, LIFE
 from swtstudy.vocabulary.mistakes import (
@@ -133,7 +133,7 @@ class PhysicalContact:
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
-            return self._plain(self.grid.at_rest.each(lambda contact: getattr(contact, name)))
+            return self._plain(self.grid.each(lambda contact: getattr(contact, name)))
         if name == "grid" or name not in self.grid.rows:
             raise AttributeError(f"a contact has no {name!r}")
         values = self.grid.values(name)
@@ -163,7 +163,7 @@ class PhysicalContact:
     @property
     def moduli(self) -> Moduli:
         """Elastic constants of the two bodies."""
-        return next(iter(self.grid.at_rest.contacts.flat)).moduli
+        return self.grid.distinct[0].moduli
 
     @property
     def shape(self) -> dict[str, Any]:
@@ -373,8 +373,8 @@ class PhysicalContact:
         grid = replace(grid, materials=materials, yield_strengths=strengths)
         with report:
             grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
-        if constants is not None and {*grid.values("criterion")} == {FINDLEY}:
-            report("constants", f"constants with the criterion {FINDLEY} alone", "none: it has no life")
+        if constants is not None and (alone := without_life(grid.values("criterion"))):
+            report("constants", f"constants with the criterion {alone} alone", "none: it has no life")
         if blocks and constants is None and not grid.shear_materials:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(grid, distances[0], report)
@@ -457,7 +457,7 @@ class PhysicalContact:
         several = [name for name in self.grid.dims if name != "body"]
         if several:
             raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
-        return self.grid.at_rest.contacts.item()
+        return self.grid.at_rest.item()
 
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.

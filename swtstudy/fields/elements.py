@@ -16,7 +16,6 @@ from swtstudy.study.columns import UserTable, read_table
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, sound_keys, with_keys
 from swtstudy.units.grid import ContactDetails
-from swtstudy.units.life import ShearConstants
 from swtstudy.units.material import read_given, two_of
 from swtstudy.units.rows import OF_BODIES
 from swtstudy.vocabulary.arrays import FloatArray
@@ -153,8 +152,7 @@ def evaluate_history(
         value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)
         strain = value * (2.0 + 2.0 * poisson) / young
         add(("FS", "FS_normal"), strain, normal)
-        estimated = tuple(ShearConstants.estimated(each, poisson) for each in details.materials)
-        if torsion := details.shear_materials or estimated:
+        if torsion := details.constants(FATEMI_SOCIE, (poisson, poisson)):
             counted = cycle_shares(stress, normal, FATEMI_SOCIE, poisson, normal_sensitivity=kappa)
             add_lives("FS_cycles", torsion[body - 1], strain, counted)
     return found

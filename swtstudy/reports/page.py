@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -15,6 +15,7 @@ from markupsafe import Markup, escape
 from matplotlib.figure import Figure
 
 from swtstudy.archive import describe
+from swtstudy.archive.attributes import defined_in
 from swtstudy.contacts import contact_of
 from swtstudy.figures.draw import draw, layout_of
 from swtstudy.figures.evaluated import draw_sensitivity
@@ -349,4 +350,23 @@ def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
             if len(known) > _LISTED and known.dtype.kind in "fiu":
                 ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
                 said = [f"{' to '.join(ends)} ({len(np.unique(known))} values)"]
-            yield values, AXES[name].meaning, with_unit(", ".join(said), values)
+            meaning = AXES[name].meaning
+            if name == "load":
+                said, meaning = [*map(_course(dataset), said)], meaning.partition(":")[0]
+            yield values, meaning, with_unit(", ".join(said), values)
+
+
+def _course(dataset: xr.Dataset) -> Callable[[str], str]:
+    """Say of the name of a load what it is."""
+    loops = {
+        value_text("load", name): loop for name, loop in defined_in(dataset.attrs).get("load", {}).items()
+    }
+
+    def words(name: str) -> str:
+        if name not in loops:
+            return f"{name}: two oscillations"
+        vertices = getattr(loops[name], "vertices", None)
+        form = "of harmonics" if vertices is None else f"of {len(vertices)} vertices"
+        return f"{name}: a {'measured ' * (getattr(loops[name], 'mean_normal', None) is not None)}loop {form}"
+
+    return words

@@ -165,7 +165,7 @@ class _Tests(NamedTuple):
 
         Deep beneath the surface there may be no tension.
         """
-        distances = DISTANCES * float(grid.at_rest.each(lambda contact: contact.contact_radius).min())
+        distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
         lives = _bounded(_lives(grid, y, distances, None), runout)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)

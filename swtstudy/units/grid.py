@@ -6,7 +6,6 @@ loads of plane contacts are per length, unless their length is given.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -22,7 +21,7 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
 from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameter import Parameter
@@ -131,45 +130,18 @@ class ContactDetails:
     findley_limits: tuple[float, ...] = ()
     scatter: Scatter | None = None
 
+    def constants(
+        self, criterion: str, poisson_ratios: Sequence[float]
+    ) -> tuple[FatigueConstants | ShearConstants, ...]:
+        """Constants of both bodies for lives by a criterion, estimated from the tensile ones unless given."""
+        own: tuple[FatigueConstants | ShearConstants, ...]
+        own = getattr(self, CRITERIA[criterion].constants[-1])
+        return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
+
     @property
     def target_life(self) -> float:
         """The life before which the probability of a crack is asked for; 0 for none."""
         return self.scatter.target if self.scatter else 0.0
-
-
-@dataclass(frozen=True)
-class ContactsAtRest:
-    """The contacts of a grid at rest, over the dimensions that they depend on.
-
-    Attributes
-    ----------
-    dims
-        The dimensions of the grid that they depend on.
-    contacts
-        An array of `Contact` over these dimensions; None where there is none.
-    wrong
-        Mistakes of contacts, and the values there: the first ones.
-    """
-
-    dims: tuple[str, ...]
-    contacts: Any
-    wrong: tuple[tuple[StudyError, dict[str, Value]], ...] = ()
-
-    def each(self, value: Callable[[Contact], float]) -> xr.DataArray:
-        """A number of every contact."""
-        import xarray as xr
-
-        numbers = {id(each): value(each) for each in {id(each): each for each in self.contacts.flat}.values()}
-        found = [numbers[id(each)] for each in self.contacts.flat]
-        return xr.DataArray(np.reshape(np.array(found, float), self.contacts.shape), dims=self.dims)
-
-    def scale(self, name: str) -> xr.DataArray:
-        """One of `SCALES` that is not made of another parameter."""
-        return self.each(SCALES[name].of)
-
-    def shape(self, name: str) -> xr.DataArray:
-        """A non-dimensional shape parameter; 0 where the profile has none of it."""
-        return self.each(lambda contact: contact.shape_parameters.get(name, 0.0))
 
 
 @dataclass(frozen=True)
@@ -225,16 +197,17 @@ class PhysicalGrid(ContactDetails, Grid):
         return tuple(dim for dim in self.dims if dim in varying)
 
     @cached_property
-    def at_rest(self) -> ContactsAtRest:
-        """The contacts at rest."""
+    def at_rest(self) -> xr.DataArray:
+        """The contacts at rest over these dimensions; where there is none, the StudyError that says why."""
+        import xarray as xr
+
         dims = self.at_rest_dims
         shape = tuple(size for dim, size in zip(self.dims, self.shape, strict=True) if dim in dims)
         values = {name: self.values(name) for name in AT_REST_NAMES if self.values(name)}
         along = {name: self.dimension(name) for name in values}
-        known: dict[tuple[Value, ...], Contact | None] = {}
-        wrong: list[tuple[StudyError, dict[str, Value]]] = []
+        known: dict[tuple[Value, ...], Contact | StudyError] = {}
         contacts = np.empty(shape, object)
-        for place in itertools.product(*map(range, shape)):
+        for place in np.ndindex(shape):
             at = dict(zip(dims, place, strict=True))
             own = {name: each[at[dim] if (dim := along[name]) else 0] for name, each in values.items()}
             key = tuple(own.values())
@@ -242,10 +215,20 @@ class PhysicalGrid(ContactDetails, Grid):
                 try:
                     known[key] = self._contact(own)
                 except StudyError as error:
-                    known[key] = None
-                    wrong.append((error, own))
+                    known[key] = error
             contacts[place] = known[key]
-        return ContactsAtRest(dims, contacts, tuple(wrong))
+        return xr.DataArray(contacts, dims=dims)
+
+    @property
+    def distinct(self) -> list[Contact]:
+        """The contacts at rest, each once."""
+        return [*{id(each): each for each in self.at_rest.values.flat}.values()]
+
+    def each(self, value: Callable[[Contact], float]) -> xr.DataArray:
+        """A number of every contact at rest."""
+        numbers = {id(each): value(each) for each in self.distinct}
+        found = np.array([numbers[id(each)] for each in self.at_rest.values.flat], float)
+        return self.at_rest.copy(data=found.reshape(self.at_rest.shape))
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
         """The contact with values of `AT_REST_NAMES`."""
@@ -271,7 +254,7 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def definitions(self) -> dict[int, Definition]:
         """The user's definitions, by their codes in canonical rows: tables in a_H and δ0."""
-        tables = (contact.pure_profile for contact in self.at_rest.contacts.flat)
+        tables = (contact.pure_profile for contact in self.distinct)
         loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Definition)}
 
@@ -281,7 +264,7 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def of_bodies(self, value: Callable[[Contact, int], float]) -> xr.DataArray:
         """A number of every contact and of each point's body, 0 or 1; over contacts if both are alike."""
-        one, two = (self.at_rest.each(lambda contact, k=k: value(contact, k)) for k in (0, 1))  # type: ignore[misc]
+        one, two = (self.each(lambda contact, k=k: value(contact, k)) for k in (0, 1))  # type: ignore[misc]
         return one if one.equals(two) else one.where(self.bodies == 0, two)
 
     def over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
@@ -299,20 +282,23 @@ class PhysicalGrid(ContactDetails, Grid):
     @cached_property
     def numbers(self) -> dict[str, xr.DataArray]:
         """The non-dimensional parameters that are numbers, over the dimensions that each depends on."""
-        found = {name: self.at_rest.shape(name) for name in SHAPE_COLUMNS}
+        found = {
+            name: self.each(lambda contact, name=name: contact.shape_parameters.get(name, 0.0))  # type: ignore[misc]
+            for name in SHAPE_COLUMNS  # 0 where the profile has none of it
+        }
         found["poisson_ratio"] = self.of_body("poisson_ratio")
         found[STRAIN_SHARE] = self._strain_share
         for column, row in PARAMETERS.items():
             source, known = self._source(column), {*GIVEN_COLUMNS} - {*found}
             if row.kind == "number" and column in known and self.values(source):
                 scale, values = PARAMETERS[source].scale, self.along(source)
-                unit = self.at_rest.scale(scale) if scale else _scalar(1.0)
+                unit = self.each(SCALES[scale].of) if scale else _scalar(1.0)
                 with np.errstate(divide="ignore", invalid="ignore"):
                     found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
-            # κ over k: of Fatemi and Socie the unit of stress over the yield strength of the body, else 1.
-            one, two = (self.at_rest.scale("E* δ0/a_H") / strength for strength in self.yield_strengths)
-            is_ours = np.array([value == FATEMI_SOCIE for value in self.values("criterion")])
+            # κ over k: the unit of stress over the strength of the body, or 1 where that does not count.
+            one, two = (self.each(SCALES["E* δ0/a_H"].of) / strength for strength in self.yield_strengths)
+            is_ours = np.array([bool(CRITERIA[str(each)].normal_unit) for each in self.values("criterion")])
             scale_of_k = one.where(self.bodies == 0, two).where(
                 self.over_dimension("criterion", is_ours), 1.0
             )
@@ -353,9 +339,9 @@ class PhysicalGrid(ContactDetails, Grid):
                 values, dims = self.numbers[name].values, tuple(map(str, self.numbers[name].dims))
                 found[name] = dims, values if PARAMETERS[name].units == "rad" else rounded(values)
             elif name == "profile":
-                contacts = self.at_rest.contacts
-                profiles = np.array([code_of(contact.pure_profile, name) for contact in contacts.flat])
-                found[name] = self.at_rest.dims, profiles.reshape(contacts.shape)
+                code = {id(each): code_of(each.pure_profile, name) for each in self.distinct}
+                profiles = np.array([code[id(each)] for each in self.at_rest.values.flat])
+                found[name] = self.at_rest_dims, profiles.reshape(self.at_rest.shape)
             else:
                 dim, codes = self.dimension(self._source(name)), self._codes[name]
                 found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
@@ -387,12 +373,12 @@ class PhysicalGrid(ContactDetails, Grid):
         def of(contact: Contact) -> float:
             return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
 
-        return self._of_points(self.at_rest.each(of))
+        return self._of_points(self.each(of))
 
     @property
     def slip_scales(self) -> FloatArray:
         """See `Grid.slip_scales`."""
-        return self._of_points(self.at_rest.each(lambda contact: contact.slip_scale / contact.length_scale))
+        return self._of_points(self.each(lambda contact: contact.slip_scale / contact.length_scale))
 
     @property
     def strain_shares(self) -> FloatArray:
@@ -403,7 +389,7 @@ class PhysicalGrid(ContactDetails, Grid):
     def _strain_share(self) -> xr.DataArray:
         """The same for the body with the bulk stress, over the dimensions that it depends on."""
         body = self.bulk_stress_body
-        share = self.at_rest.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
+        share = self.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
         if not self.values("body"):
             return share
 
@@ -412,7 +398,7 @@ class PhysicalGrid(ContactDetails, Grid):
             of_both = [1.0 if contact.plane else (1.0 + ν) * (4.0 - 3.0 * ν) for ν in contact.moduli.poisson]
             return of_both[1 - body] / of_both[body]
 
-        return share.where(self.bodies == body, -share * self.at_rest.each(over_own))
+        return share.where(self.bodies == body, -share * self.each(over_own))
 
     def _of_points(self, over: xr.DataArray) -> FloatArray:
         """Values over some of the dimensions for each point, shape (size,)."""
@@ -430,7 +416,7 @@ class PhysicalGrid(ContactDetails, Grid):
         """See `Grid.distances`: the same length is another one in a_H from contact to contact."""
         if not asked.distances:
             return super().distances(asked)
-        length = self._of_points(self.at_rest.scale("a_H"))
+        length = self._of_points(self.each(SCALES["a_H"].of))
         return rounded(np.array(asked.distances) / length[:, None])
 
 

@@ -117,7 +117,10 @@ def read_given(
         units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
-    sound = {name: [_sound(each) for each in two_of(fixed[name])] for name in OF_BODIES if name in fixed}
+    two = {name: [*map(_number, two_of(fixed[name]))] for name in OF_BODIES if name in fixed}
+    sound = {
+        name: [number if (number := plain_number(each)) > 0.0 else 0.0 for each in two[name]] for name in two
+    }
     moduli: dict[str, _Both] = {}
     if _YOUNG in sound:
         # A wrong one is reported elsewhere: meanwhile any stands for it.
@@ -128,14 +131,6 @@ def read_given(
     if all(sound.get(_YOUNG, (0.0,))):
         warn_of_units(found, moduli[_YOUNG])
     return found, distance
-
-
-def _sound(number: object) -> float:
-    """A modulus, or Poisson ratio; 0 for one that is wrong."""
-    try:
-        return max(float(read_exact(number)), 0.0)
-    except ValueError:
-        return 0.0
 
 
 def two_of(value: object) -> list[Any]:

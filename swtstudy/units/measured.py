@@ -81,7 +81,7 @@ def words_of(grid: PhysicalGrid, parameters: Mapping[str, Any]) -> Iterator[tupl
         if name not in _AT_REST:
             yield "given", name, ", ".join(map(plain_words, each)), table[name].meaning
     for name, meaning in _AT_REST.items():
-        found = np.unique(grid.at_rest.each(lambda contact, name=name: getattr(contact, name)))  # type: ignore[misc]
+        found = np.unique(grid.each(lambda contact, name=name: getattr(contact, name)))  # type: ignore[misc]
         ends = dict.fromkeys(found[[0, -1]].tolist())
         yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
     # How far the contacts are from where the model ends, as far as that is known without solving.
@@ -130,11 +130,7 @@ class Measured(NamedTuple):
     def scales(self) -> dict[str, tuple[float, str, str]]:
         """By name of a variable the scale, the label of its unit, and its symbol."""
         contact, row = self.contact, CRITERIA[self.criterion]
-        length, stress, share = (
-            contact.length_scale,
-            contact.stress_scale,
-            contact.moduli.swt_share(self.body),
-        )
+        length, stress = contact.length_scale, contact.stress_scale
         found = {name: (length, "length", symbol) for name, symbol in _LENGTHS.items()}
         found |= {name: (stress, "stress", symbol) for name, symbol in _STRESSES.items()}
         found |= {
@@ -144,7 +140,11 @@ class Measured(NamedTuple):
             "tangential_force": (contact.friction * contact.normal_force, "force", "F_x"),
             "height": (contact.depth, "length", "-z"),
             "spring_depth": (contact.depth, "length", "g"),
-            "normal_strain": (contact.depth / length * share, "1", r"\varepsilon_n"),
+            "normal_strain": (
+                contact.depth / length * contact.moduli.swt_share(self.body),
+                "1",
+                r"\varepsilon_n",
+            ),
             "s_local": (scale_of(row.scale)(contact, self.body), row.unit, row.sign),
             "dissipation": (contact.work_scale, "work", "W"),
             "dissipation_error": (contact.work_scale, "work", r"\Delta W"),

@@ -31,14 +31,15 @@ from swtstudy.units.rows import (
     NAMES_KEY,
     NOTICEABLE_MISMATCH,
     OF_BODIES,
+    SCALES,
     SIMILAR_KEY,
     labels_or,
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, plain_number
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -109,13 +110,15 @@ def read_contacts(
 
 def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report: Report) -> None:
     """Report constants without their criterion, and criteria without their constants."""
-    if FATEMI_SOCIE in criteria and not given.yield_strengths:
-        allowed = f"a stress: the criterion {FATEMI_SOCIE} measures the normal stress in it"
-        report("material.yield_strength", "nothing", allowed)
-    if criteria == {FINDLEY} and (given.materials or given.shear_materials):
+    rows = {str(name): CRITERIA[str(name)] for name in criteria}
+    for name, row in rows.items():
+        if row.normal_unit and not getattr(given, row.normal_unit):
+            allowed = f"a stress: the criterion {name} measures the normal stress in it"
+            report(f"material.{row.normal_unit.removesuffix('s')}", "nothing", allowed)
+    if (names := without_life(criteria)) and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
-        report("material", f"constants with the criterion {FINDLEY} alone", allowed)
-    elif given.shear_materials and not given.materials and FATEMI_SOCIE not in criteria:
+        report("material", f"constants with the criterion {names} alone", allowed)
+    elif given.shear_materials and not (given.materials or any(row.constants[1:] for row in rows.values())):
         allowed = f"the criterion {FATEMI_SOCIE}, of whose life they are, or tensile ones as well"
         report("material", "shear constants alone", allowed)
 
@@ -300,10 +303,10 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
     count = math.prod(size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims)
     if count > MOST_CONTACTS:
         report.of(dims, f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
-    elif wrong := grid.at_rest.wrong:
-        error, own = wrong[0]
-        for mistake in error.mistakes:
-            unit, there = unit_words(grid.row(mistake.key).units), _words(grid, own, mistake.key)
+    elif wrong := [each for each in grid.distinct if isinstance(each, StudyError)]:
+        here = _at(grid, index_at(grid.at_rest, [*grid.at_rest.values.flat].index(wrong[0])))
+        for mistake in wrong[0].mistakes:
+            unit, there = unit_words(grid.row(mistake.key).units), _words(grid, here, mistake.key)
             found = f"{mistake.found}{unit} at {there}{more_like_it(len(wrong))}"
             report.of(mistake.key, found, mistake.allowed)
     elif all([_in_range(grid, column, report) for column in grid.numbers]):
@@ -315,7 +318,7 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
     """Contacts at rest that hint at a wrong unit: one larger than its radius, or pressed beyond any metal."""
     lines: dict[str, str] = {}
     unit = unit_words(grid.labels.length)
-    for contact in {id(each): each for each in grid.at_rest.contacts.flat}.values():
+    for contact in grid.distinct:
         radius, edge, profile = contact.radius, contact.contact_radius, contact.profile
         if not isinstance(profile, str):
             ratio, pressure = contact.depth / edge, contact.peak_pressure / contact.moduli.normal
@@ -331,7 +334,7 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
 
 def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Report) -> None:
     """A critical distance beyond its range in the smallest contact."""
-    unit, length = unit_words(grid.row(DISTANCE).units), grid.at_rest.scale("a_H")
+    unit, length = unit_words(grid.row(DISTANCE).units), grid.each(SCALES["a_H"].of)
     largest, smallest, upper = max(distances, default=0.0), float(length.min()), AXES[DISTANCE].upper
     if largest > upper * smallest:
         words = _words(grid, _at(grid, index_at(length, int(length.values.argmin()))))
@@ -380,16 +383,12 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
     names = family_of(profile).shape
     if not names and not isinstance(profile, Definition):
         return
-    contacts, dims = grid.at_rest.contacts, grid.at_rest.dims
-    tables = np.vectorize(lambda contact: contact.pure_profile, otypes=[object])(contacts)
-    owned = np.vectorize(lambda contact: contact.profile == profile, otypes=[bool])(contacts)
-    amplitude, is_own, pure, *shapes = xr.broadcast(
-        grid.numbers["normal_amplitude"],
-        *(xr.DataArray(each, dims=dims) for each in (owned, tables)),
-        *(grid.numbers[name] for name in names),
+    amplitude, contacts, *shapes = xr.broadcast(
+        grid.numbers["normal_amplitude"], grid.at_rest, *(grid.numbers[name] for name in names)
     )
-    places = np.flatnonzero(is_own.values)
-    own, tables, *columns = (each.values.ravel()[places] for each in (amplitude, pure, *shapes))
+    places = np.flatnonzero([contact.profile == profile for contact in contacts.values.flat])
+    own, every, *columns = (each.values.ravel()[places] for each in (amplitude, contacts, *shapes))
+    tables = np.array([contact.pure_profile for contact in every], object)
     shape, largest = dict(zip(names, columns, strict=True)), 1.0 + np.maximum(own * largest_reach(grid), 0.0)
     wrong, depth = np.zeros(len(places), bool), np.empty_like(largest)
     for table in dict.fromkeys(tables):
@@ -399,7 +398,7 @@ def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
         wrong[same] = ~compact_shapes(table, some, depth[same])
     if wrong.any():
         first = int(wrong.argmax())
-        here = _at(grid, index_at(is_own, int(places[first])))
+        here = _at(grid, index_at(contacts, int(places[first])))
         name = grid.control.given_for("normal_amplitude")
         words = f"{_words(grid, here)}, {name} = {as_number(here[name]):g}{unit_words(grid.row(name).units)}"
         why = check_shape(tables[first], {n: float(v[first]) for n, v in shape.items()}, depth[first])

@@ -152,11 +152,8 @@ def _counted_in(dataset: xr.Dataset) -> list[xr.DataArray]:
 def _lives(value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
     """Rounds to a crack at SWT, or at a Fatemi–Socie parameter, of strain cycles if they are counted."""
     value = value.clip(min=0.0)  # means that are below 0 by rounding
-    own = getattr(grid, CRITERIA[criterion].constants[-1])
-    both: list[tuple[FatigueConstants | ShearConstants, ...]] = [own]
-    if not own:
-        estimated = ShearConstants.estimated
-        both = [tuple(map(estimated, grid.materials, ratios)) for ratios in grid.of_both("poisson_ratio")]
+    ratios = grid.of_both("poisson_ratio")
+    both = [*dict.fromkeys(grid.constants(criterion, two) for two in ratios)]
 
     def of_bodies(two: Sequence[FatigueConstants | ShearConstants], at: Mapping[str, Any]) -> xr.DataArray:
         own = value.isel(at, missing_dims="ignore")

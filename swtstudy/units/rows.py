@@ -38,16 +38,8 @@ KNOWN: dict[str, dict[str, float]] = {
     },
 }
 #: Their names as people write them out, and in labels.
-_PREFIXES = {
-    "": "",
-    "kilo": "k",
-    "mega": "M",
-    "giga": "G",
-    "centi": "c",
-    "milli": "m",
-    "micro": "µ",
-    "nano": "n",
-}
+_PREFIXES = {"": "", "kilo": "k", "mega": "M", "giga": "G"}
+_PREFIXES |= {"centi": "c", "milli": "m", "micro": "µ", "nano": "n"}
 _WRITTEN_OUT = {
     f"{prefix}{name}": f"{letter}{label}"
     for name, label in {"meter": "m", "metre": "m", "newton": "N", "pascal": "Pa"}.items()

@@ -6,7 +6,7 @@ Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterio
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, TypeGuard
 
@@ -164,6 +164,8 @@ class Criterion(NamedTuple):
     limit, usage
         The limits that its values are compared with, a fact of contacts, and the data variable that compares
         them; empty where there are none.
+    normal_unit
+        The strength, a fact of contacts, over which its normal stress is taken; empty if that stays a stress.
     """
 
     words: str
@@ -183,6 +185,7 @@ class Criterion(NamedTuple):
     constants: tuple[str, ...] = ()
     limit: str = ""
     usage: str = ""
+    normal_unit: str = ""
 
 
 NORMAL_STRAIN = Swing("normal_strain", "strain normal to the plane", r"\varepsilon_n")
@@ -215,6 +218,7 @@ CRITERIA = {
         subscript="FS",
         by=" by Fatemi and Socie",
         constants=("materials", "shear_materials"),
+        normal_unit="yield_strengths",
     ),
     FINDLEY: Criterion(
         "Findley stress",
@@ -229,6 +233,14 @@ CRITERIA = {
         usage="findley_usage",
     ),
 }
+
+
+def without_life(criteria: Collection[object]) -> str:
+    """Names of the criteria if there are some and none of them has a life; else empty."""
+    lives = any(CRITERIA[str(name)].life for name in criteria)
+    return "" if lives else ", ".join(map(str, criteria))
+
+
 #: Where a criterion of shear may be larger than s (results/audit_criteria_box.md).
 BENEATH = (
     "a criterion of shear may be larger beside that line or beneath the surface, where friction is below "

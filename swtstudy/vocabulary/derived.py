@@ -13,7 +13,7 @@ from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, error_of
 
 #: Per cent of the bodies that have a crack before the life of that name.
 PERCENTS = (10, 50, 90)
-#: Kinds of variables: a life, and what is made of one by blocks and by constants that scatter.
+#: Kinds of variables: a life, and variables that blocks and constants that scatter make of it.
 LIFE, REPETITIONS, SHARE, FAILED = "cycles", "repetitions", "damage_share", "failure_probability"
 RANKS = (*map(str, PERCENTS), FAILED)
 
@@ -75,7 +75,7 @@ def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
 
 
 def _of_life(row: Criterion, end: str) -> Iterator[Derived]:
-    """What a sequence of blocks makes of a life."""
+    """Repetitions of a sequence of blocks to a crack, and the share of each load in its damage."""
     life, start = f"{row.life}{end}", row.life.removesuffix(LIFE)
     place, words = end.removeprefix("_"), end.replace("_", " ") + "{shear}" * bool(row.by)
     for kind, symbol, meaning in (
@@ -86,7 +86,7 @@ def _of_life(row: Criterion, end: str) -> Iterator[Derived]:
 
 
 def _of_scatter(row: Criterion, end: str) -> Iterator[Derived]:
-    """What constants that scatter make of a life."""
+    """Percentiles of a life, and the probability of a crack before a target, of constants that scatter."""
     life, place = f"{row.life}{end}", end.removeprefix("_")
     for percent in map(str, PERCENTS):
         meaning = f"rounds to a crack{end.replace('_', ' ')}, before which {percent} % fail"

@@ -515,6 +515,8 @@ def test_the_page_of_a_record_has_its_loads_and_all_columns(
     words = checked(text).text
     assert "F_N 240 to 260 N, F_x −60 to 60 N" in words
     assert "amplitude of the normal force" not in words
+    assert "rig: a measured loop of 2 vertices" in words
+    assert "or the name of a loop" not in words
     assert re.search(r"Outside of the model: .*first yield \(", words)
     (figure,) = drawn
     labels = {axes.get_xlabel(): axes.get_ylabel() for axes in figure.axes}

@@ -209,7 +209,7 @@ def test_every_parameter_is_known_of_a_contact():
 def test_scales_grow_with_a_power_of_the_depth(name):
     waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 2e-4, "wavelength": 0.7}
     contact = physical(**ALUMINIUM, depth=0.02, tangential_amplitude=0.001, **waves)
-    contact = contact.grid.at_rest.contacts.item()
+    contact = contact.grid.at_rest.item()
     deeper, scale = replace(contact, depth=0.08), SCALES[name]
     if scale.power is None:
         assert scale.of(contact) in (contact.normal_force, contact.friction * contact.normal_force)
