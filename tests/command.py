@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from click.testing import CliRunner, Result
 
-from swtstudy.cli import main
+from swtstudy.cli import main as main
 
 
 def call(*arguments: object) -> Result:

@@ -15,8 +15,7 @@ import pytest
 import xarray as xr
 from real import STUDY
 
-from swtstudy import run
-from swtstudy.study.definition import Study
+from swtstudy import Study, run
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (

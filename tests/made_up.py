@@ -7,7 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
+from swtstudy.archive.netcdf import save as save
 from swtstudy.paper.audit.dataset import AUDITED, audit_dataset
+from swtstudy.paper.statements.statement import STATEMENTS as STATEMENTS
 from swtstudy.points.canonical import ROW
 from swtstudy.vocabulary.choices import REGIMES
 

@@ -17,6 +17,8 @@ from swtstudy.vocabulary.parameters import Control
 #: Those of discs, which all that is prescribed goes with, and those of strips.
 PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))
 PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
+#: What is prescribed: both forces, or the tangential one beside the depth.
+FORCES, TANGENTIAL_FORCE = Control(True, True), Control(False, True)
 
 
 def each_profile(*quick: str) -> list[Any]:
@@ -46,6 +48,11 @@ def points(
     *numbers, p, q = (np.array(v) for v in np.broadcast_arrays(*(np.atleast_1d(v) for v in given)))
     nu, mu, d, u, psi, *kappa = (v.astype(float) for v in numbers)
     return Points(profile, nu, mu, d, p, q, u, psi, dict(zip(shape, kappa, strict=True)))
+
+
+def shape_of(profile: str) -> tuple[str, ...]:
+    """Names of the shape parameters of a profile."""
+    return family_of(profile).shape
 
 
 def take(batch: Points, index: ArrayLike) -> Points:
@@ -86,7 +93,7 @@ def random_shape(
     rng: np.random.Generator, count: int, profile: str, normal_amplitude: NDArray[np.float64]
 ) -> dict[str, ArrayLike]:
     """Shape parameters of a compact contact."""
-    shape = {name: DRAWN[name](rng, count) for name in family_of(profile).shape}
+    shape = {name: DRAWN[name](rng, count) for name in shape_of(profile)}
     if profile == "wavy_cylinder":  # it is compact from 3.99 on
         shape["wavelength"] += 0.4
     return dict(shape)
@@ -119,7 +126,7 @@ def plane_points(
     count = np.broadcast(*map(np.asarray, (*own, *others.values(), *further.values()))).size
     batch = points(profile, np.broadcast_to(poisson_ratio, count), *own[1:], **others)
     more = {name: np.broadcast_to(value, count).astype(float) for name, value in further.items()}
-    return replace(batch, control=Control(True, True), **more)
+    return replace(batch, control=FORCES, **more)
 
 
 def random_plane_points(seed: int, count: int, profile: str) -> Points:

@@ -11,10 +11,8 @@ import tomllib
 from pathlib import Path
 from typing import NamedTuple
 
-from click.testing import CliRunner
+from command import call, main
 from folders import ROOT
-
-from swtstudy.cli import main
 
 #: What the README and the pages say; the generated parts of the pages are made by running.
 PAGES = sorted(
@@ -108,7 +106,7 @@ def run_command(command: str) -> str:
         return done.stdout
     words = shlex.split(command)
     if words[0] == "swtstudy":
-        result = CliRunner().invoke(main, words[1:])
+        result = call(*words[1:])
         mentioned = len(words) == 2 and "Missing argument" in result.output
         assert result.exit_code == 0 or mentioned, f"{command}: {result.output}"
         return result.output

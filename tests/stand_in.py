@@ -92,6 +92,11 @@ def lose_at(friction: float, points: Points, rtol: float) -> Solution:
     return solution._replace(s=s)
 
 
+def none(points: Points, rtol: float) -> Solution:
+    """For runs that have nothing to compute."""
+    raise AssertionError(f"{len(points)} points are computed")
+
+
 class Counting:
     """`smooth` in this process, with the number of points that it was asked for."""
 

@@ -1,7 +1,7 @@
 """ds.swt on results of solve, run and open_results, before and after xarray's own operations."""
 
-import dataclasses
 import inspect
+import json
 import subprocess
 import sys
 
@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from folders import STUDIES
 from made_up import PANELS, made_up
 
 import swtstudy
 from swtstudy import Study, StudyError, run
-from swtstudy.accessor import SwtAccessor
-from swtstudy.results.evaluate import quantity, quantity_error
-from swtstudy.study.figure import FigureLayout
+from swtstudy.results.evaluate import quantity_error
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +100,7 @@ def test_errors_of_ratios_add_up(dataset):
     dataset["s_error"] = 0.01 * dataset.s
     error = quantity_error(dataset, "s/s(b=0)")
     assert (error.isel(flat_radius=0) == 0).all()
-    expected = 0.02 * quantity(dataset, "s/s(b=0)").isel(flat_radius=slice(1, None))
+    expected = 0.02 * dataset.swt.normalised("b=0").isel(flat_radius=slice(1, None))
     np.testing.assert_allclose(error.isel(flat_radius=slice(1, None)), expected)
 
 
@@ -185,9 +184,10 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
         for regimes in (False, True)
     )
     assert len(marked.axes[0].lines) > len(plain.axes[0].lines)
-    own = set(inspect.signature(SwtAccessor.panels).parameters) - {"self", "style", "width"}
+    own = set(inspect.signature(dataset.swt.panels).parameters) - {"style", "width"}
     # A caption and a message are the study's.
-    assert own == {field.name for field in dataclasses.fields(FigureLayout)} - {"caption", "message"}
+    schema = json.loads((STUDIES / "study.schema.json").read_text(encoding="utf-8"))
+    assert own == {*schema["$defs"]["FigureTable"]["properties"]} - {"caption", "message"}
 
 
 def test_results_of_solve():

@@ -12,7 +12,7 @@ from scenes import each_profile, random_points
 from scipy.integrate import simpson
 
 import swtstudy
-from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy import StudyError
 
 
 def test_stress_field_has_the_dimensions_of_its_positions():

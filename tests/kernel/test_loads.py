@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from solved import REGIMES
 
 import swtstudy
 from swtstudy.kernel.batch import solve_batch
@@ -16,7 +17,6 @@ from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.events import force_ratio, slide
 from swtstudy.kernel.load import bulk_at, largest_bulk, load_at, rates_at, smallest_bulk
 from swtstudy.kernel.loads import bimodal, polygon
-from swtstudy.vocabulary.choices import REGIMES
 
 pytestmark = pytest.mark.xdist_group("kernel")
 DISPLACEMENTS = {"normal_amplitude": 0.6, "tangential_amplitude": 0.4}

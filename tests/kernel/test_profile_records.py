@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from scenes import PLANE_NAMES, PROFILE_NAMES
 from scipy.integrate import quad
 from scipy.special import j1, struve
 
@@ -13,7 +14,6 @@ from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.profile import MAX_PANELS, coordinate_at, density_at, force_at, place_of, radius_of
 from swtstudy.kernel.profiles import profile_record
 from swtstudy.kernel.surface import TABLE, hertz, running, strip_hertz, tabulate
-from swtstudy.vocabulary.choices import FAMILIES, is_plane
 
 pytestmark = pytest.mark.xdist_group("kernel")
 #: Amplitude h/δ0 and k of the waves below.
@@ -63,7 +63,7 @@ IDS = [f"{name} {next(iter(shape.values()), '')}" for name, shape, _ in DEPTHS]
 
 
 def test_all_families_are_tested() -> None:
-    assert {name for name, _, _ in DEPTHS} == set(FAMILIES)
+    assert {name for name, _, _ in DEPTHS} == {*PROFILE_NAMES, *PLANE_NAMES}
 
 
 @pytest.mark.parametrize(("name", "shape", "depth"), DEPTHS, ids=IDS)
@@ -76,7 +76,7 @@ def test_depth_and_force_are_those_of_the_formulae(
     known = [depth(x) for x in radius]
     rounding = 1e-7 if radius[0] > 10.0 else 1e-12  # of the formulae on a large face
     assert [coordinate_at(in_depth, one) for one in s] == pytest.approx(known, rel=1e-9, abs=rounding)
-    if is_plane(name):
+    if name in PLANE_NAMES:
         return
     # ∫ ξ dg = ξ g - ∫ g dξ, over the value at the radius where g = 1.
     b = in_depth.flat_radius
@@ -104,7 +104,7 @@ def test_places_are_known_to_rounding_down_to_the_smallest_depth(
 @pytest.mark.parametrize(("name", "shape", "depth"), DEPTHS, ids=IDS)
 def test_functionals_are_the_integrals(name: str, shape: dict[str, float], depth: object) -> None:
     record = profile_record(name, shape, True, 2.0, 1e-7)
-    b, top, plane = record.flat_radius, place_of(record, 2.0), is_plane(name)
+    b, top, plane = record.flat_radius, place_of(record, 2.0), name in PLANE_NAMES
     table = new_record(TABLE)
 
     def density(s: float) -> float:

@@ -1,14 +1,14 @@
 """The audit of a study."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command import call
 from folders import STUDIES
-from made_up import OFF_LINE, audit_of, made_up_audit, made_up_audit_point, made_up_point
+from made_up import OFF_LINE, audit_of, made_up_audit, made_up_audit_point, made_up_point, save
 
-from swtstudy.archive.netcdf import save
-from swtstudy.cli import main
-from swtstudy.paper.audit.audit import audit_study
+from swtstudy import Study, audit_study
 from swtstudy.paper.audit.dataset import (
     AUDITED,
     VERDICTS,
@@ -19,7 +19,6 @@ from swtstudy.paper.audit.dataset import (
 )
 from swtstudy.paper.audit.report import report
 from swtstudy.points.canonical import ROW
-from swtstudy.study.definition import Study
 from swtstudy.study.sample import drawn_rows
 
 PARAMETER_BOX = STUDIES / "audit" / "parameter_box.toml"
@@ -126,11 +125,11 @@ def test_command_goes_on_where_it_was(tmp_path):
     study = tmp_path / "two.toml"
     study.write_text(STUDY)
     arguments = ["audit", str(study), "--workers", "1", "--results", str(tmp_path), "--points"]
-    assert CliRunner().invoke(main, [*arguments, "1"]).exit_code == 0
+    assert call(*arguments, "1").exit_code == 0
     first = open_audit(tmp_path / "audit_two.nc")
     # What is there already is taken as it is.
     save(first.assign(s_body=first.s_body * 3.0), tmp_path / "audit_two.nc")
-    outcome = CliRunner().invoke(main, [*arguments, "2"])
+    outcome = call(*arguments, "2")
     assert outcome.exit_code == 0, outcome.output
     dataset = open_audit(tmp_path / "audit_two.nc")
     assert dataset.sizes["sample"] == 2
@@ -167,7 +166,7 @@ def test_command_on_plane_contacts(tmp_path):
     study = tmp_path / "plane.toml"
     study.write_text(PLANE)
     given = ["audit", str(study), "--dense", "--workers", "1", "--results", str(tmp_path)]
-    outcome = CliRunner().invoke(main, given)
+    outcome = call(*given)
     assert outcome.exit_code == 0, outcome.output
     found = open_audit(tmp_path / "audit_plane.nc")
     assert sorted(map(str, found.profile.values)) == ["pad", "rounded_flat"]
@@ -301,6 +300,7 @@ def test_a_sample_has_every_point_at_most_once():
 
 def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_path, monkeypatch):
     monkeypatch.setattr("swtstudy.paper.audit.audit.audit_point", made_up_audit_point)
+    monkeypatch.setattr("swtstudy.runner.workers.start_workers", ThreadPoolExecutor)
     study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
     first = audit_study(study, path, points=5, seed=1, workers=1)
     second = audit_study(study, path, points=3, seed=2, workers=1)

@@ -5,9 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import PHASES, made_up, made_up_audit
-
-from swtstudy.paper.statements.statement import STATEMENTS
+from made_up import PHASES, STATEMENTS, made_up, made_up_audit
 
 CLOSE = 1e-3
 

@@ -5,11 +5,7 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from made_up import PHASES, made_up, made_up_audit
-
-from swtstudy.paper.statements import formalisms
-from swtstudy.paper.statements.measures import NotInArchiveError, at
-from swtstudy.paper.statements.statement import STATEMENTS
+from made_up import PHASES, STATEMENTS, made_up, made_up_audit
 
 RATIOS = [0.25, 0.5, 1.0, 1.5, 2.0]
 H = np.geomspace(0.002, 0.05, 201)
@@ -86,6 +82,13 @@ def test_periods():
     assert not STATEMENTS["period_shrinks"](of_ratio(depths, {**ORDERS, 2.0: 2})).holds
     others = of_ratio({2 / 3: 0.1}, {2 / 3: 4})
     assert not STATEMENTS["period_shrinks_in_between"](shrinking, others).holds
+    constant = STATEMENTS["period_shrinks"](of_ratio({**depths, 2.0: 0.0}, ORDERS))
+    assert not constant.holds
+    assert constant.measured.endswith("3/2: 2π/3, 2: none")
+    # Kinks between the points of the grid do not hide the period.
+    waves = xr.DataArray([*ORDERS.values()], {"frequency_ratio": RATIOS})
+    kinks = (2.0 + abs(np.cos(waves * shrinking.phase / 2 - 0.3))).expand_dims(normal_amplitude=1)
+    assert STATEMENTS["period_shrinks"](kinks.to_dataset(name="s")).measured == finding.measured
 
 
 def test_a_larger_normal_oscillation_amplifies():
@@ -309,33 +312,49 @@ def test_long_cycles_matter_little(third, holds):
 
 
 def test_formalisms_agree_and_a_wrong_one_would_not(monkeypatch):
-    finding = STATEMENTS["formalisms_agree"]()
-    assert finding.holds
-    depth, _ = formalisms.random_path(0, 40)
-    assert depth.min() < 0.0 < depth.max()
-    right = formalisms.march_springs
-
-    def late(g, depth, displacement, periods):
-        w, tau = right(g, depth, displacement, periods)
-        return w, np.concatenate([tau[:1], tau[:-1]])
-
-    monkeypatch.setattr(formalisms, "march_springs", late)
+    assert STATEMENTS["formalisms_agree"]().holds
+    wrong = "swtstudy.paper.statements.formalisms.march_springs"
+    monkeypatch.setattr(wrong, lambda g, depth, *_, **__: (None, np.ones((len(depth), len(g)))))
     assert not STATEMENTS["formalisms_agree"]().holds
 
 
 def test_what_an_archive_lacks_is_named():
-    with pytest.raises(NotInArchiveError, match="no normal_amplitude = 8/9"):
-        at(of_amplitude(0.3).isel(normal_amplitude=[0, 1]), normal_amplitude=8 / 9)
-    with pytest.raises(NotInArchiveError, match="no axis phase"):
-        STATEMENTS["small_amplitude_is_flat"](of_amplitude(0.3).isel(phase=0))
+    statement = STATEMENTS["almost_a_factor_of_two"]
+    with pytest.raises(LookupError, match="no normal_amplitude = 8/9"):
+        statement(of_amplitude(0.3).isel(normal_amplitude=[0, 1]))
+    with pytest.raises(LookupError, match=r"no normal_amplitude$"):
+        statement(of_amplitude(0.3).isel(normal_amplitude=2, drop=True))
+    with pytest.raises(LookupError, match="no axis phase"):
+        statement(of_amplitude(0.3).isel(phase=0))
 
 
-def test_values_in_an_archive_are_found_as_in_a_slice():
-    dataset = of_amplitude(0.3)
-    there = at(dataset, normal_amplitude=0.5 * (1 + 1e-7))
-    assert "normal_amplitude" not in there.coords
-    np.testing.assert_array_equal(there.s, dataset.s.sel(normal_amplitude=0.5))
-    with pytest.raises(NotInArchiveError, match=r"no normal_amplitude = 0\.500005$"):
-        at(dataset, normal_amplitude=0.5 * (1 + 1e-5))
-    with pytest.raises(NotInArchiveError, match=r"no friction$"):
-        at(dataset, friction=0.3)
+@pytest.mark.parametrize(("away", "found"), [(1e-7, True), (1e-5, False)])
+def test_values_in_an_archive_are_found_as_in_a_slice(away, found):
+    results = of_amplitude(0.35)
+    results["normal_amplitude"] = results.normal_amplitude * (1.0 + away)
+    if found:
+        assert STATEMENTS["almost_a_factor_of_two"](results).holds
+    else:
+        with pytest.raises(LookupError, match="no normal_amplitude = 8/9"):
+            STATEMENTS["almost_a_factor_of_two"](results)
+
+
+@pytest.mark.parametrize(
+    ("places", "more", "coupled"),
+    [
+        (np.linspace(0.0, 2 * np.pi, 145), [1.5517, 2.6308, 2.6308 + np.pi, 2.631], "0.0%"),
+        (np.geomspace(0.002, 0.05, 201), [0.002377, 0.028078], "0.0%"),
+        ([0.0, 1.0], [0.3, 1.1], "10.0%"),
+    ],
+)
+def test_values_put_in_among_equal_steps_or_ratios_do_not_count(places, more, coupled):
+    """Only the values put in are coupled; without equal steps or ratios every value counts."""
+    results = made_up(
+        lambda profile, flat_radius, phase: np.exp(flat_radius * (1 + phase.isin(more))),
+        profile=["rounded_punch"],
+        flat_radius=[-1.0, 1.0],
+        phase=[*more, *places],
+    )
+    finding = STATEMENTS["rounded_punch_uncoupled"](results)
+    assert finding.holds == (coupled == "0.0%")
+    assert finding.measured.startswith(f"{coupled} of the variance")

@@ -12,8 +12,7 @@ from scenes import points, random_points
 from solved import solve_points
 
 import swtstudy
-from swtstudy import TabulatedProfile
-from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy import StudyError, TabulatedProfile
 
 Array = NDArray[np.float64]
 

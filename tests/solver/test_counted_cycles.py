@@ -6,12 +6,12 @@ import shutil
 
 import numpy as np
 import pytest
+import stand_in
 from numpy.testing import assert_allclose
 from real import ALUMINIUM, BODIES, STUDY, plain, without
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
-from swtstudy.runner.work import assess
 
 CONTACT = {
     "young_modulus": 73.1e3,
@@ -79,8 +79,7 @@ def test_other_constants_need_no_new_run(two, tmp_path) -> None:
     found = two[0]
     shutil.copy2(two[1], tmp_path)
     other = Study.from_text(TWO.replace("strength = 927", "strength = 700"))
-    assert assess(other, tmp_path / "a.nc").todo.sum() == 0
-    again = swtstudy.run(other, tmp_path / "a.nc")
+    again = swtstudy.run(other, tmp_path / "a.nc", solver=stand_in.none)
     weaker = FatigueConstants(73.1e3, 700.0, -0.113, 0.409, -0.713)
     for end in ("", "_volume", "_line"):
         expected = weaker.rounds(found[f"SWT{end}"], found.counted, found.counted_number)

@@ -8,23 +8,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from body import history_at, swt_at
-from click.testing import CliRunner
+from body import body_maximum, history_at, swt_at
+from command import call
 from drawn import draw
 from numpy.typing import NDArray
 from oracles.circle import hemisphere
 from scenes import plane_points, points, random_points, take
+from scipy.optimize import minimize
 from solved import Points, Solution, solve_points
+from stand_in import distinct
 
 import swtstudy
-from swtstudy.archive.parts import _LAYOUT
-from swtstudy.cli import main
-from swtstudy.fields.history import smallest_sphere
-from swtstudy.fields.one_point import read_point
-from swtstudy.paper.audit.body_maximum import body_maximum
-from swtstudy.points.grid import complete
-from swtstudy.solving import solve_grid
-from swtstudy.vocabulary.choices import CRITERIA
 
 Array = NDArray[np.float64]
 
@@ -49,11 +43,6 @@ def uniaxial(name: str, k: float, swing: Array, mean: float | Array = 0.0) -> Ar
     shear, tension = 0.5 * np.sin(2.0 * θ), np.cos(θ) ** 2
     pairs = np.broadcast(swing, mean)
     return np.array([(s * shear * (1.0 + k * max(s + m, 0.0) * tension)).max() for s, m in pairs])
-
-
-def test_each_table_of_criteria_has_the_same_ones_in_the_same_order() -> None:
-    """Their numbers in tables of points are those of their names."""
-    assert list(CRITERIA) == _LAYOUT["criteria"]
 
 
 @pytest.mark.parametrize("name", SHEAR)
@@ -162,21 +151,26 @@ def test_the_body_says_the_same_as_the_line_where_friction_rules() -> None:
         assert body.swt == pytest.approx(line.s[0], rel=2e-4)
 
 
-def test_crosslands_sphere() -> None:
-    rng = np.random.default_rng(3)
-    for dimension, count in itertools.product((2, 5, 6), (1, 2, 7, 40)):
-        cloud = rng.normal(size=(count, dimension))
-        centre, radius = smallest_sphere(cloud)
-        away = np.linalg.norm(cloud - centre, axis=1)
-        assert away.max() == pytest.approx(radius)
-        for scale in (1e-9, 1e9):
-            assert smallest_sphere(scale * cloud)[1] == pytest.approx(scale * radius)
-        on = cloud[away >= radius * (1.0 - 1e-9)]
-        # The smallest has its centre between the points on it.
-        assert len(on) >= min(count, 2)
-        for _ in range(200):
-            way = rng.normal(size=dimension)
-            assert ((on - centre) @ way).max() >= -1e-9
+def radius_of_smallest_sphere(cloud: Array) -> float:
+    """The least r² with |p − c|² ≤ r² of all points p, over centres c."""
+    start = cloud.mean(axis=0)
+    largest = ((cloud - start) ** 2).sum(axis=1).max()
+    around = {"type": "ineq", "fun": lambda v: v[-1] - ((cloud - v[:-1]) ** 2).sum(axis=1)}
+    found = minimize(lambda v: v[-1], [*start, largest], method="SLSQP", constraints=around, tol=1e-12)
+    return float(np.sqrt(found.x[-1]))
+
+
+@pytest.mark.parametrize("count", [1, 2, 7, 40])
+def test_crosslands_sphere(count: int) -> None:
+    """√J2,a is the radius of the smallest sphere around the deviator, of the norm √(s:s/2)."""
+    stress = np.random.default_rng(count).normal(size=(3, count, 6))
+    deviator = stress.copy()
+    deviator[..., :3] -= stress[..., :3].mean(axis=-1, keepdims=True)
+    deviator[..., :3] /= np.sqrt(2.0)
+    expected = [radius_of_smallest_sphere(cloud) for cloud in deviator]
+    for scale in (1e-9, 1.0, 1e9):
+        value, _ = swtstudy.criterion_of_history(scale * stress, "crossland", 0.0)
+        np.testing.assert_allclose(value, scale * np.array(expected), rtol=1e-6, atol=1e-7 * scale)
     torsion = np.zeros((64, 6))
     t = 2.0 * np.pi * np.arange(64) / 64
     torsion[:, 5] = 0.7 * np.sin(t)
@@ -300,8 +294,10 @@ def test_criteria_with_units() -> None:
         swtstudy.physical(**own, criterion="fatemi_socie", normal_sensitivity=0.3)
 
     constants = (swtstudy.FatigueConstants(210e3, 900.0, -0.1, 0.5, -0.6),) * 2
-    grid = replace(contact.grid, axes={**contact.grid.axes, "criterion": ("swt", "fatemi_socie")})
-    strong = solve_grid(replace(grid, yield_strengths=(400.0, 500.0), materials=constants), 1e-5)
+    both = swtstudy.physical(
+        **own, criterion=["swt", "fatemi_socie"], normal_sensitivity=0.3, yield_strength=[400.0, 500.0]
+    )
+    strong = both.solve(1e-5, constants=constants)
     for body, strength in ((1, 400.0), (2, 500.0)):
         fs = strong.sel(body=body, criterion="fatemi_socie")
         alone = swtstudy.solve(
@@ -350,7 +346,7 @@ def test_means_of_criteria_of_shear(name: str) -> None:
     """Values at the places of a Gauss rule, each the highest of random planes, averaged."""
     k, size = 0.5, 0.1
     found = swtstudy.solve(**STRIP, criterion=name, normal_sensitivity=k, critical_distance=size)
-    own = read_point({**STRIP, "criterion": name, "normal_sensitivity": k})
+    own = of_criterion(plane_points(**STRIP), name, k)
 
     def at(x: float, z: float) -> float:
         return highest_of_all_planes(name, k, history_at(own, x, 0.0, z))
@@ -422,14 +418,13 @@ hue = "criterion"
 def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Study file, archive, info, figure and page, in units."""
     (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")
-    runner = CliRunner()
 
-    def call(*words: object) -> str:
-        done = runner.invoke(main, [*map(str, words)])
+    def told(*words: object) -> str:
+        done = call(*words)
         assert done.exit_code == 0, done.output
         return done.output
 
-    call("run", tmp_path / "shear.toml", "--results", tmp_path, "--workers", "1")
+    told("run", tmp_path / "shear.toml", "--results", tmp_path, "--workers", "1")
     archive = tmp_path / "shear.nc"
     found = swtstudy.open_results(archive)
     for criterion, name, unit in (("fatemi_socie", "FS", "1"), ("findley", "findley_stress", "MPa")):
@@ -438,7 +433,7 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest
         value = found[name].sel(criterion=criterion, tangential_force_amplitude=60)
         assert float(value.squeeze()) == pytest.approx(float(alone[name].values.ravel()[0]), rel=1e-6)
         assert found[name].attrs.get("units", "1") == unit
-    assert "findley" in call("info", archive)
+    assert "findley" in told("info", archive)
     (upper, lower) = draw(found).axes
     assert upper.get_ylabel() == r"$\mathrm{FS}$"
     assert lower.get_ylabel() == "$f$ (MPa)"
@@ -446,7 +441,7 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest
         assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
     # Pictures of points take seconds.
     monkeypatch.setattr("swtstudy.reports.page.points_of", lambda *_: [])
-    call("report", archive, "-o", tmp_path / "shear.html")
+    told("report", archive, "-o", tmp_path / "shear.html")
     assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 
 
@@ -485,10 +480,8 @@ def test_a_point_by_criteria_of_shear_in_units() -> None:
 
 
 def test_swt_has_no_sensitivity_to_tell_points_apart() -> None:
-    names = {"criterion": ("swt", "findley"), "normal_sensitivity": (0.1, 0.3)}
-    rows, _ = complete({}, names).canonical(np.arange(4))
-    assert (rows[0] == rows[1]).all()
-    assert len({*map(tuple, rows)}) == 3
+    axes = 'criterion = ["swt", "findley"]\nnormal_sensitivity = [0.1, 0.3]'
+    assert distinct(swtstudy.Study.from_text(f'title = "t"\n[axes]\n{axes}\n')) == 3
 
 
 @pytest.mark.slow

@@ -11,12 +11,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scenes import points
+from scenes import TANGENTIAL_FORCE, points
 from solved import solve_points
 
 from studies.accuracy_speed.textbook import textbook_s
 from swtstudy import TabulatedProfile
-from swtstudy.vocabulary.parameters import Control
 
 # Profile, then ν, μ, δA/δ0, amplitude, ψ, p, q, the profile's lengths, and s.
 CASES = [
@@ -281,7 +280,7 @@ FACED = TabulatedProfile("faced", FACE, np.where(FACE > 0.5, (FACE - 0.5) ** 2 *
 def test_a_cusp_whose_instant_is_rounded_where_the_load_turns_is_one_cusp(rtol):
     # Told apart by rounding, two cusps hid the maximum beside them: 5e-4 too low. The value is that at 1e-7.
     one = points(FACED, 0.3824, 0.8762, 0.2162, 0.0722, 6.2122, 3, 2)
-    mixed = replace(one, control=Control(False, True))
+    mixed = replace(one, control=TANGENTIAL_FORCE)
     assert solve_points(mixed, rtol).s[0] == pytest.approx(0.171475262006, rel=rtol)
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from made_up import STATEMENTS
 from scenes import plane_points, points
 from solved import REGIMES, solve_points
 from soundness import SHAPES
 
 import swtstudy
-from swtstudy.paper.statements.statement import STATEMENTS
 
 IDLE = [
     {"poisson_ratio": 0.5, "friction": 0.0},

@@ -4,21 +4,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from body import DOWN, opened
 from scenes import points
 from scipy.integrate import simpson
 from solved import solve_points
 
 from swtstudy import TabulatedProfile
 from swtstudy.kernel import mean
-from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about, open_cycle
-from swtstudy.solver.means import DOWN
-from swtstudy.solver.points import arguments_of
-
-
-def opened(batch):
-    """The load cycle of a batch of one point."""
-    return open_cycle(**arguments_of(batch))
-
+from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about
 
 #: Means of monomials in the offsets over a half sphere of radius 1.
 MOMENTS = {

@@ -11,12 +11,11 @@ import math
 
 import numpy as np
 import pytest
+from body import dense_maximum
 from scenes import points
 from solved import solve_points
 
 import swtstudy
-from swtstudy.fields.one_point import read_point
-from swtstudy.paper.audit.dense import dense_maximum
 
 CASES = [
     (
@@ -490,14 +489,14 @@ def test_a_bulk_stress_of_next_to_nothing_changes_nothing(number):
 
 def test_the_dense_look_finds_them_too():
     point, ratio, s = CASES[0]
-    swt, x = dense_maximum(read_point({**point, "frequency_ratio": ratio}), steps=100, planes=32)
+    swt, x = dense_maximum(points(**point, p=int(ratio)), steps=100, planes=32)
     assert swt == pytest.approx(s, rel=1e-6)
     assert abs(x) == pytest.approx(0.978799, abs=1e-5)
 
 
 def test_the_dense_look_knows_a_closed_form():
     """A constant normal load: the edge of the contact, 0.155137 being the value at Table 1 with ψ = 0."""
-    still = read_point({"normal_amplitude": 0.0})
+    still = points(normal_amplitude=0.0)
     u, ν, μ = 5 / 6, 0.3, 0.3
     θ = np.arcsin(np.sqrt(1 - u))
     i, j = (np.pi / 2 - θ) / 2 + np.sin(2 * θ) / 4, (np.pi / 2 - θ) / 8 + np.sin(4 * θ) / 32

@@ -9,23 +9,14 @@ import pytest
 from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
-from scenes import PLANE_NAMES, plane_points
+from scenes import plane_points
 from solved import solve_points
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
-from swtstudy.profiles.at_rest import AtRest, check_shape
-from swtstudy.vocabulary.choices import FAMILIES, PLANE
-from swtstudy.vocabulary.parameters import Control
 
 Array = NDArray[np.float64]
-FORCES = Control(True, True)
 MEAN = 0.25 * np.pi
-every_strip = pytest.mark.parametrize("strip", STRIPS, ids=str)
-
-
-def profile_of(strip: Strip) -> AtRest:
-    return AtRest(strip.profile, strip.shape)
 
 
 def solved(**given: Any) -> Any:
@@ -33,50 +24,11 @@ def solved(**given: Any) -> Any:
     return swtstudy.solve(**own)
 
 
-def test_each_plane_family_has_an_oracle_and_says_that_it_is_one() -> None:
-    assert {strip.profile for strip in STRIPS} == {*PLANE_NAMES}
-    for name, family in FAMILIES.items():
-        assert AtRest(name, dict.fromkeys(family.shape, 2.5)).plane == (family.geometry == PLANE)
-
-
-@every_strip
-def test_loads_and_slopes(strip: Strip) -> None:
-    profile = profile_of(strip)
-    widest = float(profile.radius(np.array([[1.8]]))[0, 0])
-    radius = strip.flat + (widest - strip.flat) * np.array([1e-3, 0.02, 0.3, 0.7, 1.0])
-    load = np.array([strip.load(xi) for xi in radius])
-    np.testing.assert_allclose(profile.depth(radius[None])[0], load / MEAN, rtol=1e-9, atol=1e-13)
-    np.testing.assert_allclose(profile.half_load(radius[None])[0], 0.5 * load, rtol=1e-9, atol=1e-13)
-    rise = np.sqrt((radius - strip.flat) * (radius + strip.flat))
-    slope = np.array([strip.slope(xi) for xi in radius])
-    np.testing.assert_allclose(MEAN * profile.density(rise[None])[0], slope * rise / radius, rtol=1e-9)
-    for given, inverse in ((profile.depth, profile.radius), (profile.half_load, profile.radius_at)):
-        found = inverse(given(radius[None]))[0]
-        np.testing.assert_allclose(np.sqrt((found - strip.flat) * (found + strip.flat)), rise, rtol=2e-7)
-
-
-@every_strip
-def test_pressure(strip: Strip) -> None:
-    profile = profile_of(strip)
-    b, widest = strip.flat, profile.radius(np.array([[1.8]]))
-    share = np.array([-0.5, 0.05, 0.4, 0.9]) if b else np.array([0.05, 0.4, 0.9])
-    x = b + (widest[0] - b) * share
-    x = x[x > 0.0]
-    expected = [strip.outer(each, float(widest[0, 0])) / np.pi for each in x]
-    np.testing.assert_allclose(profile.pressure(x[None], widest)[0], expected, rtol=1e-8, atol=1e-9)
-
-
 @pytest.mark.parametrize("b", [0.0, 0.5])
 @pytest.mark.parametrize("count", [60, 500])
 def test_a_table_is_what_it_is_a_table_of(b: float, count: int) -> None:
     x = np.linspace(0.0, 2.0, count)
     table = TabulatedProfile("mine", x, 0.5 * np.maximum(x - b, 0.0) ** 2, geometry="plane")
-    own, exact = AtRest(table), AtRest("rounded_flat", {"flat_half_width": b})
-    radius = b + np.linspace(0.05, 1.2, 30)[None]
-    for name in ("depth", "half_load"):
-        np.testing.assert_allclose(getattr(own, name)(radius), getattr(exact, name)(radius), atol=2e-7)
-    edge = np.array([[1.5]])
-    np.testing.assert_allclose(own.pressure(radius, edge), exact.pressure(radius, edge), atol=1e-5)
     given = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3, "phase": 1.0, "rtol": 1e-5}
     s, closed = (
         float(swtstudy.solve(**given, **shape).s)
@@ -308,20 +260,3 @@ def test_it_shares_an_axis_with_discs() -> None:
         phase=1,
     )
     assert float(plain.s) == float(both.s.sel(profile="cylinder"))
-
-
-@pytest.mark.parametrize("height", [0.002, 0.05])
-def test_waves_are_compact_while_the_load_rises(height: float) -> None:
-    """N′ ≥ 0 is 1 + h k² J₀ ≥ 0, h k² below 2.48; the least wavelength is said where it is refused."""
-    least = 2.0 * np.pi / np.sqrt(2.4829)
-    for share, refused in ((1.002, False), (0.998, True)):
-        shape = {"waviness_amplitude": height, "wavelength": share * least}
-        wrong = check_shape("wavy_cylinder", shape, 2.5)
-        assert (wrong is not None) == refused
-        assert not refused or "below 3.988, " in str(wrong)
-        assert not refused or "up to the load 2.5 P0" in str(wrong)
-        if not refused:
-            slope = np.diff(
-                profile_of(Strip("wavy_cylinder", shape, float)).depth(np.linspace(0, 1.5, 4000)[None])
-            )
-            assert (slope > 0.0).all()

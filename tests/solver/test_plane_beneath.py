@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from body import swt_at
+from body import DOWN, body_maximum, opened, swt_at
 from numpy.typing import NDArray
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from solved import solve_points
 
-from swtstudy.kernel.field import mean_about, open_cycle
+from swtstudy.kernel.field import mean_about
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
-from swtstudy.paper.audit.body_maximum import body_maximum
-from swtstudy.solver.means import DOWN
-from swtstudy.solver.points import arguments_of
 
 Array = NDArray[np.float64]
 NU = 0.3
@@ -60,10 +57,10 @@ def test_means_in_the_section(name: str, shape: dict[str, float]) -> None:
     batch = plane_points(name, NU, 0.6, 0.0, 0.5, bulk_stress_amplitude=0.05, **shape)
     found = solve_points(batch)
     x = float(found.critical_x[0])
-    opened = open_cycle(**arguments_of(batch))
+    cycle = opened(batch)
 
     def mean(kind: int, size: float) -> tuple[float, float]:
-        return mean_about(opened, kind, x, DOWN, size, 0.0, 1e-3)
+        return mean_about(cycle, kind, x, DOWN, size, 0.0, 1e-3)
 
     node, weight = np.polynomial.legendre.leggauss(10)
     node, weight = 0.5 * (1.0 + node), 0.5 * weight

@@ -10,11 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, take
+from scenes import PLANE_NAMES, PROFILE_NAMES, plane_points, points, shape_of, take
 from solved import Points, solve_points
 from soundness import RTOL, close, sound
-
-from swtstudy.vocabulary.choices import FAMILIES
 
 Array = NDArray[np.float64]
 
@@ -44,7 +42,7 @@ def single_points(draw: st.DrawFn, names: tuple[str, ...] = (*PROFILE_NAMES, *PL
         "flat_radius": between(0.0, 3.0),
         "flat_half_width": between(0.0, 3.0),
     }
-    shape = {name: draw(ranges[name]) for name in FAMILIES[profile].shape}
+    shape = {name: draw(ranges[name]) for name in shape_of(profile)}
     p, q = draw(pairs)
     if profile in PLANE_NAMES:
         normal = draw(between(0.0, 0.95))

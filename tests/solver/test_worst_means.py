@@ -9,15 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from asking import study
+from body import DOWN, opened, worst_means
 from numpy.testing import assert_allclose
 from scenes import plane_points, points
 from solved import solve_points
 
 import swtstudy
-from swtstudy.kernel.field import direction_at, largest_radius, mean_about, open_cycle
+from swtstudy.kernel.field import direction_at, largest_radius, mean_about
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
-from swtstudy.solver.means import DOWN, worst_means
-from swtstudy.solver.points import arguments_of
 
 #: Beside a jump of the critical point, of the contact of studies/life.toml.
 JUMP = {"poisson_ratio": 0.33, "friction": 0.5, "normal_amplitude": 0.31}
@@ -60,12 +59,12 @@ ELSEWHERE = {
 def test_no_mean_about_another_place_is_larger(name: str) -> None:
     batch, distance = ELSEWHERE[name], 0.06
     found = worst_means(batch, solve_points(batch), np.array([distance]))
-    opened = open_cycle(**arguments_of(batch))
-    end = largest_radius(opened) + distance
+    cycle = opened(batch)
+    end = largest_radius(cycle) + distance
     for place in np.arange(-end, end, 0.5 * distance):
-        for way, direction in enumerate((DOWN, direction_at(opened, place))):
+        for way, direction in enumerate((DOWN, direction_at(cycle, place))):
             volume, point, line = (
-                mean_about(opened, kind, place, direction, distance, 0.0, 1e-2)[0]
+                mean_about(cycle, kind, place, direction, distance, 0.0, 1e-2)[0]
                 for kind in (SPHERE, POINT, LINE)
             )
             assert volume < 1.01 * found["volume"][0, 0]

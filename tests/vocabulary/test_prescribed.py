@@ -7,14 +7,12 @@ import re
 import numpy as np
 import pytest
 import stand_in
-from click.testing import CliRunner
+from command import call
+from made_up import save
 from solved import REGIMES
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.merge import ConflictError, merge
-from swtstudy.cli import main
-from swtstudy.points.reading import read_grid
 
 FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
 SHAPES = {
@@ -95,11 +93,11 @@ def test_a_run_keeps_what_has_no_equilibrium_and_says_what_is_prescribed(tmp_pat
 
     again = run(Study.from_text(STUDY.format(normal=0.4)), path, solver=fail, workers=1)
     np.testing.assert_array_equal(again.s, found.s)
-    shown = CliRunner().invoke(main, ["info", str(path)]).output
+    shown = call("info", path).output
     assert re.search(r"prescribed +forces", shown)
     assert "2 no_equilibrium" in shown
     (tmp_path / "forces.toml").write_text(STUDY.format(normal=0.4))
-    planned = CliRunner().invoke(main, ["plan", str(tmp_path / "forces.toml")]).output
+    planned = call("plan", tmp_path / "forces.toml").output
     assert re.search(r"prescribed +forces", planned)
 
 
@@ -108,18 +106,16 @@ def test_archives_that_prescribe_different_things_are_not_merged(tmp_path) -> No
     for number, text in enumerate(texts):
         run(Study.from_text(text), tmp_path / f"{number}.nc", solver=stand_in.smooth, workers=1)
     words = r"forces in .*0\.nc, normal_force\+tangential_displacement in .*1\.nc"
-    with pytest.raises(ConflictError, match=words):
-        merge([tmp_path / "0.nc", tmp_path / "1.nc"])
+    answer = call("merge", tmp_path / "0.nc", tmp_path / "1.nc", "-o", tmp_path / "both.nc")
+    assert answer.exit_code == 2
+    assert re.search(words, answer.output)
 
 
 def test_an_archive_whose_control_contradicts_its_parameters_is_refused(tmp_path) -> None:
-    from swtstudy.archive.netcdf import save
-    from swtstudy.archive.paths import ArchiveError
-
     path = tmp_path / "forces.nc"
     run(Study.from_text(STUDY.format(normal=0.4)), path, solver=stand_in.smooth, workers=1)
     save(open_results(path).assign_coords(control="displacements"), path)
-    with pytest.raises(ArchiveError, match="control: found 'displacements'; allowed: 'forces'"):
+    with pytest.raises(ValueError, match="control: found 'displacements'; allowed: 'forces'"):
         open_results(path)
 
 
@@ -147,7 +143,7 @@ def test_waves_are_refused_at_the_depth_that_a_force_reaches() -> None:
     waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 10.0, "wavelength": 3.49}
     with pytest.raises(StudyError, match=r"wavelength 3\.49 is below .* up to the depth 1.4 δ0"):
         swtstudy.solve(**waves, normal_amplitude=0.4)
-    assert read_grid({**waves, "normal_force_amplitude": 0.4}, {})[1] == []
+    assert swtstudy.solve(**waves, normal_force_amplitude=0.4, rtol=0.1).s > 0.0
     with pytest.raises(StudyError, match=r"wavelength 3\.49 is below .* up to the depth 1.58618 δ0"):
         swtstudy.solve(**waves, normal_force_amplitude=1.0)
 

@@ -7,11 +7,10 @@ from pathlib import Path
 
 import pytest
 import stand_in
-from click.testing import CliRunner
+from command import call
 
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.parts import kept_folder, known_points, parts_folder, save_part
-from swtstudy.cli import main
 from swtstudy.vocabulary.files import replacing, write_text
 
 STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
@@ -25,7 +24,7 @@ def computed(folder: Path, text: str = STUDY, **kwargs: object) -> Path:
 
 
 def refused(*arguments: object) -> str:
-    result = CliRunner().invoke(main, [*map(str, arguments)])
+    result = call(*arguments)
     assert result.exit_code == 2, (result.output, result.exception)
     assert isinstance(result.exception, SystemExit)
     return result.output
@@ -96,7 +95,7 @@ def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
     assert path.is_symlink()
     assert open_results(far / "mine.nc").s.size == 3
     (tmp_path / "merged.nc").symlink_to(far / "kept.nc")
-    result = CliRunner().invoke(main, ["merge", str(path), "-o", str(tmp_path / "merged.nc")])
+    result = call("merge", path, "-o", tmp_path / "merged.nc")
     assert result.exit_code == 0, result.output
     assert (tmp_path / "merged.nc").is_symlink()
     assert open_results(far / "kept.nc").s.size == 3
@@ -119,7 +118,7 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
         patch.setattr("swtstudy.vocabulary.files._sync", full)
         assert "mine.toml" in refused("new", tmp_path / "mine")
     assert list(tmp_path.iterdir()) == []
-    assert CliRunner().invoke(main, ["new", str(tmp_path / "mine")]).exit_code == 0
+    assert call("new", tmp_path / "mine").exit_code == 0
     before = (tmp_path / "mine.toml").read_text()
     assert "already exists" in refused("new", tmp_path / "mine")
     assert (tmp_path / "mine.toml").read_text() == before
@@ -127,7 +126,7 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
     schema.unlink()
     with monkeypatch.context() as patch:
         patch.setattr("swtstudy.study.schema.schema_text", lambda: "\ud800")  # that cannot be written
-        CliRunner().invoke(main, ["new", str(tmp_path / "other")])
+        call("new", tmp_path / "other")
     assert not schema.exists()
 
 
@@ -158,7 +157,7 @@ def test_a_file_that_is_no_style_is_refused(tmp_path: Path, content: str, words:
     assert "not a regular file" in refused("plot", path, "--style", tmp_path / "pipe")
     sound = 'axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\ntext.color: "#ff0000"\n'
     (tmp_path / "mine.mplstyle").write_text(sound)
-    result = CliRunner().invoke(main, ["plot", str(path), "--style", str(tmp_path / "mine.mplstyle")])
+    result = call("plot", path, "--style", tmp_path / "mine.mplstyle")
     assert result.exit_code == 0, result.output
 
 

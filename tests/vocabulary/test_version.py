@@ -1,11 +1,14 @@
 """Changed values of s need a new version of the solver: archives of different versions never mix."""
 
+import json
+
 import numpy as np
 import pytest
+import stand_in
 from scenes import points, random_points
 from solved import solve_points
 
-from swtstudy.vocabulary.version import SOLVER_VERSION
+from swtstudy import Study, run
 
 PSI = np.array([0.0, 0.7, 2.1])
 CASES = {
@@ -31,8 +34,13 @@ VALUES: dict[str, list[float]] = {
 }
 
 
+def test_an_archive_names_the_version_of_these_values(tmp_path) -> None:
+    study = Study.from_text('title = "t"\n[axes]\nphase = [0, 1]\n')
+    found = run(study, tmp_path / "t.nc", solver=stand_in.smooth, workers=1)
+    assert json.loads(found.attrs["runs"])[0]["solver_version"] == VERSION
+
+
 @pytest.mark.parametrize("case", CASES)
 def test_values_are_those_of_their_version(case: str) -> None:
     found = solve_points(CASES[case], 1e-4)
-    assert SOLVER_VERSION == VERSION
     assert np.all(np.abs(found.s - VALUES[case]) <= 0.1 * found.s_error)

@@ -160,4 +160,4 @@ def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
         elif sense <= 0 and value - values[low] >= smallest_swing:
             found.append(low)
             sense, high = 1, index
-    return [index for index in found if 0 < index < len(values) - 1]
+    return [index for index in found if index > 0]

@@ -102,7 +102,10 @@ def period_shrinks(*archives: xr.Dataset) -> Measured:
     ratios = sorted(found)
     periods = [found[ratio] for ratio in ratios]
     never_longer = all(b <= a or math.isclose(a, b) for a, b in itertools.pairwise(periods))
-    words = (f"{value_words('frequency_ratio', r)}: {value_words('phase', found[r])}" for r in ratios)
+    words = (
+        f"{value_words('frequency_ratio', ratio)}: {value_words('phase', p) if p < math.inf else 'none'}"
+        for ratio, p in zip(ratios, periods, strict=True)
+    )
     return never_longer and periods[-1] < periods[0], {"periods": ", ".join(words)}
 
 
