@@ -125,7 +125,7 @@ def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Fig
             axes.set(xlabel="points of the table", title=title, ylim=(0.5 * SMALLEST, 3e-2))
         panels[0, 2].set_xlabel(r"noise and smoothing, in $\delta_0$")
         panels[0, 0].set_ylabel("relative error of $s$")
-        add_legend(figure, panels)
+        add_legend(figure)
     return figure
 
 

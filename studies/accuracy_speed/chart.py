@@ -65,7 +65,7 @@ def chart(table: Path) -> Figure:
             axes.tick_params(labelbottom=True)
         for axes in panels[:, 0]:
             axes.set_ylabel("relative error of $s$")
-        add_legend(figure, panels[:1, :1])
+        add_legend(figure)
     return figure
 
 

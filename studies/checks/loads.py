@@ -133,7 +133,7 @@ def draw(found: dict[str, Array], counts: tuple[int, ...], path: Path) -> None:
             axes.set_xticks(counts, map(str, counts))
             axes.minorticks_off()
         panels[0, 0].set_ylabel("relative difference of $s$")
-        add_legend(figure, panels)
+        add_legend(figure)
     save_figure(figure, path)
 
 

@@ -56,7 +56,7 @@ def main() -> None:
         panels[0].set_ylabel("$s$; bands: 10 to 90 %")
         for axes in panels[1:]:
             axes.tick_params(labelleft=False)
-        add_legend(figure, np.array(panels))
+        add_legend(figure)
     save_figure(figure, given.results / "which_parameters.png")
 
 

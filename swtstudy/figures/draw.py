@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import xarray as xr
 
+from swtstudy.archive.attributes import defined_in
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, check_width, wrap_texts
 from swtstudy.figures.style import Style, styled
-from swtstudy.figures.surfaces import draw_surfaces, mark_borders, mark_cells
+from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
 from swtstudy.loads.loop import Loop
 from swtstudy.points.grid import SAMPLE
@@ -70,6 +70,11 @@ def draw(
         raise StudyError(mistakes)
     with styled(style, width):
         figure = _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout, width)
+        if layout.title:
+            figure.suptitle(layout.title)
+        loads = defined_in(dataset.attrs).get("load", {}) if layout.hue == "load" else {}
+        loops = {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, Loop)}
+        add_legend(figure, loops)
         wrap_texts(figure)
     return figure
 
@@ -127,7 +132,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             for one, panel in zip(axes[row], panels, strict=True):
                 draw_lines(one, panel, y, layout, scale)
         else:
-            _draw_maps(figure, axes[row], panels, layout, values.name, words)
+            draw_maps(figure, axes[row], panels, layout, values.name, words)
         across = axis_words(layout.x, dataset[layout.x].attrs)
         if upright:
             across, words = words, across
@@ -143,26 +148,9 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             title = [title_words(values, y)] if len(layout.y) > 1 else []
             place = [part_words(part, layout.panels)] if layout.panels else []
             one.set_title(f"{letter}  {',  '.join([*title, *place])}".strip(), loc="left")
-    if layout.title:
-        figure.suptitle(layout.title)
     if scale and layout.hue:
         add_scale(figure, axes, scale, dataset[layout.hue])
-    add_legend(figure, axes, loops_of(dataset) if layout.hue == "load" else {})
     return figure
-
-
-def _draw_maps(
-    figure: Figure, axes: Any, panels: list[xr.Dataset], layout: FigureLayout, name: object, words: str
-) -> None:
-    """A row of contours or cells with their marks."""
-    flat = [panel.transpose(layout.vertical, layout.x) for panel in panels]
-    if layout.regimes:
-        for one, panel in zip(axes, flat, strict=True):
-            mark_borders(one, panel.regime)
-    draw_surfaces(figure, axes, [panel.value.rename(name) for panel in flat], layout.kind, words)
-    if layout.validity:
-        for one, panel in zip(axes, flat, strict=True):
-            mark_cells(one, panel, layout.kind)
 
 
 def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) -> xr.Dataset:
@@ -177,11 +165,3 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
         require(dataset, "s")
         shown["outside"] = outside(dataset, values)
     return xr.Dataset({name: values for name, values in shown.items() if values is not None})
-
-
-def loops_of(dataset: xr.Dataset) -> dict[str, Loop]:
-    """The loops among the loads of results, by the words of their lines."""
-    from swtstudy.archive.attributes import defined_in
-
-    loads = defined_in(dataset.attrs).get("load", {})
-    return {name.replace("_", " "): load for name, load in loads.items() if isinstance(load, Loop)}

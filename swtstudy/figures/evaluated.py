@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.style import COLOURS, Style, stroke, styled
@@ -33,41 +32,32 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
     """
     axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
     columns = indices.stack(place=axes).transpose("place", ...) if axes else indices.expand_dims("place")
-    size = (1.0 + 0.75 * indices.sizes["parameter"], 3.0)
-    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, size)
+    count, at = indices.sizes["parameter"], np.arange(indices.sizes["parameter"])
+    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, (1.0 + 0.75 * count, 3.0))
     with styled(style, width):
         figure = sheet.figure()
         panels = sheet.panels(figure, share_y="all")
-        for row, line in enumerate(panels):
-            for column, panel in enumerate(line):
-                _draw_one(panel, columns.isel(quantity=row, place=column), column % sheet.across == 0)
-                where = {name: columns[name] for name in axes} if row == 0 else {}
-                places = [place_words(name, each.values[column], each.attrs) for name, each in where.items()]
-                panel.set_title(", ".join(places), loc="left")
+        for (row, column), panel in np.ndenumerate(panels):
+            one = columns.isel(quantity=row, place=column)
+            for number, (key, words) in enumerate(_WORDS.items()):
+                value, low, high = (one[f"{key}{end}"].values for end in ("", "_low", "_high"))
+                error, places = np.maximum([value - low, high - value], 0.0), at + 0.4 * (number - 0.5)
+                # A legend would not know the line style of a container of bars.
+                panel.bar(places, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
+                look = stroke(dashes="none", elinewidth=1.2, capsize=2.5)
+                panel.errorbar(places, value, error, **look)
+            panel.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
+            panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
+            panel.grid(False, axis="x")
+            if column % sheet.across == 0:
+                panel.set_ylabel(f"share of the variance of {one.quantity.item()}".replace("_", " "))
+            where = [place_words(name, columns[name][column].item(), columns[name].attrs) for name in axes]
+            panel.set_title(", ".join(where if row == 0 else []), loc="left")
         title = str(indices.attrs["title"])
         figure.suptitle(as_text(title) if wrong_formula(title) else title)
-        add_legend(figure, panels)
+        add_legend(figure)
         wrap_texts(figure)
     return figure
-
-
-def _draw_one(axes: Axes, indices: xr.Dataset, first: bool) -> None:
-    names = indices.parameter.values.tolist()
-    places = np.arange(len(names))
-    for number, (key, words) in enumerate(_WORDS.items()):
-        value, low, high = (indices[f"{key}{end}"].values for end in ("", "_low", "_high"))
-        error = np.maximum([value - low, high - value], 0.0)
-        at = places + 0.4 * (number - 0.5)
-        # A legend would not know the line style of a container of bars.
-        axes.bar(at, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
-        axes.errorbar(
-            at, value, error, linestyle="none", marker="", color="black", elinewidth=1.2, capsize=2.5
-        )
-    axes.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
-    axes.set_xticks(places, [f"${symbol}$" for symbol in indices.symbol.values])
-    axes.grid(False, axis="x")
-    if first:
-        axes.set_ylabel(f"share of the variance of {indices.quantity.item()}".replace("_", " "))
 
 
 def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:

@@ -24,6 +24,7 @@ from swtstudy.figures.words import (
     tick_in_pi,
     tick_in_ratios,
 )
+from swtstudy.results.evaluate import words_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import WITHOUT_S
@@ -103,7 +104,8 @@ def draw_lines(
         axes.text(0.5, 0.5, "no value", ha="center", va="center", color="0.3", transform=axes.transAxes)
     _scale_axes(axes, panel[layout.x].values, panel.value, layout)
     if layout.regimes:
-        _shade_without(axes, panel[layout.x].values, [_names(part.regime) for part in parts])
+        regimes = [words_of(part, "regime").values.tolist() for part in parts]
+        _shade_without(axes, panel[layout.x].values, regimes)
 
 
 def _draw_line(
@@ -145,7 +147,7 @@ def _draw_line(
         shade: dict[str, Any] = {"facecolor": to_rgba(colour, 0.18), "edgecolor": to_rgba(colour, 0.6)}
         fill(x, part.early.values, part.late.values, linewidth=0.6, label="10 to 90 % fail", **shade)
     if layout.regimes:
-        _mark_regimes(axes, x, curve, _names(part.regime))
+        _mark_regimes(axes, x, curve, words_of(part, "regime").values.tolist())
 
 
 def may_jump(name: str) -> bool:
@@ -176,14 +178,8 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     return np.flatnonzero((np.abs(step) > 0.02 * np.ptp(known)) & (np.abs(step) > 3.0 * beside)) + 1
 
 
-def _names(regime: xr.DataArray) -> list[str | None]:
-    """Regimes by name; None where unknown."""
-    names = regime.attrs["flag_meanings"].split()
-    return [names[int(value)] if np.isfinite(value) else None for value in regime.values]
-
-
-def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str | None]) -> None:
-    """Mark the points of a line where the regime changes; there is one for each point, None if unknown."""
+def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str]) -> None:
+    """Mark the points of a line where the regime changes; there is one for each point, empty if unknown."""
     for place in range(1, len(regimes)):
         before, name = regimes[place - 1 : place + 1]
         if name and before and name != before:
@@ -195,7 +191,7 @@ def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[st
             axes.plot([x[at]], [s[at]], marker=marker, markersize=size, zorder=4, label=words, **look)
 
 
-def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]]) -> None:
+def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str]]) -> None:
     """Shade the end of a panel where no line has a value, and say why; x is ascending."""
     without = np.array([all(name in WITHOUT_S for name in names) for names in zip(*regimes, strict=True)])
     if not without[-1] or without.all():
@@ -203,7 +199,7 @@ def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str | None]])
     low, (first, high) = float(x[np.flatnonzero(~without)[-1]]), axes.get_xlim()
     axes.axvspan(low, high, color="0.93", zorder=0)
     middle = (low * high) ** 0.5 if axes.get_xscale() == "log" else 0.5 * (low + high)
-    words = " or ".join(dict.fromkeys(str(line[-1]).replace("_", " ") for line in regimes))
+    words = " or ".join(dict.fromkeys(line[-1].replace("_", " ") for line in regimes))
     turn = 0 if high - low > 0.3 * (high - first) else 90
     look: dict[str, Any] = {"ha": "center", "va": "center", "color": "0.3", "fontsize": "small"}
     axes.text(middle, 0.5, words, rotation=turn, transform=axes.get_xaxis_transform(), **look)

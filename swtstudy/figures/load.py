@@ -59,11 +59,22 @@ def draw_load(
     loops = {str(load): load for load in study.grid.loops}
     if name not in loops:
         raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
-    loads = _loads(study, loops[name])
+    grid = study.grid
+    # Loads are drawn as forces or displacements; one that rests is what its mean is given as.
+    moves = any(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
+    rests_as_force = not moves and bool(grid.values("normal_force"))
+    control = replace(grid.control, normal_force=True) if rests_as_force else grid.control
+    names = (control.given_for("normal_amplitude"), control.given_for("tangential_amplitude"))
+    labels = (grid.row(each).units for each in (*names, "bulk_stress_amplitude"))
+    units = ["" if label in ("", "1") else f" ({as_text(label)})" for label in labels]
+    loads = _loads(study, loops[name], "normal_force" if control.normal_force else "depth")
     if signal is not None and signal.is_absolute:
-        loads = _at_begin(loads, signal.mean_cycle)  # a polygon begins at another vertex than its record
-    phase = np.linspace(0.0, 1.0, len(loads))
-    forces, units = _control(study) == Control(True, True), _units(study)
+        # A polygon begins at another vertex than its record: it is turned to the begin of a mean cycle.
+        size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
+        first = int((((loads[:-1] - signal.mean_cycle[0]) / size) ** 2).sum(axis=1).argmin())
+        rolled = np.roll(loads[:-1], -first, axis=0)
+        loads = np.concatenate([rolled, rolled[:1]])
+    phase, forces = np.linspace(0.0, 1.0, len(loads)), control == Control(True, True)
     # Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0.
     slope = _first(study, "friction", 1.0) if any(units) else 1.0
     with styled(style, width):
@@ -78,7 +89,13 @@ def draw_load(
             ends = np.array([0.0, 1.05 * loads[:, 0].max()])
             for sign in (1.0, -1.0):
                 path.plot(ends, sign * slope * ends, **stroke("0.5", "--", linewidth=0.8))
-            _draw_margin(margin[0], phase, loads, slope, f" at $\\mu$ = {slope:g}" * any(units))
+            with np.errstate(divide="ignore", invalid="ignore"):
+                share = np.abs(loads[:, 1]) / (slope * loads[:, 0])
+            margin[0].plot(phase, share, **stroke("C3"))
+            margin[0].axhline(1.0, color="0.5", lw=0.8, ls="--")
+            margin[0].set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
+            which = f" at $\\mu$ = {slope:g}" * any(units)
+            margin[0].set_title(f"friction, at most {np.nanmax(share):.2f}{which}", loc="left")
         figure.suptitle(as_text(f"{name}: {signal.words}" if signal else name))
         wrap_texts(figure)
     return figure
@@ -89,28 +106,12 @@ def _first(study: Study, name: str, otherwise: float) -> float:
     return as_number(values[0]) if values else otherwise
 
 
-def _control(study: Study) -> Control:
-    """Which loads are drawn as forces; one that rests is what its mean is given as."""
-    grid, control = study.grid, study.grid.control
-    moves = any(map(as_number, grid.values(control.given_for("normal_amplitude"))))
-    return control if moves or not grid.values("normal_force") else replace(control, normal_force=True)
-
-
-def _units(study: Study) -> list[str]:
-    """Units of both loads and of the bulk stress as words of a figure; empty where there are none."""
-    given = _control(study).given_for
-    names = (given("normal_amplitude"), given("tangential_amplitude"), "bulk_stress_amplitude")
-    labels = (study.grid.row(name).units for name in names)
-    return ["" if label in ("", "1") else f" ({as_text(label)})" for label in labels]
-
-
-def _loads(study: Study, loop: Loop) -> FloatArray:
+def _loads(study: Study, loop: Loop, mean_name: str) -> FloatArray:
     """Both loads and the bulk stress over a cycle, the first instant again at the end, shape (k, 2 or 3)."""
     grid, course = study.grid, loop.course()
     # The mean normal load that a study has with a loop; 1 where nothing has units.
-    kind = "normal_force" if _control(study).normal_force else "depth"
-    means = grid.values(kind)
-    along = len(means) > 1 and grid.dimension(kind) == "load"
+    means = grid.values(mean_name)
+    along = len(means) > 1 and grid.dimension(mean_name) == "load"
     mean = as_number(means[list(grid.values("load")).index(loop) if along else 0]) if means else 1.0
     names = [grid.control.given_for(f"{each}_amplitude") for each in ("normal", "tangential")]
     factors = [_first(study, each, 1.0) for each in (*names, "bulk_stress_amplitude")]
@@ -134,21 +135,3 @@ def _draw_course(
     axes.set(xlabel="share of a cycle", ylabel="loads")
     axes.set_title("course", loc="left")
     axes.legend(frameon=False)
-
-
-def _draw_margin(axes: Axes, phase: FloatArray, loads: FloatArray, slope: float, which: str) -> None:
-    """|Q|/(μP) over the cycle."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        margin = np.abs(loads[:, 1]) / (slope * loads[:, 0])
-    axes.plot(phase, margin, **stroke("C3"))
-    axes.axhline(1.0, color="0.5", lw=0.8, ls="--")
-    axes.set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
-    axes.set_title(f"friction, at most {np.nanmax(margin):.2f}{which}", loc="left")
-
-
-def _at_begin(loads: FloatArray, cycle: FloatArray) -> FloatArray:
-    """The closed load path, started at the vertex nearest to the first sample of the cycle."""
-    size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
-    first = int((((loads[:-1] - cycle[0]) / size) ** 2).sum(axis=1).argmin())
-    rolled = np.roll(loads[:-1], -first, axis=0)
-    return np.concatenate([rolled, rolled[:1]])

@@ -110,9 +110,8 @@ def draw_inspection(
     with styled(style, width):
         figure = sheet.figure()
         own = sheet.panels(figure, share_x="none", share_y="none")[0]
-        for axes, (draw, of), letter in zip(own, panels.items(), "ABCDEFGHI", strict=False):
+        for axes, draw, letter in zip(own, panels, "ABCDEFGHI", strict=False):
             draw(axes, dataset, labels)
-            show_units(axes, of, labels)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset, labels, headlines))
         wrap_texts(figure)
@@ -120,7 +119,15 @@ def draw_inspection(
 
 
 def _headline(dataset: xr.Dataset, labels: Labels, headlines: tuple[str, tuple[str, ...]] | None) -> str:
-    given, validity = headlines or (_given(dataset), validity_lines(dataset))
+    if headlines is None:
+        profile = str(dataset.profile.item())
+        names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
+        # A loop has neither a frequency nor a phase.
+        lacking = ("frequency_ratio", "phase") if "load" in dataset.coords else ()
+        names = ["profile", *(n for n in names if n in dataset.coords and n not in lacking)]
+        words = (place_words(name, dataset[name].item()) for name in names)
+        headlines = ",  ".join(words), validity_lines(dataset)
+    given, validity = headlines
     regime = REGIMES[int(dataset.regime)].replace("_", " ")
     found = f"$s$ = {float(dataset.s):.4f},  {regime}"
     if "s_local" in labels:
@@ -129,16 +136,6 @@ def _headline(dataset: xr.Dataset, labels: Labels, headlines: tuple[str, tuple[s
     if not math.isfinite(float(dataset.s)):
         found = "$s$ is not finite: swt grows without bound towards the edge"
     return "\n".join([given, found, *validity])
-
-
-def _given(dataset: xr.Dataset) -> str:
-    """The parameters of the point."""
-    profile = str(dataset.profile.item())
-    names = [*family_of(profile).shape, *(n for n, p in PARAMETERS.items() if p.part != "shape")]
-    if "load" in dataset.coords:
-        names = [name for name in names if name not in ("frequency_ratio", "phase")]
-    values = [place_words(name, dataset[name].item()) for name in names if name in dataset.coords]
-    return f"{place_words('profile', profile)},  {',  '.join(values)}"
 
 
 def _is_finite(dataset: xr.Dataset) -> bool:
@@ -153,12 +150,8 @@ def _thin() -> float:
 
 def _dot() -> dict[str, Any]:
     """The look of a dot."""
-    return {
-        "marker": "o",
-        "markersize": 1.75 * rcParams["lines.markersize"],
-        "color": "black",
-        "linestyle": "",
-    }
+    size = 1.75 * rcParams["lines.markersize"]
+    return {"marker": "o", "markersize": size, "color": "black", "linestyle": ""}
 
 
 def limits(values: FloatArray, below: float, above: float, size: float = 0.0) -> tuple[float, float]:
@@ -181,12 +174,10 @@ def _mark(axes: Axes, marks: list[tuple[int, float, float]]) -> None:
     near = 0.02 * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
     groups: list[list[tuple[int, float, float]]] = []
     for mark in marks:
-        for group in groups:
-            if np.all(np.abs(np.subtract(mark, group[0])[1:]) < near):
-                group.append(mark)
-                break
-        else:
-            groups.append([mark])
+        same = (group for group in groups if np.all(np.abs(np.subtract(mark, group[0])[1:]) < near))
+        if (group := next(same, None)) is None:
+            groups.append(group := [])
+        group.append(mark)
     for group in groups:
         shape = "circle,pad=0.18" if len(group) == 1 else "round,pad=0.18,rounding_size=0.6"
         edge = _INSTANTS[(group[0][0] - 1) % len(_INSTANTS)]
@@ -204,7 +195,7 @@ def _mark_over_time(axes: Axes, dataset: xr.Dataset, height: float, alpha: float
     _mark(axes, [(int(number), float(time), low + height * (high - low)) for number, time in at])
 
 
-def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
+def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str, labels: Labels) -> None:
     """A loop with its direction and the numbers of the instants; a wide band under it is stick or slip."""
     x, y = dataset[across].values, dataset[up].values
     path = np.stack([x, y], axis=1)
@@ -216,6 +207,7 @@ def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str) -> None:
     _guide(axes, 1.0 if up in ("normal_force", "depth") else 0.0, zorder=0)
     axes.set(xlim=limits(x, 0.14, 0.14, 1.0), ylim=limits(y, 0.14, 0.14, 1.0))
     axes.set(xlabel=_words(dataset, across), ylabel=_words(dataset, up))
+    show_units(axes, (across, up), labels)
     time = dataset.time.values
     marked = [int(np.abs(time - t).argmin()) for t in dataset.instant_time.values]
     # The arrow is far from the marks.
@@ -235,11 +227,10 @@ def _words(dataset: xr.Dataset, name: str) -> str:
 
 def draw_load(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """The path of the load in (u, δ), its direction, stick and slip."""
-    _draw_loop(axes, dataset, "displacement", "depth")
+    _draw_loop(axes, dataset, "displacement", "depth", labels)
     if dataset.depth.min() < 0.0:
         axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
-    axes.set_ylabel(f"$\\delta$:  ${dataset.depth.attrs['symbol']}$")
     axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
 
 
@@ -304,6 +295,7 @@ def draw_slip(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
     # Beneath the axis with its label, by its distance in letters.
     below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
     axes.legend(handles=handles, ncols=3, handlelength=1.4, columnspacing=1.0, fontsize="small", **below)
+    show_units(axes, (None, "r"), labels)
     axes.set_title("stick and slip over the cycle", loc="left")
 
 
@@ -329,6 +321,7 @@ def draw_springs(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) ->
     axes.legend(title="instant", handlelength=2.0, loc="upper right", **small)
     axes.set_xlim(0.0, 1.05 * float(dataset.largest_radius))
     axes.set(xlabel=r"$\xi/a_H$", ylabel=f"${dataset.force.attrs['symbol']}$")
+    show_units(axes, ("r", None), labels)
     axes.set_title(r"memory diagram: springs, $|\tau| \leq w$", loc="left")
 
 
@@ -342,6 +335,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) 
     axes.set(xlim=(-largest, largest), ylim=(-highest, highest))
     _guide(axes, float(dataset.shown_x), True, color="black", linestyle=_DASHED)
     axes.set(xlabel="$x/a_H$", ylabel=r"$q\,a_H/(E^* \delta_0)$")
+    show_units(axes, ("x", "traction"), labels)
     axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
 
 
@@ -371,6 +365,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     axes.set_ylabel(rf"$\sigma_n\,{unit}$" if is_strain else rf"$\sigma_n\,{unit}$, $\tau\,{unit}$")
     axes.legend(handles=handles, loc="lower left", ncols=3, fontsize="small", handlelength=2.0)
     _mark_over_time(axes, dataset, 0.94, 0.35)
+    show_units(axes, (None, "normal_stress"), labels)
     if is_strain:
         other.grid(False)
         other.set_ylabel(r"$\varepsilon_n\,a_H/\delta_0$", color=_SECOND)
@@ -414,6 +409,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> Non
     axes.set(xlim=(-1.2 * largest, 1.2 * largest), ylim=(0.0, 1.45 * top), xlabel="$x/a_H$")
     over = r"\mathrm{swt}/\mathrm{SWT}_0" if criterion == SWT else CRITERIA[criterion].over_unit
     axes.set_ylabel(f"${over}$")
+    show_units(axes, ("x", "s_local"), labels)
     what = "swt" if criterion == SWT else dataset.s_local.attrs["long_name"].replace("-", "–")
     axes.set_title(f"{what} along the surface{'' if finite else '; dot: largest sampled'}", loc="left")
     _draw_plane(axes, float(dataset.shown_angle))
@@ -442,7 +438,7 @@ def _draw_plane(axes: Axes, degrees: float) -> None:
 
 def draw_load_plane(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """Tangential against normal force, with what friction carries, stick and slip coloured."""
-    _draw_loop(axes, dataset, "tangential_force", "normal_force")
+    _draw_loop(axes, dataset, "tangential_force", "normal_force", labels)
     ends, highest = axes.axis(), axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     for sign in (1.0, -1.0):
@@ -475,27 +471,14 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
 
 def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
     """Tangential force over displacement: the area of the fretting loop is the work dissipated in a cycle."""
-    _draw_loop(axes, dataset, "displacement", "tangential_force")
+    _draw_loop(axes, dataset, "displacement", "tangential_force", labels)
     work = float(dataset.dissipation)
     axes.fill(dataset.displacement, dataset.tangential_force, color="0.9", linewidth=0, zorder=0)
     number = labels["dissipation"].number(work, 3) if labels else f"{work:.3g}"
     axes.set_title(f"fretting loop, {'' if labels else 'area = '}dissipation {number}", loc="left")
 
 
-#: The panels with the variables along their axes; and the panels of a plane contact, whose displacements
-#: are not known.
-_OF_BOTH: dict[Any, tuple[str | None, str | None]] = {
-    draw_slip: (None, "r"),
-    draw_springs: ("r", None),
-    draw_tractions: ("x", "traction"),
-    draw_stress: (None, "normal_stress"),
-    draw_swt: ("x", "s_local"),
-}
-_FORCES = {draw_load_plane: ("tangential_force", "normal_force"), draw_forces: (None, None)}
-_PANELS = {
-    draw_load: ("displacement", "depth"),
-    **_OF_BOTH,
-    **_FORCES,
-    draw_force_loop: ("displacement", "tangential_force"),
-}
-_OF_STRIP = {draw_load_plane: _FORCES[draw_load_plane], **_OF_BOTH, draw_forces: (None, None)}
+#: The panels, and those of a plane contact, whose displacements are not known.
+_OF_BOTH = (draw_slip, draw_springs, draw_tractions, draw_stress, draw_swt)
+_PANELS = (draw_load, *_OF_BOTH, draw_load_plane, draw_forces, draw_force_loop)
+_OF_STRIP = (draw_load_plane, *_OF_BOTH, draw_forces)

@@ -119,14 +119,10 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
         axes.annotate("", end, (0.0, 0.0), arrowprops=arrow)
         axes.annotate(word, end, offset, textcoords="offset points")
     plane = profile.plane
+    normal, tangential = ("line load $P$", "$Q$") if plane else ("depth $\\delta$, force", "$u$, force")
     loads = (
-        (
-            (0.0, 0.5),
-            (0.0, 1.0),
-            (0.04, 0.8),
-            "normal load: " + ("line load $P$" if plane else "depth $\\delta$, force"),
-        ),
-        ((-0.45, 0.3), (-0.85, 0.3), (-0.97, 0.38), "tangential: " + ("$Q$" if plane else "$u$, force")),
+        ((0.0, 0.5), (0.0, 1.0), (0.04, 0.8), f"normal load: {normal}"),
+        ((-0.45, 0.3), (-0.85, 0.3), (-0.97, 0.38), f"tangential: {tangential}"),
     )
     for *places, words in loads:
         end, start, at = ((reach * x, top * y) for x, y in places)

@@ -9,11 +9,10 @@ import xarray as xr
 from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
-from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
-from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
+from swtstudy.figures.sheet import Figure, Sheet, Width
 from swtstudy.figures.style import COLOURS
 from swtstudy.figures.words import (
     flag_words,
@@ -59,7 +58,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 one.set_yscale("log")
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel(quantity_words(whole, y))
-    return _finished(figure, axes, layout)
+    return figure
 
 
 def _draw_points(
@@ -78,8 +77,9 @@ def _draw_points(
         axes.set_xticks(range(len(words)), [place_words(name, str(word)) for word in words])
     look: dict[str, Any] = {"marker": _POINTS[index % len(_POINTS)], "color": _SHADES[index % len(_SHADES)]}
     look |= {"markersize": 0.6 * rcParams["lines.markersize"], "linestyle": "none", "mew": 0}
-    # Points of a cloud are the fainter the more there are.
-    axes.plot(x, values, alpha=min(1.0, (100 / len(values)) ** 0.5), label=label, **look)
+    # Points of a cloud are the fainter the more there are; in the legend they are to be seen.
+    axes.plot(x, values, alpha=min(1.0, (100 / len(values)) ** 0.5), **look)
+    axes.plot([], [], label=label, **look | {"markersize": 1.4 * rcParams["lines.markersize"]})
     if validity:
         out = outside(part, drawn)
         mark_points(axes, x[out.values], values[out.values], out.attrs["long_name"])
@@ -114,7 +114,7 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
         for first in sheet.first_of_lines(axes)[row]:
             first.set_ylabel("points")
             first.yaxis.get_major_locator().set_params(integer=True)
-    return _finished(figure, axes, layout)
+    return figure
 
 
 def _draw_bars(
@@ -146,13 +146,3 @@ def _edges(values: xr.DataArray) -> list[float]:
 def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:
     """The slices of a Dataset along a dimension, with their values in words."""
     return [(part_words(part, name) if name else None, part) for part in slices(dataset, name)]
-
-
-def _finished(figure: Figure, axes: NDArray[Any], layout: FigureLayout) -> Figure:
-    if layout.title:
-        figure.suptitle(layout.title)
-    add_legend(figure, axes)
-    for handle in (each for legend in figure.legends for each in legend.legend_handles):
-        if isinstance(handle, Line2D) and handle.get_linestyle() == "None":  # faint points are to be seen
-            handle.set(markersize=1.4 * rcParams["lines.markersize"], alpha=1.0)
-    return figure

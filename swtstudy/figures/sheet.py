@@ -117,7 +117,9 @@ class Sheet:
         width, height = self.size
         return new_figure((width + beside if self.width is None else width, height), self.width)
 
-    def panels(self, figure: Figure, share_x: str = "all", share_y: str = "row") -> NDArray[Any]:
+    def panels(
+        self, figure: Figure, share_x: str = "all", share_y: str = "row", projection: str | None = None
+    ) -> NDArray[Any]:
         """Panels of shape (rows, count).
 
         Parameters
@@ -126,6 +128,8 @@ class Sheet:
             Where they are.
         share_x, share_y
             Which panels have the axis in common: "all", the panels of a "row", or "none".
+        projection
+            Projection of the panels as matplotlib names it, such as "polar".
         """
         across, panels = self.across, np.empty((self.rows, self.count), dtype=object)
         lines = -(-self.count // across)
@@ -133,7 +137,8 @@ class Sheet:
             line, column = divmod(index, across)
             first = {"all": panels[0, 0], "row": panels[row, 0], "none": None}
             cell = (self.rows * lines, across, (row * lines + line) * across + column + 1)
-            one = figure.add_subplot(*cell, sharex=first[share_x], sharey=first[share_y])
+            shared = {"sharex": first[share_x], "sharey": first[share_y]}
+            one = figure.add_subplot(*cell, projection=projection, **shared)
             lowest = row == self.rows - 1 and index + across >= self.count
             one.tick_params(labelleft=column == 0 or share_y == "none")
             one.tick_params(labelbottom=lowest or share_x != "all")
@@ -251,7 +256,7 @@ class LoopHandler(HandlerLine2D):
         return [*sample, Line2D(*(corner + side * share).T, **drawn)]
 
 
-def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] | None = None) -> None:
+def add_legend(figure: Figure, loops: Mapping[str, Loop] | None = None) -> None:
     """Add one legend for all panels, lines before bands beneath them and markers; no entry is cut off.
 
     Parameters
@@ -259,13 +264,11 @@ def add_legend(figure: Figure, axes: NDArray[Any], loops: Mapping[str, Loop] | N
     figure
         The figure, which grows by the height of the legend. On a screen it gets wider where an entry is wider
         than all panels; in print the letters of the legend get smaller there.
-    axes
-        Its panels.
     loops
         Loops by the labels of their lines: they are drawn beside the lines' samples.
     """
     handles: dict[str, Any] = {}
-    for one in axes.flat:
+    for one in figure.axes:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             handles.setdefault(label, handle)
     if not handles:

@@ -26,6 +26,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
 from swtstudy.figures.words import flag_words, is_life, power_words, tick_in_pi, tick_names
+from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import as_text, coordinate_words
@@ -38,8 +39,13 @@ _COMMON = 0.15
 _MOST = 32
 
 
-def draw_surfaces(
-    figure: Figure, axes: NDArray[Any], surfaces: list[xr.DataArray], kind: str, words: str
+def draw_maps(
+    figure: Figure,
+    axes: NDArray[Any],
+    panels: list[xr.Dataset],
+    layout: FigureLayout,
+    name: object,
+    words: str,
 ) -> None:
     """Draw a row of panels, with one scale of colours unless a panel would have few of them.
 
@@ -47,30 +53,38 @@ def draw_surfaces(
     ----------
     figure, axes
         The figure and the panels of the row.
-    surfaces
-        A quantity over (vertical, x) for each panel; each flag has a colour, with its meaning at the colour
-        bar.
-    kind
-        "contour" or "heatmap".
-    words
-        Label of the colour bar.
+    panels
+        Over x and vertical: ``value``, of which each flag has a colour, with its meaning at the colour bar;
+        and ``regime`` and ``outside``, if these are to be marked.
+    layout
+        The layout: axes and their roles, and the kind, "contour" or "heatmap".
+    name, words
+        The quantity, and its label at the colour bar.
     """
-    names = flag_words(surfaces[0])
-    if not names and not _in_common(surfaces):
-        for one, surface in zip(axes, surfaces, strict=True):
-            draw_surfaces(figure, np.array([one]), [surface], kind, words)
+    panels = [panel.transpose(layout.vertical, layout.x) for panel in panels]
+    surfaces = [panel.value.rename(name) for panel in panels]
+    names, first = flag_words(surfaces[0]), surfaces[0]
+    ends = np.array([[float(surface.min()), float(surface.max())] for surface in surfaces])
+    whole = np.nanmax(ends) - np.nanmin(ends) if np.isfinite(ends).any() else 0.0
+    if not names and np.any(ends[:, 1] - ends[:, 0] < _COMMON * whole):
+        for one, panel in zip(axes, panels, strict=True):
+            draw_maps(figure, np.array([one]), [panel], layout, name, words)
         return
-    look: dict[str, Any] = {"norm": _scale_of(surfaces, kind), "cmap": _colours(surfaces[0])}
+    look: dict[str, Any] = {"norm": _scale_of(surfaces, layout.kind), "cmap": _colours(first)}
     if names:  # a colour for each flag, in order from dark to light
         look = {"cmap": colormaps[rcParams["image.cmap"]].resampled(len(names))}
         look["norm"] = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
-    draw = _draw_cells if kind == "heatmap" else _draw_areas if names else draw_contours
-    for one, surface in zip(axes, surfaces, strict=True):
+    draw = _draw_cells if layout.kind == "heatmap" else _draw_areas if names else draw_contours
+    for one, panel, surface in zip(axes, panels, surfaces, strict=True):
         one.set_facecolor("0.8")  # where nothing is known
         one.grid(False)
+        if layout.regimes:
+            mark_borders(one, panel.regime)
         filled = draw(one, surface, look)
+        if layout.validity:
+            mark_cells(one, panel, layout.kind)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
-    if is_life(surfaces[0].attrs) and kind == "contour":
+    if is_life(first.attrs) and layout.kind == "contour":
         bar.ax.yaxis.set_major_formatter(lambda value, _: power_words(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
@@ -90,13 +104,6 @@ def _is_ratio(surface: xr.DataArray) -> bool:
     return str(surface.attrs.get("symbol", "")) == "s/s_0"
 
 
-def _in_common(surfaces: list[xr.DataArray]) -> bool:
-    """Return whether every panel fills enough of a common scale of colours to be read."""
-    ends = np.array([[float(surface.min()), float(surface.max())] for surface in surfaces])
-    whole = np.nanmax(ends) - np.nanmin(ends) if np.isfinite(ends).any() else 0.0
-    return bool(np.all(~(ends[:, 1] - ends[:, 0] < _COMMON * whole)))
-
-
 def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
     """One colour scale for all panels of a row, in steps for contours; of lives in decades."""
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
@@ -108,11 +115,8 @@ def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
         first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
         digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
         levels = np.array([digit * 10.0**power for power in range(first, last + 1) for digit in digits])
-        begin, end = (
-            levels[levels <= low].max(initial=levels[0]),
-            levels[levels >= high].min(initial=levels[-1]),
-        )
-        return BoundaryNorm(levels[(levels >= begin) & (levels <= end)], 256)
+        begin, end = np.searchsorted(levels, low, "right") - 1, np.searchsorted(levels, high)
+        return BoundaryNorm(levels[max(begin, 0) : end + 1], 256)
     if _is_ratio(surfaces[0]):
         most = max(high - 1.0, 1.0 - low, 1e-3)
         low, high = 1.0 - most, 1.0 + most
@@ -140,7 +144,7 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
         for contours in (filled, lines):
             _leave_out_islands(contours, axes.dataLim)
     if surface.name == "s":
-        _draw_extrema(axes, surface)
+        _draw_extrema(axes, at, up, surface)
     shown = levels if life else levels[::2]
     inks = [_ink(filled, float(level)) for level in shown]
     labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small", "colors": inks}
@@ -201,19 +205,14 @@ def _ink(colours: ScalarMappable, level: float) -> str:
     return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > 0.18 else "white"
 
 
-def _draw_extrema(axes: Axes, surface: xr.DataArray) -> None:
+def _draw_extrema(axes: Axes, at: FloatArray, up: FloatArray, surface: xr.DataArray) -> None:
     """Lines where the surface is least and greatest along x; with a gap where another extremum takes over."""
-    at, up, surface = _sorted(surface)
     width = 1.2 * rcParams["lines.linewidth"]
+    over: dict[str, Any] = {"marker": "", "clip_on": False, "zorder": 3}  # an extremum may be on the frame
     for words, sign, dashes in (("least", 1.0, "-"), ("greatest", -1.0, (0, (4, 2)))):
         places = lowest(at, sign * surface.values, AXES[str(surface.dims[1])].units == "rad")
         gaps = _jumps(places, float(np.ptp(at)))  # a gap before each run
         path = np.insert(places, gaps, np.nan), np.insert(up, gaps, np.nan)
-        over: dict[str, Any] = {
-            "marker": "",
-            "clip_on": False,
-            "zorder": 3,
-        }  # an extremum may be on the frame
         axes.plot(*path, color="white", linestyle="-", linewidth=2.0 * width, **over)
         label = f"{words} ${surface.name}$"
         axes.plot(*path, color="#B22222", linestyle=dashes, linewidth=width, label=label, **over)

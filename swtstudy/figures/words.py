@@ -45,25 +45,15 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
     known = {**ATTRIBUTES, **{name: attributes_of(name) for name in EVERY_VARIABLE}}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
-    if not kept and symbol and _is_unfamiliar(str(values.name)):
-        words = f"{_meaning(values)}, {words}"
+    # A symbol alone says too little of a life, a mean of SWT, a usage, a place.
+    unfamiliar = "cycles", "FS_cycles", "failure_probability", "SWT_", "findley_usage", "critical_"
+    if not kept and symbol and str(values.name).startswith(unfamiliar) and values.name != "critical_angle":
+        nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
+        meaning = str(values.attrs.get("long_name", values.name)).removesuffix(" x/a_H")
+        if nonlocal_one:
+            meaning = nonlocal_one.meaning.replace("swt", "SWT")
+        words = f"{'load cycles to a crack' if is_life(values.attrs) else meaning}, {words}"
     return words if units in (None, "1") else f"{words} ({'°' if units == 'degree' else as_text(units)})"
-
-
-def _is_unfamiliar(name: str) -> bool:
-    """Return whether a symbol alone says too little: lives, means of SWT, usages, places."""
-    known = "cycles", "FS_cycles", "failure_probability", "SWT_", "findley_usage", "critical_"
-    return name.startswith(known) and name not in ("critical_angle",)
-
-
-def _meaning(values: xr.DataArray) -> str:
-    """Explain an unfamiliar symbol in a few words."""
-    if is_life(values.attrs):
-        return "load cycles to a crack"
-    nonlocal_one = QUANTITIES.get(str(values.name).replace("SWT_", "s_"))
-    if nonlocal_one:
-        return nonlocal_one.meaning.replace("swt", "SWT")
-    return str(values.attrs.get("long_name", values.name)).removesuffix(" x/a_H")
 
 
 def title_words(values: xr.DataArray, y: str) -> str:

@@ -53,7 +53,7 @@ def test_any_number_of_entries_fits():
     for name in names:
         figure.axes[0].plot(PHASE, PHASE, label=name)
     width = figure.get_figwidth()
-    add_legend(figure, np.array(figure.axes))
+    add_legend(figure)
     assert_whole(figure, names)
     # In several rows rather than far beyond the panels.
     assert figure.get_figwidth() == width
@@ -65,7 +65,7 @@ def test_an_entry_wider_than_its_panels():
         figure = lines_over([0.1]).isel(friction=0).swt.panels("phase", width=width)
         before = figure.get_figwidth()
         figure.axes[0].plot(PHASE, PHASE, label="a name as long as nobody gives one " * 4)
-        add_legend(figure, np.array(figure.axes))
+        add_legend(figure)
         assert_whole(figure, ["a name as long as nobody gives one " * 4])
         assert (figure.get_figwidth() > before) == (width is None)
 
