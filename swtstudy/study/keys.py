@@ -7,7 +7,8 @@ table. Values of parameters are checked against their own table.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from copy import deepcopy
 from inspect import signature
 from typing import Annotated, Any, ClassVar, Literal, TypeVar, get_args, get_origin
@@ -346,12 +347,17 @@ def with_keys(model: type[Table]) -> Callable[[Function], Function]:
     return with_arguments(signature(model).parameters.values())
 
 
-def report_under(report: Report, key: str, error: StudyError, part: str = "") -> None:
-    """Report the mistakes in a table: each at its key, or with its place at one of them."""
-    for each in error.mistakes:
-        if not each.source and re.split(r"[,.]", each.key)[0] in SignalTable.model_fields:
-            report(f"{key}.{each.key}", each.found, each.allowed)
-        else:
+@contextmanager
+def under(report: Report, key: str, part: str = "") -> Iterator[None]:
+    """Within a with block, report the mistakes of a StudyError in a table: each at its key, or at a part."""
+    try:
+        yield
+    except StudyError as error:
+        for each in error.mistakes:
             place = ": ".join(filter(None, (each.source, each.key)))
-            found = f"{each.found} ({place})" if place else each.found
-            report(f"{key}.{part}" if part else key, found, each.allowed)
+            if not each.source and re.split(r"[,.]", each.key)[0] in SignalTable.model_fields:
+                report(f"{key}.{each.key}", each.found, each.allowed)
+            elif place:
+                report(f"{key}.{part}" if part else key, f"{each.found} ({place})", each.allowed)
+            else:
+                report(key, each.found, each.allowed)

@@ -15,22 +15,14 @@ from swtstudy.points.reading import warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
-from swtstudy.study.keys import (
-    FileTable,
-    LoadTable,
-    Parts,
-    ProfileTable,
-    SignalTable,
-    report_under,
-    sound_keys,
-)
+from swtstudy.study.keys import FileTable, LoadTable, Parts, ProfileTable, SignalTable, sound_keys, under
 from swtstudy.study.signal import BULK, COLUMNS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.units.life import Block, wrong_rounds
 from swtstudy.units.reading import ANY, ANY_MEASURED
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import parse_toml
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.mistakes import Report, literal, refused
 
 #: Keys beside the definition of a loop.
 _BESIDE = {
@@ -66,44 +58,41 @@ def read_definitions(
         measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
         loads[name] = ANY_MEASURED if measured else ANY
         if load is not None:
-            loads |= _read_load(name, load, folder, parts, report)
+            part = next((each for each in ("vertices", "file") if getattr(load, each) is not None), "")
+            with under(report, f"loads.{name}", part):
+                loads |= _read_load(name, load, folder, parts, report)
     profiles: dict[str, Definition] = dict.fromkeys(parts.profiles, _ANY_PROFILE)
     for name, profile in parts.profiles.items():
-        if profile is not None and (found := _read_profile(name, profile, folder, parts, report)):
-            profiles[name] = found
+        if profile is not None:
+            with under(report, f"profiles.{name}"):
+                profiles[name] = _read_profile(name, profile, folder, parts)
     return {"load": loads, "profile": profiles}
 
 
 def _read_load(
     name: str, table: LoadTable, folder: Path, parts: Parts, report: Report
 ) -> dict[str, Definition]:
-    """The loop of a table, and the loops of cycles that are kept; none with mistakes, which are reported."""
-    key, own = f"loads.{name}", _given(table)
+    """The loop of a table, and the loops of cycles that are kept; a StudyError with what is wrong."""
+    own = _given(table)
     kinds = [each for each in ("vertices", "file", *COLUMNS, BULK) if each in own]
     if kinds not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
         allowed = "vertices, file, or normal and tangential, with or without bulk"
-        report(key, " and ".join(kinds) or "nothing", allowed)
-        return {}
-    kind = kinds[0]
-    if strange := [each for each in own if each not in (*kinds, *_BESIDE[kind])]:
-        of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kind]
-        report(key, f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kind])}")
-        return {}
-    try:
-        if table.file is None:
-            return {name: _loop(name, table, kind)}
-        if table.keep_cycles and table.harmonics is not None:
-            allowed = "one of the two: kept cycles are as they were recorded"
-            report(key, "keep_cycles and harmonics", allowed)
-            return {}
-        signal = signal_from(folder / table.file, name, table, parts.units)
-        kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
-        for each in (each for each in kept if each in parts.loads):
-            report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
-        return {name: signal.loop, **kept}
-    except StudyError as error:
-        report_under(report, key, error, "" if kind == "normal" else kind)
-        return {}
+        raise refused("", " and ".join(kinds) or "nothing", allowed)
+    if strange := [each for each in own if each not in (*kinds, *_BESIDE[kinds[0]])]:
+        of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kinds[0]]
+        raise refused(
+            "", f"{', '.join(strange)} beside {of}", f"with {of} only {', '.join(_BESIDE[kinds[0]])}"
+        )
+    if table.file is None:
+        return {name: _loop(name, table, kinds[0])}
+    if table.keep_cycles and table.harmonics is not None:
+        allowed = "one of the two: kept cycles are as they were recorded"
+        raise refused("", "keep_cycles and harmonics", allowed)
+    signal = signal_from(folder / table.file, name, table, parts.units)
+    kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
+    for each in (each for each in kept if each in parts.loads):
+        report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
+    return {name: signal.loop, **kept}
 
 
 def _given(table: FileTable) -> list[str]:
@@ -120,7 +109,7 @@ def _loop(name: str, table: LoadTable, kind: str) -> Definition:
         return LoadPath(name, table.vertices, table.mean_normal)
     if table.mean_normal is not None:
         allowed = "true or false; without mean_normal"
-        raise StudyError([Mistake("absolute", "absolute and mean_normal", allowed)])
+        raise refused("absolute", "absolute and mean_normal", allowed)
     return LoadPath.absolute(name, table.vertices)
 
 
@@ -135,7 +124,7 @@ def _harmonics(rows: Any, column: str) -> Any:
                     read[number] = (*row[:-1], float(read_angle(row[-1])))
                 except ValueError as error:
                     key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
-                    raise StudyError([Mistake(key, found, "a phase")]) from None
+                    raise refused(key, found, "a phase") from None
     return read
 
 
@@ -147,28 +136,20 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
         return signal_from(folder / table.file, name, table) if table.file else None
 
 
-def _read_profile(
-    name: str, table: ProfileTable, folder: Path, parts: Parts, report: Report
-) -> TabulatedProfile | None:
-    """The profile of a table; None with mistakes, which are reported."""
-    key, own = f"profiles.{name}", _given(table)
+def _read_profile(name: str, table: ProfileTable, folder: Path, parts: Parts) -> TabulatedProfile:
+    """The profile of a table; a StudyError with what is wrong."""
+    own = _given(table)
     kinds = [each for each in (*PROFILE_COLUMNS, "file") if each in own]
     if kinds not in (["file"], [*PROFILE_COLUMNS]):
-        report(key, " and ".join(kinds) or "nothing", "radius and height, or file")
-        return None
+        raise refused("", " and ".join(kinds) or "nothing", "radius and height, or file")
     beside: tuple[str, ...] = ("level",)
     words = "with two_sided"
     if kinds != ["file"]:
         beside, words = (*FileTable.model_fields, "two_sided", "level"), "with a file"
     strange = [each for each in beside if each in own]
     if strange and not (table.file and table.two_sided):
-        report(key, ", ".join(strange), f"{strange[0]} {words} only")
-        return None
-    try:
-        return profile_from(name, table, folder, parts.units)
-    except StudyError as error:
-        report_under(report, key, error)
-        return None
+        raise refused("", ", ".join(strange), f"{strange[0]} {words} only")
+    return profile_from(name, table, folder, parts.units)
 
 
 def profile_from(

@@ -20,18 +20,10 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
-from swtstudy.study.keys import DesignName, FileTable, SampleTable, report_under
+from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.units.life import SCATTERED, Scatter
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import (
-    Report,
-    StudyError,
-    literal,
-    more_like_it,
-    nearest,
-    plain_number,
-    refused,
-)
+from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
 
 if TYPE_CHECKING:
@@ -266,17 +258,14 @@ def read_points(
     needed
         Names of columns that there must be.
     """
-    try:
+    with under(report, "sample", "file"):
         table = read_table(path, needed, names, form, LONGEST_AXIS)
-    except StudyError as error:
-        report_under(report, "sample", error, "file")
-        return None
-    if not table.cells:
+        names_of = {form.header(name): name for name in (*needed, *names)}
+        if table.cells:
+            return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
         allowed = "a CSV file: a row with names of parameters, then a row with their values for each point"
         report("sample.file", f"{path} without points", allowed)
-        return None
-    names_of = {form.header(name): name for name in (*needed, *names)}
-    return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
+    return None
 
 
 def _designed(
