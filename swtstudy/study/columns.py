@@ -397,11 +397,12 @@ def _found_header(
     likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
     own: str = form.separator or likely
     line, headers = rows_of[own][header[own]]
-    if wanted <= {*headers}:
+    if headers and wanted <= {*headers}:
         return own, header[own]
     report.refuse()  # in another encoding headers may be right
     found, allowed = _missing(headers, names, form)
-    if score[likely][0] == len(wanted) or score[likely][-1] >= len(names) > len(headers):
+    others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(names) > len(headers)
+    if likely != own and others_fit:
         found, allowed = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
     elif above := rows_of[own][: header[own]]:
         found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
