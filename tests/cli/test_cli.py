@@ -414,7 +414,6 @@ def test_the_studies_of_the_paper_are_valid(path):
         ('title = "t"\n[fixed]\nfrequency_ratio = "3/0"', 1),
         ('title = "t"\n[fixed]\nfrequency_ratio = "pi"', 1),
         ('title = "t"\n[axes]\nfrction = [1, 2]', 1),
-        ("title = ", 1),
     ],
 )
 @pytest.mark.parametrize("command", ["run", "validate"])
@@ -427,6 +426,15 @@ def test_bad_studies_end_with_a_line_each(tmp_path, monkeypatch, command, text, 
     assert len(result.stderr.splitlines()) == lines
     assert all(line.startswith(f"Error: {path}: ") for line in result.stderr.splitlines())
     assert [entry.name for entry in tmp_path.iterdir()] == ["bad.toml"]
+
+
+def test_a_syntax_error_shows_the_line_beneath_it(tmp_path):
+    (tmp_path / "bad.toml").write_text("title = ")
+    result = call("validate", tmp_path / "bad.toml")
+    assert result.exit_code == 2
+    first, *shown = result.stderr.splitlines()
+    assert first.startswith(f"Error: {tmp_path / 'bad.toml'}: found a syntax error: ")
+    assert shown == ["Error:    1 | title = ", "Error:      |         ^"]
 
 
 def test_missing_files_and_unwritable_folders(study, tmp_path):
