@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from swtstudy.archive.parts import _LAYOUT
 from swtstudy.kernel.criterion import NAMES
-from swtstudy.units.results import KINDS
 from swtstudy.vocabulary.choices import CRITERIA
 
 
 def test_each_table_of_criteria_has_the_same_ones_in_the_same_order() -> None:
-    assert list(CRITERIA) == list(KINDS) == list(NAMES) == _LAYOUT["criteria"]
+    assert list(CRITERIA) == list(NAMES) == _LAYOUT["criteria"]
