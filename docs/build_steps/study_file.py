@@ -84,7 +84,7 @@ def _value(entry: dict[str, Any]) -> str:
     if "enum" in entry:
         names = entry["enum"]
         shown = ", ".join(f"`{json.dumps(name)}`" for name in names)
-        return shown if len(names) <= 5 else "name of an axis"
+        return shown if len(names) < 10 else "name of an axis"
     if "anyOf" in entry:
         return " or ".join(_value(each) for each in entry["anyOf"] if each.get("type") != "null")
     if "examples" in entry:

@@ -71,7 +71,7 @@ class FileTable(Table):
     skip_rows: Annotated[int, "a whole number of lines, 0 or more", Field(ge=0)] = 0
     """Lines above the header. Found unless given, and told."""
     units_row: bool | None = None
-    """Whether a row of units follows the header. Found unless given, and told."""
+    """True if a row of units follows the header. Found unless given, and told."""
     sheet: Annotated[str | int | None, "the name of a sheet, or its number from 1 on"] = None
     """Sheet of a workbook; the first one unless given."""
 
@@ -84,7 +84,7 @@ class SignalTable(FileTable):
     """The form of a signal in a file, and its cycles."""
 
     absolute: bool = False
-    """Whether the normal column is the load itself: its mean is the mean load of the study."""
+    """True if the normal column is the load itself: its mean is the mean load of the study."""
     time: Annotated[str | None, "the header of the column of the time", Field(min_length=1)] = None
     """Header of the file's column of the time; without it samples are even."""
     recorded_cycles: Annotated[int | None, "a whole number of cycles, 1 or more", Field(ge=1)] = None
@@ -98,14 +98,14 @@ class SignalTable(FileTable):
     ] = None
     """Highest order of a fit of the file's columns by harmonics: a smooth loop."""
     despike: bool = False
-    """Whether spikes take the value that the samples beside them or the other cycles suggest."""
+    """True to replace spikes by the value that the samples beside them or the other cycles suggest."""
 
 
 class TraceTable(FileTable):
     """A trace in a file, and the profile that is made of it."""
 
     level: bool = True
-    """Whether the tilt of a trace is taken off; smoothing is by its noise unless given."""
+    """True to take off the tilt of a trace; smoothing is by its noise unless given."""
     smoothing: Any = None
     """Root mean square of what the fit may miss of the heights; 0 to miss none."""
     geometry: Any = AXISYMMETRIC
@@ -142,7 +142,7 @@ class SampleTable(FileTable):
     allowed = "a table with design, size and ranges, with points, or with file"
 
     design: DesignName | None = None
-    """How the points are chosen; saltelli is for Sobol indices (swtstudy sensitivity)."""
+    """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
     size: Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)] = (
         None
     )
@@ -181,7 +181,7 @@ class LoadTable(SignalTable):
     mean_normal: Any = None
     """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
     keep_cycles: bool = False
-    """Whether blocks of the load run all recorded cycles in turn, not their mean."""
+    """True if blocks of the load run all recorded cycles in turn, not their mean."""
 
 
 class BlockTable(Table):
@@ -192,7 +192,7 @@ class BlockTable(Table):
     load: Annotated[str, "the name of a load"]
     """Name of a load; of a signal that keeps its cycles all of them in turn."""
     rounds: Annotated[Any, allowed]
-    """How many rounds of it there are in each repetition of the sequence."""
+    """Number of its rounds in each repetition of the sequence."""
 
 
 class ProfileTable(TraceTable):
@@ -207,7 +207,7 @@ class ProfileTable(TraceTable):
     file: File = None
     """Path of a CSV file, relative to the study, with a header and the columns radius and height."""
     two_sided: bool = False
-    """Whether the file is a trace across the body, with the columns position and height."""
+    """True if the file is a trace across the body, with the columns position and height."""
 
 
 class StudyTable(Table):
@@ -220,7 +220,7 @@ class StudyTable(Table):
     )
     """Relative accuracy asked of s."""
     quantities: Any = []
-    """What is computed beside s, as data variables of the results."""
+    """Quantities computed beside s, as data variables of the results."""
     fixed: Annotated[dict[str, Any], "a table of single values"] = {}
     """Parameters with a single value. Parameters not given have the values of the paper's Table 1."""
     axes: Annotated[dict[str, Axis], "a table of axes"] = {}
@@ -239,7 +239,7 @@ class StudyTable(Table):
     blocks: Annotated[list[BlockTable], BlockTable.allowed] = []
     """Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only."""
     figure: FigureLayout | None = None
-    """What the figure puts where; every axis needs a place."""
+    """The layout of the figure; every axis needs a place."""
 
 
 class Parts(StudyTable):
