@@ -7,14 +7,13 @@ import warnings
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS
-
-FloatArray = NDArray[np.float64]
 
 #: The criteria of shear, and the one that has no plane.
 FATEMI_SOCIE, FINDLEY, CROSSLAND = _KNOWN = "fatemi_socie", "findley", "crossland"
@@ -140,7 +139,12 @@ def criterion_of_history(
     report.refuse()
     sensitivity = plain_number(normal_sensitivity)
     if criterion == CROSSLAND:
-        value = crossland(history, sensitivity)
+        hydrostatic = history[..., :3].mean(axis=-1, keepdims=True)
+        deviator = history.copy()
+        deviator[..., :3] = (history[..., :3] - hydrostatic) / np.sqrt(2.0)
+        paths = deviator.reshape(-1, *deviator.shape[-2:])
+        radius = np.array([smallest_sphere(path)[1] for path in paths]).reshape(history.shape[:-2])
+        value = np.maximum(radius + sensitivity * hydrostatic[..., 0].max(axis=-1), 0.0)
         return value, np.full((*value.shape, 3), np.nan)
     return _over_all_planes(history, 0.3, criterion, 1.0, normal_sensitivity=sensitivity)
 
@@ -168,24 +172,14 @@ def _over_all_planes(
             stacklevel=3,
         )
     normal[value == 0.0] = np.nan
-    # n and −n are the same plane: show the one whose first component that is not 0 is positive.
-    first = np.argmax(np.abs(normal) > SAME, axis=1)
-    normal = normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
     value *= factor * size ** (2.0 if criterion == SWT else 1.0)
-    return CriticalPlane(value.reshape(batch), normal.reshape(*batch, 3))
+    return CriticalPlane(value.reshape(batch), one_of_both(normal).reshape(*batch, 3))
 
 
-def crossland(stress: FloatArray, sensitivity: float) -> FloatArray:
-    """√J2,a + α max σ_H, of histories (…, T, 6), shape (…).
-
-    √J2,a is the radius of the smallest sphere around the deviatoric path, in the norm √(s:s/2).
-    """
-    hydrostatic = stress[..., :3].mean(axis=-1, keepdims=True)
-    path = stress.copy()
-    path[..., :3] = (path[..., :3] - hydrostatic) / np.sqrt(2.0)
-    flat = path.reshape(-1, *path.shape[-2:])
-    radius = np.array([smallest_sphere(points)[1] for points in flat]).reshape(stress.shape[:-2])
-    return np.maximum(radius + sensitivity * hydrostatic[..., 0].max(axis=-1), 0.0)
+def one_of_both(normal: FloatArray) -> FloatArray:
+    """Unit normals, (n, 3), with a positive first component that is not 0: n and −n are the same plane."""
+    first = np.argmax(np.abs(normal) > SAME, axis=1)
+    return normal * np.sign(np.take_along_axis(normal, first[:, None], axis=1)) + 0.0
 
 
 def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:

@@ -5,6 +5,7 @@ Its load and its memory diagram are known without s, in milliseconds; forces whi
 
 from __future__ import annotations
 
+import itertools
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,11 @@ Variables = dict[str, tuple[Any, Any, dict[str, Any]]]
 _SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
 _MARKED, _APART = 4, 0.08
+#: Letters of the curves at whose extremes instants are marked, those that come first before the others.
+_LETTERS_OF_PLANE = {"normal_stress": "σ_n", NORMAL_STRAIN.name: "ε_n", SHEAR_STRESS.name: "τ"}
+_LETTERS_OF_LOAD = {"depth": "δ", "displacement": "u"}
+_LETTERS_OF_FORCE = {"normal_force": "F_N", "tangential_force": "F_x"}
+_OF_NO_MATTER = (("normal_stress", "smallest"), (NORMAL_STRAIN.name, "largest"))
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
 #: The same for stick and slip, whose map has a cell for each, and for the springs alone.
@@ -256,21 +262,9 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
         Depth and displacement over it, or without them the forces; if stress and strain, or shear stress, on
         the critical plane are there, they come first.
     """
-    pairs = {"δ": "depth", "u": "displacement"}
-    if "depth" not in curves:
-        pairs = {"F_N": "normal_force", "F_x": "tangential_force"}
-    normal, tangential = pairs.values()
-    swings = [name for name in (NORMAL_STRAIN.name, SHEAR_STRESS.name) if name in curves]
-    extremes: dict[str, np.intp] = {}
-    if "normal_stress" in curves:
-        extremes["σ_n largest"] = curves["normal_stress"].argmax()
-    if NORMAL_STRAIN.name in swings:
-        extremes["ε_n smallest"] = curves[NORMAL_STRAIN.name].argmin()
-    both = {"τ": SHEAR_STRESS.name} if SHEAR_STRESS.name in swings else {}
-    of_plane = {*extremes, "τ largest", "τ smallest"}
-    for letter, name in (both | pairs).items():
-        extremes[f"{letter} largest"] = curves[name].argmax()
-        extremes[f"{letter} smallest"] = curves[name].argmin()
+    normal, tangential = _LETTERS_OF_LOAD if "depth" in curves else _LETTERS_OF_FORCE
+    of_plane = [name for name in _LETTERS_OF_PLANE if name in curves]
+    letters = _LETTERS_OF_PLANE | _LETTERS_OF_LOAD | _LETTERS_OF_FORCE
     touching = curves[normal] > 0.0
     distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
     marked: dict[int, str] = {}
@@ -280,10 +274,13 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
         marked[index] = reason
         distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
 
-    for reason, index in extremes.items():
-        if len(marked) < _MARKED and distance[index] >= _APART and (reason in of_plane or touching[index]):
-            mark(int(index), reason)
-    moving = curves[swings[0] if swings else tangential]
+    for name, end in itertools.product((*of_plane, normal, tangential), ("largest", "smallest")):
+        index = int(curves[name].argmax() if end == "largest" else curves[name].argmin())
+        free = len(marked) < _MARKED and distance[index] >= _APART
+        # What makes s is the largest normal stress, and the swing of the strain up to it.
+        if free and (name in of_plane or touching[index]) and (name, end) not in _OF_NO_MATTER:
+            mark(index, f"{letters[name]} {end}")
+    moving = curves[of_plane[-1] if of_plane else tangential]
     while len(marked) < _MARKED and np.ptp(moving) > 0.0:
         mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
     order = sorted(marked)

@@ -127,8 +127,8 @@ POSITIONS = "finite positions in a_H"
 
 def read_places(
     x: object, y: object, z: object, allowed: str = POSITIONS
-) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
-    """Coordinates in a_H, broadcast against one another.
+) -> tuple[dict[str, xr.DataArray], tuple[Hashable, ...], FloatArray]:
+    """Coordinates in a_H.
 
     Parameters
     ----------
@@ -137,6 +137,12 @@ def read_places(
         whose dimensions are kept: three DataArrays that share one dimension are a list of points.
     allowed
         Allowed values, in words.
+
+    Returns
+    -------
+    given, dims, places
+        The coordinates by name, with dimensions of their own; the dimensions of all of them; and the
+        coordinates broadcast against one another, of shape (..., 3).
 
     Raises
     ------
@@ -159,16 +165,8 @@ def read_places(
         found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
         allowed = "the same coordinates along the dimensions that they share"
         raise StudyError([Mistake("x, y, z", found, allowed)]) from None
-    return placed[0], placed[1], placed[2]
-
-
-def as_given(places: tuple[xr.DataArray, ...], *given: object) -> dict[str, xr.DataArray]:
-    """The coordinates x, y, z without the dimensions that broadcasting added."""
-    result = {}
-    for name, place, raw in zip("xyz", places, given, strict=True):
-        own = _coordinate(name, raw).dims
-        result[name] = place.isel({dim: 0 for dim in place.dims if dim not in own}, drop=True)
-    return result
+    given = dict(zip("xyz", arrays, strict=True))
+    return given, placed[0].dims, np.stack([place.values for place in placed], axis=-1)
 
 
 def read_finite(name: str, values: object, allowed: str) -> FloatArray:
@@ -179,7 +177,7 @@ def read_finite(name: str, values: object, allowed: str) -> FloatArray:
     return array
 
 
-def _coordinate(name: str, values: object, allowed: str = POSITIONS) -> xr.DataArray:
+def _coordinate(name: str, values: object, allowed: str) -> xr.DataArray:
     if isinstance(values, xr.DataArray):
         values = values.copy(data=read_numbers(name, values.values, allowed))
     else:

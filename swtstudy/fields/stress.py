@@ -5,13 +5,14 @@ swt, or another criterion, over the body is the field of which s is the maximum.
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from swtstudy.fields.history import one_of_both
 from swtstudy.fields.one_point import (
-    as_given,
     labelled_time,
     named,
     open_point,
@@ -78,22 +79,21 @@ def stress_field(
     ('time', 'x', 'z')
     """
     points, opened = open_point(parameters)
-    places = read_places(x, y, z)
-    taken = sorted({"time", "instant"}.intersection(map(str, places[0].dims)))
+    coordinates, own, places = read_places(x, y, z)
+    taken = sorted({"time", "instant"}.intersection(map(str, own)))
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
         raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
     rounds = turns_of(points)
     if time is None:
-        instants, history = _at_own_instants(points, opened, places)
+        instants, history = _at_own_instants(points, opened, own, places)
     else:
         given = read_instants(time)
         instants = labelled_time(points.path is None, given, ("time",) * given.ndim)
-        flat = np.stack([place.values.ravel() for place in places], axis=1)
-        history = stress_at(opened, flat, given.ravel() / rounds)
-    over = tuple(dim for dim in instants.dims if dim not in places[0].dims)
-    dims = (*over, *places[0].dims)
-    stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places[0].shape, 6)
+        history = stress_at(opened, places.reshape(-1, 3), given.ravel() / rounds)
+    over = tuple(dim for dim in instants.dims if dim not in own)
+    dims = (*over, *own)
+    stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places.shape[:-1], 6)
     variables = {}
     for i, name in enumerate(COMPONENTS):
         meaning = named(f"stress {name} over E* sqrt(delta0/R), tension positive", rf"\sigma_{{{name}}}")
@@ -101,22 +101,22 @@ def stress_field(
     radius = contact_radii(opened, instants.values.ravel() / rounds).reshape(instants.shape)
     meaning = named("contact radius, in units of a_H = sqrt(R delta0)", "a/a_H")
     variables["contact_radius"] = (instants.dims, radius, meaning)
-    return xr.Dataset(variables, {"time": instants, **as_given(places, x, y, z)})
+    return xr.Dataset(variables, {"time": instants, **coordinates})
 
 
 def _at_own_instants(
-    points: Points, opened: Opened, places: tuple[xr.DataArray, ...]
+    points: Points, opened: Opened, dims: tuple[Hashable, ...], places: FloatArray
 ) -> tuple[xr.DataArray, FloatArray]:
     """ω1 t over instant and the dimensions of the positions, and the stress, shape (n, T, 6)."""
-    flat = np.stack([place.values.ravel() for place in places], axis=1)
+    flat = places.reshape(-1, 3)
     angles = [instants_at(opened, place, _OF_INSTANTS) for place in flat]
     count = max(angle.size for angle in angles)
     instant, stress = np.empty((len(flat), count)), np.empty((len(flat), count, 6))
     for k, angle in enumerate(angles):
         every = np.minimum(np.arange(count), angle.size - 1)
         instant[k], stress[k] = angle[every], stress_at(opened, flat[k : k + 1], angle)[0, every]
-    time = np.moveaxis(turns_of(points) * instant, -1, 0).reshape(count, *places[0].shape)
-    return labelled_time(points.path is None, time, ("instant", *places[0].dims)), stress
+    time = np.moveaxis(turns_of(points) * instant, -1, 0).reshape(count, *places.shape[:-1])
+    return labelled_time(points.path is None, time, ("instant", *dims)), stress
 
 
 def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:
@@ -140,21 +140,17 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
     is 0. Nothing of a plane contact depends on y.
     """
     points, opened = open_point(parameters)
-    places = read_places(x, y, z)
-    flat = np.stack([place.values.ravel() for place in places], axis=1)
-    swt, _, normal = criterion_at(opened, flat, _OF_FIELD)
-    # n and −n are one plane: the first component that is not 0 is positive.
-    first = np.take_along_axis(normal, (np.abs(normal) > 1e-9).argmax(axis=1)[:, None], axis=1)
-    normal = normal * np.where(first < 0.0, -1.0, 1.0) + 0.0
+    coordinates, dims, places = read_places(x, y, z)
+    swt, _, normal = criterion_at(opened, places.reshape(-1, 3), _OF_FIELD)
     criterion = CRITERIA[points.criterion]
-    dims, shape = places[0].dims, places[0].shape
+    shape = places.shape[:-1]
     unit = "E* delta0/R" if criterion.degree == 2 else "E* delta0/a_H"
     words = f"{criterion.words} over {unit}"
     variables = {"s_local": (dims, swt.reshape(shape), named(words, criterion.symbol))}
-    for axis, name in enumerate("xyz"):
+    for name, values in zip("xyz", one_of_both(normal).T, strict=True):
         meaning = named("unit normal of the critical plane", f"n_{name}")
-        variables[f"normal_{name}"] = (dims, normal[:, axis].reshape(shape), meaning)
-    return xr.Dataset(variables, as_given(places, x, y, z))
+        variables[f"normal_{name}"] = (dims, values.reshape(shape), meaning)
+    return xr.Dataset(variables, coordinates)
 
 
 #: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.

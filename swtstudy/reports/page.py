@@ -312,19 +312,17 @@ def points_of(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> list[d
     for end, one in ends:
         part: dict[str, Any] = {"end": end, "symbol": symbol_of(measured(one)), "where": _where(dataset, one)}
         try:
-            part |= {"picture": _of_point(one), "line": Markup("; ").join(_point_line(one))}
+            if has_units(one):  # a real contact, in its units
+                body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
+                figure = contact_of(one).inspect(body)
+            else:
+                figure = inspect(**parameters_of(one))
+            part["picture"] = embedded(figure, _DPI_SMALL, drawing=False)
+            part["line"] = Markup("; ").join(_point_line(one))
         except StudyError as error:
             part["problem"] = str(error)
         parts.append(part)
     return parts
-
-
-def _of_point(one: xr.Dataset) -> Picture:
-    """The picture of a point; of a real contact in its units."""
-    if has_units(one):
-        body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
-        return embedded(contact_of(one).inspect(body), _DPI_SMALL, drawing=False)
-    return embedded(inspect(**parameters_of(one)), _DPI_SMALL, drawing=False)
 
 
 def _point_line(one: xr.Dataset) -> Iterator[Any]:

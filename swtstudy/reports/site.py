@@ -78,7 +78,9 @@ def write_reports(
         A ValueError, if none of the files is an archive.
     """
     paths = [Path(each) for each in archives]
-    report, is_folder = Report(), output is not None and _is_folder(output)
+    report, place = Report(), "" if output is None else os.fspath(output)
+    of_folder = Path(place).is_dir() or not Path(place).suffix or place.endswith(("/", os.sep))
+    is_folder = output is not None and of_folder
     several = len(paths) > 1 or is_folder
     names = [path.stem for path in paths]
     for name in dict.fromkeys(names) if several else ():
@@ -101,11 +103,6 @@ def write_reports(
     else:
         write_text(target, page(open_results(paths[0]), paths[0].stem))
         yield target, ""
-
-
-def _is_folder(output: str | PathLike[str]) -> bool:
-    path = os.fspath(output)
-    return Path(path).is_dir() or not Path(path).suffix or path.endswith(("/", os.sep))
 
 
 def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[tuple[Path, str]]:

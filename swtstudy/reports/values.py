@@ -30,6 +30,8 @@ _SIGNS = {"ell": "<i>ℓ</i>", "cdot": "·", "infty": "∞", "approx": "≈", "s
 #: Letters with another name in Unicode than in LaTeX.
 _GREEK = {"lambda": "lamda", "varphi": "phi", "varepsilon": "epsilon", "vartheta": "theta"}
 _NONE: Mapping[Any, Any] = {}
+#: What keeps to one line.
+_TIED = Markup('<span class="tied">{}</span>')
 
 
 def symbol_html(latex: str) -> Markup:
@@ -67,21 +69,12 @@ def _under(found: re.Match[str], inner: str) -> str:
 
 def symbol_of(values: xr.DataArray) -> Markup:
     """The symbol of a coordinate or data variable as HTML; its name in words if it has none."""
-    return tied(symbol) if (symbol := _symbol(values)) else escape(_words(values))
+    return _TIED.format(symbol) if (symbol := _symbol(values)) else escape(str(values.name).replace("_", " "))
 
 
 def _symbol(values: xr.DataArray) -> Markup:
     name = str(values.name)
     return symbol_html(str(values.attrs.get("symbol", AXES[name].symbol if name in AXES else "")))
-
-
-def _words(values: xr.DataArray) -> str:
-    return str(values.name).replace("_", " ")
-
-
-def tied(words: Markup) -> Markup:
-    """HTML that keeps to one line."""
-    return Markup('<span class="tied">{}</span>').format(words)
 
 
 def unit_of(values: xr.DataArray) -> str:
@@ -130,7 +123,8 @@ def place_html(values: xr.DataArray) -> Markup:
     """A single value with symbol and unit; the value alone of a name."""
     if not is_number(values):
         return escape(along(values))
-    return tied(Markup("{} = {}").format(_symbol(values) or _words(values), along(values)))
+    name = _symbol(values) or str(values.name).replace("_", " ")
+    return _TIED.format(Markup("{} = {}").format(name, along(values)))
 
 
 def share(part: float) -> str:

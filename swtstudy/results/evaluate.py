@@ -163,22 +163,17 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
             f"found {dim!r}, not a dimension of {y}; allowed: {nearest(dim, map(str, values.dims))}"
         )
     own = {"units": values.attrs.get("units", "1"), "symbol": values.attrs.get("symbol", y)}
-    # Parameters of a sample, too, are along the dimension, and differ between the two places.
-    along = [str(name) for name, each in values.coords.items() if dim in each.dims]
     found = xr.Dataset()
-    for name, filled, find in (("minimum", np.inf, "argmin"), ("maximum", -np.inf, "argmax")):
-        index = getattr(values.fillna(filled), find)(dim)
-        value = values.isel({dim: index}).drop_vars(along)
-        place = values[dim].isel({dim: index}).drop_vars(along)
-        place = place.where(value.notnull()) if place.dtype.kind == "f" else place
+    for name in ("minimum", "maximum"):
+        value = getattr(values, name[:3])(dim, keep_attrs=False)
+        place = getattr(values, f"idx{name[:3]}")(dim, keep_attrs=False)
         words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", **own}
-        found[name] = value.drop_attrs().assign_attrs(words)
+        found[name] = value.assign_attrs(words)
         words = {"long_name": f"{dim.replace('_', ' ')} of {name} {y}"}
         found[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)
     words = {"long_name": f"maximum over minimum of {y}", "comment": f"along {dim}", "units": "1"}
-    found["ratio"] = (found.maximum / found.minimum).drop_attrs().assign_attrs(words)
-    # The places that xarray indexes by bring coordinates without attributes.
-    return found.assign_coords({name: found[name].assign_attrs(dataset[name].attrs) for name in found.coords})
+    found["ratio"] = (found.maximum / found.minimum).drop_attrs(deep=False).assign_attrs(words)
+    return found
 
 
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
@@ -219,9 +214,7 @@ def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
     if name not in flags:
         raise StudyError([Mistake("name", literal(name), f"a variable of flags: {', '.join(flags)}")])
     words = np.array([*dataset[name].attrs["flag_meanings"].split(), ""], dtype=object)
-    values = dataset[name].values
-    known = np.isfinite(values)
-    found = dataset[name].copy(data=words[np.where(known, values, -1).astype(int)])
+    found = dataset[name].copy(data=words[_flags(dataset[name].values, dataset[name].attrs)])
     return found.drop_attrs(deep=False).assign_attrs(long_name=dataset[name].attrs.get("long_name", name))
 
 
@@ -229,6 +222,10 @@ def _as_words(flat: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
     """Flags by their meanings."""
     if "flag_meanings" not in attributes:
         return flat
-    # xarray's operations leave NaN where a flag is missing.
-    codes = pd.Index(np.atleast_1d(attributes["flag_values"])).get_indexer(flat)
-    return pd.Categorical.from_codes(codes, attributes["flag_meanings"].split())
+    return pd.Categorical.from_codes(_flags(flat, attributes), attributes["flag_meanings"].split())
+
+
+def _flags(values: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
+    """Places of flags among their meanings; -1 for NaN, which xarray's operations leave where one lacks."""
+    codes = pd.Index(np.atleast_1d(attributes["flag_values"])).get_indexer(np.ravel(values))
+    return codes.reshape(np.shape(values))

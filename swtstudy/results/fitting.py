@@ -166,25 +166,35 @@ class _Tests(NamedTuple):
         Deep beneath the surface there may be no tension.
         """
         distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
-        lives = _bounded(_lives(grid, y, distances, None), runout)
+        found = cls(grid, observed, runout, y, distances, {})
+        lives = found.lives(None)
         # A spline takes four.
         many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
-        found = cls(grid, observed, runout, y, distances[:many], {})
+        found = found._replace(distances=distances[:many])
         found.known[None] = found.spline(lives[:, :many])
         return found
 
+    def lives(self, friction: float | None) -> FloatArray:
+        """log10 of lives at the distances, shape (n, k); lives of tests that survived may be unbounded."""
+        lives = _lives(self.grid, self.y, self.distances, friction)
+        return np.where(self.runout[:, None], np.minimum(lives, UNBOUNDED), lives)
+
     def spline(self, lives: FloatArray) -> CubicSpline:
-        """Lives, shape (n, k), between the distances."""
+        """Lives, shape (n, k), between the distances; a StudyError unless all are finite."""
         from scipy.interpolate import CubicSpline
 
-        return CubicSpline(np.log(self.distances), _finite(lives), axis=1)
+        wrong = ~np.isfinite(lives).all(axis=1)
+        if wrong.any():
+            numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
+            found = f"no finite life of test {numbers}"
+            raise StudyError([Mistake("tests", found, "tests with equilibrium and tension")])
+        return CubicSpline(np.log(self.distances), lives, axis=1)
 
     def residuals(self, logarithms: Any) -> FloatArray:
         """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction."""
         own = math.exp(logarithms[1]) if len(logarithms) > 1 else None
         if own not in self.known:
-            lives = _lives(self.grid, self.y, self.distances, own)
-            self.known[own] = self.spline(_bounded(lives, self.runout))
+            self.known[own] = self.spline(self.lives(own))
         return np.asarray(self.known[own](logarithms[0])) - self.observed
 
     def misfit(self, x: Any) -> float:
@@ -217,22 +227,18 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
 
     own: list[float] = []
     if friction is not None:
-        bounds = np.log([_least_friction(tests.grid, friction), MOST_FRICTION])
+        # The least friction that bears the tangential forces.
+        ratios = margins(Distinct.of(tests.grid), tests.grid).get("prescribed_force_ratio", np.zeros(1))
+        least = max(1.001 * float(np.max(ratios)) * friction, 1e-3)
+        if not least < MOST_FRICTION:
+            found = f"tangential forces that need {least:.3g} at least"
+            raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
+        bounds = np.log([least, MOST_FRICTION])
         own = [
             minimize_scalar(lambda x: at([x]).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}).x
         ]
     distance, scatter = at(own).x
     return np.array([distance, *own, scatter])
-
-
-def _least_friction(grid: PhysicalGrid, friction: float) -> float:
-    """The least friction that bears the tangential forces; a StudyError if there is none."""
-    ratios = margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1))
-    least = max(1.001 * float(np.max(ratios)) * friction, 1e-3)
-    if not least < MOST_FRICTION:
-        found = f"tangential forces that need {least:.3g} at least"
-        raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
-    return least
 
 
 def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) -> FloatArray:
@@ -243,22 +249,6 @@ def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) 
     rows = [[f(x + a + b) - f(x + a - b) - f(x - a + b) + f(x - a - b) for b in steps] for a in steps]
     variance = np.maximum(np.diag(np.linalg.pinv(np.array(rows) / (4.0 * STEP**2)))[:-1], 0.0)
     return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(variance))
-
-
-def _bounded(lives: FloatArray, runout: BoolArray) -> FloatArray:
-    """log10 of lives, (n, k), where lives of tests that survived may be unbounded."""
-    return np.where(runout[:, None], np.minimum(lives, UNBOUNDED), lives)
-
-
-def _finite(lives: FloatArray) -> FloatArray:
-    """The lives, shape (n, k), if all are finite."""
-    wrong = ~np.isfinite(lives).all(axis=1)
-    if wrong.any():
-        numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
-        raise StudyError(
-            [Mistake("tests", f"no finite life of test {numbers}", "tests with equilibrium and tension")]
-        )
-    return lives
 
 
 def _lives(grid: PhysicalGrid, y: str, distances: FloatArray, friction: float | None) -> FloatArray:
@@ -382,13 +372,11 @@ def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study
     try:
         return study_from(kept, "", source, path.parent)
     except StudyError as error:
-        raise StudyError(map(_of_tests, error.mistakes)) from None
-
-
-def _of_tests(mistake: Mistake) -> Mistake:
-    """A mistake in a study; one in its sample is one in the tests."""
-    key = re.sub(r"\bsample(\.points)?\b", "tests", mistake.key)
-    return mistake if key == mistake.key else replace(mistake, key=key, source="")
+        keys = [re.sub(r"\bsample(\.points)?\b", "tests", mistake.key) for mistake in error.mistakes]
+        raise StudyError(
+            mistake if key == mistake.key else replace(mistake, key=key, source="")
+            for key, mistake in zip(keys, error.mistakes, strict=True)
+        ) from None
 
 
 def _columns(tests: object) -> dict[str, list[Any]]:

@@ -102,21 +102,6 @@ def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[ob
     return axes, report
 
 
-def read_box(over: object, fixed: Mapping[str, object]) -> Box:
-    """The box of ranges by name, ``(low, high)`` each, and of fixed values.
-
-    Raises
-    ------
-    StudyError
-        With every mistake.
-    """
-    axes, report = read_ranges(over, NUMERIC)
-    corners, found = read_grid(fixed, axes, lambda name: f"over.{name}" if name in axes else name)
-    if corners is None or report:
-        raise StudyError([*report, *found])
-    return Box.of(corners, over)  # type: ignore[arg-type]
-
-
 def worst(values: xr.DataArray) -> FloatArray:
     """Values of the points of a sample: of both bodies, and both directions, that which is worse."""
     others = [dim for dim in values.dims if dim != SAMPLE]
@@ -291,7 +276,11 @@ def optimise(
     """
     report, known = Report(), MINIMISED
     with report:
-        box = read_box(over, parameters)
+        axes, wrong = read_ranges(over, NUMERIC)
+        corners, found = read_grid(parameters, axes, lambda name: f"over.{name}" if name in axes else name)
+        if corners is None or wrong:
+            raise StudyError([*wrong, *found])
+        box = Box.of(corners, over)
         known += box.corners.margins
     check_asked(report, minimise, rtol, seed, known)
     report.refuse()
