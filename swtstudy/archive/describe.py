@@ -77,7 +77,8 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
     yield from (("validity", line) for line in validity_lines(dataset, inside=True))
     for number, run in enumerate(read_runs(attributes.get("runs", "[]"))):
-        words = f"{int((dataset.run == number).sum())} points, rtol {run.rtol:g}, solver version "
+        count = int((dataset.run == number).sum())
+        words = f"{count} point{'s' * (count != 1)}, rtol {run.rtol:g}, solver version "
         words += f"{run.solver_version}, {run.seconds:.1f} s of computing, started {run.started}"
         yield f"run {number}", words
     failed = [f"{where}: {why}" for where, why in failures(dataset)]
@@ -90,7 +91,10 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for name in map(str, dataset.s.dims):
         if name == SAMPLE:
-            attributes, words = dataset[SAMPLE].attrs, f"{dataset.sizes[SAMPLE]} points"
+            attributes, words = (
+                dataset[SAMPLE].attrs,
+                f"{dataset.sizes[SAMPLE]} point{'s' * (dataset.sizes[SAMPLE] != 1)}",
+            )
             if "design" in attributes:
                 design = str(attributes["design"]).replace("_", " ")
                 words += f" ({design} design, seed {attributes.get('seed')})"

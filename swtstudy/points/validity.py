@@ -250,8 +250,8 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
         out = _beyond(lives)
         if out.any():
             beyond[name] = np.asarray(out.any(axis=-1))
-            ends = dict.fromkeys((float(lives[out].min()), float(lives[out].max())))
-            found = f"{_where(beyond[name])}: {' to '.join(numbers_words(ends, 3))}"
+            ends = dict.fromkeys(numbers_words((lives[out].min(), lives[out].max()), 3))
+            found = f"{_where(beyond[name])}: {' to '.join(ends)}"
             lines.append(f"{name} extrapolated{found}, while the constants are known for {_KNOWN}")
     short = f"{', '.join(beyond)} extrapolated{_where(np.any([*beyond.values()], axis=0))} (beyond {_KNOWN})"
     yield from ((short * (k == 0), line) for k, line in enumerate(lines))

@@ -7,12 +7,13 @@ stresses, and the way there and back.
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES, STRAIN_SHARE
 
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 #: Kinds of numbers that have a unit of their own.
 UNIT_KINDS = ("length", "force", "stress")
 
-#: Labels that are known, in m, N and Pa.
+#: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
 KNOWN: dict[str, dict[str, float]] = {
     "length": {
         **{"m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9},
@@ -80,12 +81,15 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
         report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), UNIT_KINDS))
     labels = {kind: str(raw[kind]).strip() if isinstance(raw.get(kind), str) else "" for kind in UNIT_KINDS}
     for kind, label in labels.items():
-        if label not in KNOWN[kind]:
-            found = literal(raw[kind]) if kind in raw else "nothing"
-            found += "".join(f", a unit of {other}" for other in UNIT_KINDS if label in KNOWN[other])
-            report(f"units.{kind}", found, _allowed_unit(kind, label))
+        found = literal(raw[kind]) if kind in raw else "nothing"
+        if label in ("", "1", "rad") or not label.isprintable():
+            report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
+        elif likely := _likely_units(kind, label):
+            report(f"units.{kind}", found, f"did you mean {' or '.join(likely)}?")
     if len(report) > before:
         return None
+    if not all(label in KNOWN[kind] for kind, label in labels.items()):
+        return Units(**labels)
     length, force, stress = (KNOWN[kind][labels[kind]] for kind in UNIT_KINDS)
     if math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
         return Units(**labels)
@@ -95,26 +99,26 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     return None
 
 
-def _allowed_unit(kind: str, label: str) -> str:
-    """The units of a kind in words, and the one that an unknown label probably means.
+def _likely_units(kind: str, label: str) -> list[str]:
+    """The known units that a label probably means; none for a known unit, or for one of the user's own.
 
     Examples
     --------
-    >>> _allowed_unit("length", "milimeter")
-    'did you mean mm? known: m, cm, mm, µm, nm, in, ft'
-    >>> _allowed_unit("force", "mn")
-    'did you mean MN or mN? known: N, kN, MN, mN, µN, lbf, kip, kgf'
+    >>> _likely_units("length", "milimeter"), _likely_units("force", "mn"), _likely_units("length", "cm2")
+    (['mm'], ['MN', 'mN'], ['cm'])
+    >>> _likely_units("stress", "N"), _likely_units("length", "furlong")
+    (['Pa', 'kPa', 'MPa', 'GPa', 'N/mm²', 'N/mm2', 'psi', 'ksi'], [])
     """
     known = KNOWN[kind]
-    every = ", ".join(
-        {size: each for each, size in reversed(known.items())}[size] for size in dict.fromkeys(known.values())
-    )
+    if label in known:
+        return []
+    if any(label in others for others in KNOWN.values()):
+        return [*known]
+    base = label.rstrip("^-²³0123456789")
+    alike = [each for each in known if base in (each, each.lower()) or label.lower() == each.lower()]
     written = {name: each for name, each in _WRITTEN_OUT.items() if each in known}
-    close = meant(label, [*known, *written], {}) or ""
-    likely = [each for each in known if each.lower() == label.lower()] or [written.get(close, close)]
-    if not likely[0] or any(label in others for others in KNOWN.values()):
-        return f"the name of a unit, such as {literal(next(iter(known)))}: one of {every}"
-    return f"did you mean {' or '.join(likely)}? known: {every}"
+    close = difflib.get_close_matches(label.lower().removesuffix("s"), written, n=1, cutoff=0.8)
+    return alike or [written[name] for name in close]
 
 
 #: No unit makes a quantity smaller or larger; the product of three of them, and a square, is still a number.

@@ -1,4 +1,4 @@
-"""Names are a user's own: an archive gives them back, and figures write them, and units, as they are."""
+"""Names and units are a user's own: an archive gives them back, and figures write them as they are."""
 
 from __future__ import annotations
 
@@ -75,13 +75,14 @@ def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
 
 
 @pytest.mark.slow
-def test_units_are_written_as_they_are(tmp_path: Path) -> None:
+@pytest.mark.parametrize("unit", ["$$", pytest.param("$x", marks=pytest.mark.slow)])
+def test_units_are_written_as_they_are(tmp_path: Path, unit: str) -> None:
     study = Study.from_text(
-        """
+        f"""
 title = "a $$ title"
 rtol = 1e-2
-units = {length = "µm", force = "µN", stress = "MPa"}
-fixed = {young_modulus = 7e4, poisson_ratio = 0.3, radius = 50, friction = 0.5, body = 1}
+units = {{length = "{unit}", force = "N", stress = "MPa"}}
+fixed = {{young_modulus = 7e4, poisson_ratio = 0.3, radius = 50, friction = 0.5, body = 1}}
 [sample]
 design = "saltelli"
 size = 2
@@ -98,7 +99,8 @@ y = ["critical_position", "SWT"]
 """
     )
     found = run(study, tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+    label = unit.replace("$", r"\$")
     # A label that is longer than its panel has two lines.
     words = drawn(draw(found)).replace("\n", " ")
-    for each in ("$x$ (µm)", "$u_A$ (µm)", "0.001 µm"):
+    for each in (f"$x$ ({label})", f"$u_A$ ({label})", f"0.001 {label}"):
         assert each in words, words

@@ -201,32 +201,31 @@ def test_a_critical_distance_far_beyond_the_contact_is_refused_wherever_it_comes
         contact.solve(critical_distance=[0.05, 60])
 
 
-@pytest.mark.parametrize(("label", "meant"), [("Mpa", "MPa"), ("gpa", "GPa")])
-def test_a_unit_that_is_nearly_known_is_asked_about(label: str, meant: str) -> None:
-    with pytest.raises(StudyError, match=rf"units.stress: found '{label}'; allowed: did you mean {meant}\?"):
-        Study.from_text(STUDY.replace('stress = "MPa"', f'stress = "{label}"'))
-
-
 @pytest.mark.parametrize(
-    ("kind", "label", "words"),
+    ("kind", "label", "meant"),
     [
-        ("length", "cm2", "did you mean cm? known: m, cm, mm, µm, nm, in, ft"),
-        ("length", "milimeter", "did you mean mm? known: m, cm, mm, µm, nm, in, ft"),
-        ("length", "MPa", "the name of a unit, such as 'm': one of m, cm, mm, µm, nm, in, ft"),
-        ("force", "Newton", "did you mean N? known: N, kN, MN, mN, µN, lbf, kip, kgf"),
-        ("force", "mn", "did you mean MN or mN? known: N, kN"),
-        ("stress", "megapascals", "did you mean MPa? known: Pa, kPa, MPa, GPa, psi, ksi"),
+        ("length", "cm2", "cm"),
+        ("length", "milimeter", "mm"),
+        ("length", "MPa", "m or cm or mm"),
+        ("force", "Newton", "N"),
+        ("force", "mn", "MN or mN"),
+        ("stress", "Mpa", "MPa"),
+        ("stress", "megapascals", "MPa"),
     ],
 )
-def test_a_unit_is_a_known_one_of_its_dimension(kind: str, label: str, words: str) -> None:
+def test_a_unit_that_is_nearly_known_is_asked_about(kind: str, label: str, meant: str) -> None:
     known = {"length": "mm", "force": "N", "stress": "MPa"}[kind]
     with pytest.raises(StudyError) as error:
         Study.from_text(STUDY.replace(f'{kind} = "{known}"', f'{kind} = "{label}"'), "mine.toml")
-    of_stress = ", a unit of stress" * (label == "MPa")
-    assert str(error.value).startswith(
-        f"mine.toml: units.{kind}: found '{label}'{of_stress}; allowed: {words}"
-    )
+    expected = f"mine.toml: units.{kind}: found '{label}'; allowed: did you mean {meant}"
+    assert str(error.value).startswith(expected)
     assert len(error.value.mistakes) == 1
+
+
+def test_a_unit_of_the_user_is_taken_as_it_is() -> None:
+    assert (
+        Study.from_text(STUDY.replace('length = "mm"', 'length = "furlong"')).grid.units.length == "furlong"
+    )
 
 
 def test_constants_that_no_metal_has_are_warned_of() -> None:
