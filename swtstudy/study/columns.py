@@ -241,14 +241,14 @@ def read_table(
     except OSError as error:
         raise _refused(source, reason_of(error), _READABLE) from None
     report = Report()
-    if form.separator == form.decimal == ",":
-        report("separator, decimal", "both ','", "two different signs")
-        form = form.model_copy(update={"decimal": None})
     if data.startswith(b"PK\x03\x04"):
         content: str | list[Row] = _sheet(data, form, source)
     else:
         content = _text(data, form, source, report)
     separator, above = _found_header(content, names, known, form, source, report)
+    if separator == form.decimal == ",":
+        report("separator, decimal", "both ','", "two different signs")
+        form = form.model_copy(update={"decimal": None})
     try:
         rows = list(islice(_rows(content, separator, form.skip_rows), above + most + 3))
     except csv.Error as error:

@@ -60,9 +60,9 @@ class FileTable(Table):
 
     columns: Annotated[dict[str, str], 'a table of headers, such as { normal = "Fn [N]" }'] = {}
     """Headers of the file's columns, where they are not the names that they have here."""
-    separator: Separator | None = None
+    separator: Annotated[Separator | None, f"one of {', '.join(map(repr, SEPARATORS))}"] = None
     """Between cells; a blank for any number of blanks. Found from the header unless given."""
-    decimal: Literal[".", ","] | None = None
+    decimal: Annotated[Literal[".", ","] | None, "one of '.', ','"] = None
     """The decimal sign in numbers. Found from the first rows unless given."""
     encoding: Annotated[str | None, 'the name of an encoding, such as "cp1252"'] = None
     """Encoding of the text, UTF-8 unless given; "cp1252" or "latin-1" for older programs."""
