@@ -187,7 +187,7 @@ def test_a_figure_of_ones_own_has_all_keys_of_a_studys(dataset):
     own = set(inspect.signature(dataset.swt.panels).parameters) - {"style", "width"}
     # A caption and a message are the study's.
     schema = json.loads((STUDIES / "study.schema.json").read_text(encoding="utf-8"))
-    assert own == {*schema["$defs"]["FigureTable"]["properties"]} - {"caption", "message"}
+    assert own == {*schema["$defs"]["FigureLayout"]["properties"]} - {"caption", "message"}
 
 
 def test_results_of_solve():

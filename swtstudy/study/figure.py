@@ -67,11 +67,11 @@ class FigureLayout:
     vertical: OtherAxis = None
     """Axis along the vertical axis of contours or a heat map."""
     regimes: StrictBool = False
-    """Whether to mark where a regime of the contact begins along a line."""
+    """True to mark where a regime of the contact begins along a line."""
     validity: StrictBool = False
-    """Whether to mark points outside of what the model holds for, such as beyond first yield."""
+    """True to mark points outside of what the model holds for, such as beyond first yield."""
     caption: str | None = None
-    """What there is to say beneath the figure, in reports."""
+    """Text beneath the figure, in reports."""
     message: str | None = None
     """Headline of reports, instead of what the results say first."""
 

@@ -105,7 +105,7 @@ def _toml_error(reason: str, text: str) -> TomlError:
     row, column = (int(place[1]), int(place[2])) if place else (len(lines), len(lines[-1]) + 1)
     line = lines[row - 1] if row <= len(lines) else ""
     key = line.partition("=")[0].strip()
-    reason = re.sub(r"^Cannot overwrite a value", f"the key {key!r} twice", reason)
+    reason = reason.replace("Cannot overwrite a value", f"the key {key!r} twice")
     reason = re.sub(r"^Cannot declare \((.*?),?\) twice", r"the table \1 twice", reason)
     if number := re.search(r"=\s*([+-]?\d+),(\d[\de+-]*)\s*(#|$)", line):
         reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"

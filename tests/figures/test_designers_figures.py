@@ -24,7 +24,7 @@ def results():
     amplitude = dataset.tangential_amplitude
     cycles = 1e5 * dataset.friction / amplitude**4
     regime = regime_of(amplitude > dataset.friction + 1e-9).transpose(*dataset.s.dims)
-    regime.attrs["flag_meanings"] = " ".join(REGIMES)
+    regime.attrs |= {"flag_values": np.arange(len(REGIMES)), "flag_meanings": " ".join(REGIMES)}
     return dataset.assign(cycles=cycles.assign_attrs(symbol="N"), regime=regime)
 
 

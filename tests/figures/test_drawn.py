@@ -26,7 +26,11 @@ def axes():
 def results(function, **values):
     """Made-up results with the flags of the regime."""
     dataset = made_up(function, **values)
-    return dataset.assign(regime=dataset.regime.assign_attrs(flag_meanings=" ".join(REGIMES)))
+    return dataset.assign(
+        regime=dataset.regime.assign_attrs(
+            flag_values=np.arange(len(REGIMES)), flag_meanings=" ".join(REGIMES)
+        )
+    )
 
 
 def test_a_line_is_drawn_in_the_order_of_x():

@@ -270,11 +270,16 @@ def results(tmp_path_factory):
     return run(sampled(), tmp_path_factory.mktemp("r") / "a.nc", workers=1, solver=stand_in.smooth)
 
 
+def with_points(axes):
+    """The lines of a panel, without those that the legend shows in their place."""
+    return [line for line in axes.lines if len(line.get_xdata())]
+
+
 def test_a_scatter_has_a_panel_for_each_parameter(results):
     figure = draw(results)
     assert [axes.get_xlabel() for axes in figure.axes] == [r"$\psi$ (rad)", r"$\mu$"]
     for axes, name in zip(figure.axes, ("phase", "friction"), strict=True):
-        for line, profile in zip(axes.lines, ("paraboloid", "rounded_punch"), strict=True):
+        for line, profile in zip(with_points(axes), ("paraboloid", "rounded_punch"), strict=True):
             assert line.get_xdata().tolist() == results[name].values.tolist()
             assert line.get_ydata().tolist() == results.s.sel(profile=profile).values.tolist()
     assert [text.get_text() for text in figure.legends[0].texts] == [
@@ -285,14 +290,14 @@ def test_a_scatter_has_a_panel_for_each_parameter(results):
 
 def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
     (axes, *_), (legend,) = (lambda figure: (figure.axes, figure.legends))(draw(results))
-    first, second = axes.lines
+    first, second = with_points(axes)
     assert first.get_marker() != second.get_marker()
     grey = [np.dot(to_rgb(line.get_color()), [0.299, 0.587, 0.114]) for line in (first, second)]
     assert abs(grey[0] - grey[1]) > 0.25
     for handle, line in zip(legend.legend_handles, (first, second), strict=True):
         assert handle.get_marker() == line.get_marker()
         assert handle.get_markersize() > 2.0 * line.get_markersize()
-        assert handle.get_alpha() == 1.0
+        assert handle.get_alpha() in (None, 1.0)
 
 
 def test_a_scatter_of_regimes_has_a_row_for_each(results):

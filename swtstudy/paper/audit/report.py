@@ -73,7 +73,7 @@ def report(dataset: xr.Dataset) -> str:
 
 
 def _of_bulk_stress(points: pd.DataFrame) -> pd.Categorical:
-    """What makes the surface line doubtful with a bulk stress, of each point; nothing in the first group."""
+    """The reason why a bulk stress makes the surface line doubtful at each point; none in the first group."""
     from swtstudy.kernel.circle import SAFE_POISSON_RATIO  # with the compiler, which takes half a second
 
     presses, hard = points["bulk_stress_mean"] < 0.0, points["poisson_ratio"] > SAFE_POISSON_RATIO

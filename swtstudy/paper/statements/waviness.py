@@ -66,7 +66,7 @@ def oscillations(dataset: xr.Dataset, *others: str) -> list[Oscillation]:
 
 
 def growing(found: Sequence[Oscillation]) -> tuple[BoolArray, BoolArray]:
-    """Whether each period exceeds the last one, and each rise, or fall, the last rise, or fall."""
+    """True if each period exceeds the last one, and each rise, or fall, the last rise, or fall."""
     periods = np.concatenate([np.diff(one.periods) for one in found])
     swings = np.concatenate([one.swings[2:] - one.swings[:-2] for one in found])
     return periods > 0, swings > 0
