@@ -25,7 +25,6 @@ from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
-    SMALLEST_STORED_RTOL,
     Mistake,
     Report,
     StudyError,
@@ -179,7 +178,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     attributes, real = dataset.attrs, has_units(dataset)
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
-    if not is_rtol(attributes["rtol"], SMALLEST_STORED_RTOL):
+    if not is_rtol(attributes["rtol"]):
         wrong["rtol"] = ALLOWED_RTOL
     if not 0.0 <= plain_number(seconds) < np.inf:
         wrong["wall_time_seconds"] = "a number of seconds"
