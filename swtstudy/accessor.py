@@ -155,7 +155,7 @@ class SwtAccessor:
         title
             Title of the figure.
         kind
-            One of `swtstudy.vocabulary.choices.FIGURES`, such as "lines" or "contour".
+            Kind of figure, such as "lines" or "contour"; the page on figures lists all kinds.
         vertical
             The other dimension of contours and heat maps.
         regimes
