@@ -24,7 +24,14 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
-from swtstudy.vocabulary.wording import coordinate_words, listed, number_words, numbers_words, unit_words
+from swtstudy.vocabulary.wording import (
+    coordinate_words,
+    listed,
+    number_of,
+    number_words,
+    numbers_words,
+    unit_words,
+)
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
@@ -77,10 +84,9 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
     yield from (("validity", line) for line in validity_lines(dataset, inside=True))
     for number, run in enumerate(read_runs(attributes.get("runs", "[]"))):
-        count = int((dataset.run == number).sum())
-        words = f"{count} point{'s' * (count != 1)}, rtol {run.rtol:g}, solver version "
-        words += f"{run.solver_version}, {run.seconds:.1f} s of computing, started {run.started}"
-        yield f"run {number}", words
+        words = number_of(int((dataset.run == number).sum()), "point")
+        words += f", rtol {run.rtol:g}, solver version {run.solver_version}"
+        yield f"run {number}", f"{words}, {run.seconds:.1f} s of computing, started {run.started}"
     failed = [f"{where}: {why}" for where, why in failures(dataset)]
     more = [f"{len(failed) - _LISTED} more"] if len(failed) > _LISTED else []
     yield from (("failed", words) for words in [*failed[:_LISTED], *more])
@@ -91,10 +97,7 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     for name in map(str, dataset.s.dims):
         if name == SAMPLE:
-            attributes, words = (
-                dataset[SAMPLE].attrs,
-                f"{dataset.sizes[SAMPLE]} point{'s' * (dataset.sizes[SAMPLE] != 1)}",
-            )
+            attributes, words = dataset[SAMPLE].attrs, number_of(dataset.sizes[SAMPLE], "point")
             if "design" in attributes:
                 design = str(attributes["design"]).replace("_", " ")
                 words += f" ({design} design, seed {attributes.get('seed')})"

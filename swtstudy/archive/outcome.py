@@ -13,8 +13,10 @@ from swtstudy.points.validity import outside_words, point_words
 from swtstudy.points.values import index_at
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import KINDS, LIVES, PERCENTS, measures, sequence_words
+from swtstudy.units.results import measures, sequence_words
 from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import CRITERIA
+from swtstudy.vocabulary.derived import LIVES, PERCENTS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words, unit_words
@@ -90,7 +92,7 @@ def life_words(dataset: xr.Dataset) -> Iterator[str]:
     if sequence := sequence_words(dataset, read_contact(dataset.attrs[CONTACT]).blocks):
         yield f"sequence of blocks: {sequence}"
         return
-    kinds = [kind for kind in KINDS.values() if kind.life and kind.life in dataset]
+    kinds = [kind for kind in CRITERIA.values() if kind.life and kind.life in dataset]
     for kind in kinds:
         said = [f"{_ends(dataset[kind.life].values)} load cycles (worst point)"]
         for name in asked_means(dataset, kind.life):

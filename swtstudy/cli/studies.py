@@ -16,7 +16,7 @@ from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
-from swtstudy.vocabulary.wording import duration, unit_words
+from swtstudy.vocabulary.wording import duration, number_of, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -144,7 +144,7 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
     if todo:
         seconds, timed = estimate(work, study.rtol)
-        each = f"{1e3 * seconds / todo:.3g} ms a point, from {timed} point{'s' * (timed > 1)} timed"
+        each = f"{1e3 * seconds / todo:.3g} ms a point, from {number_of(timed, 'point')} timed"
         yield f"  time               about {duration(seconds / workers)} with {workers} workers ({each})"
 
 

@@ -106,8 +106,7 @@ def _apart_from_cycles(values: FloatArray, off: FloatArray, cycle: FloatArray) -
 
     The second condition spares the steep side of a cycle that comes a little late.
     """
-    least = SPIKE * np.median(off, axis=0) / 0.6745
-    least = np.maximum(least, SPIKE_SHARE * np.ptp(cycle, axis=0))
+    least = _least_spike(off, SPIKE_SHARE * np.ptp(cycle, axis=0))
     beside = np.stack([np.roll(values, 1, axis=0), np.roll(values, -1, axis=0)])
     beside[0, 0], beside[1, -1] = beside[1, 0], beside[0, -1]
     outside = np.zeros_like(values, bool)
@@ -133,9 +132,16 @@ def _single_spikes(time: FloatArray, values: FloatArray) -> tuple[BoolArray, Flo
     sign = np.sign(off[2:-2])
     before, after = -off[1:-3] / share[:-2], -off[3:-1] / (1.0 - share[2:])
     height = np.min([sign * off[2:-2], sign * before, sign * after], axis=0)
-    least = SPIKE * np.median(np.abs(off), axis=0) / 0.6745
-    out[2:-2] = height > np.maximum(least, SINGLE_SHARE * np.ptp(values, axis=0))
+    out[2:-2] = height > _least_spike(np.abs(off), SINGLE_SHARE * np.ptp(values, axis=0))
     return out, usual
+
+
+def _least_spike(off: FloatArray, share: FloatArray) -> FloatArray:
+    """The least height of a spike, by column: `SPIKE` standard deviations, or a share of a range.
+
+    The median of the deviations gives the standard deviation of normal noise, whatever the spikes are.
+    """
+    return np.maximum(SPIKE * np.median(off, axis=0) / 0.6745, share)
 
 
 def repeats(time: FloatArray, values: FloatArray) -> float | None:

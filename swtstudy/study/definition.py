@@ -18,6 +18,7 @@ from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.writing import as_html, in_one_line, to_toml
 from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON, rows
 from swtstudy.vocabulary.choices import SWT, families_with
+from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
@@ -256,11 +257,7 @@ def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> 
         # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
         dims = [name if name in AXES else meant(name, AXES) or name for name in axes]
         dims += [dim for dim in (grid.dims if grid else ()) if dim not in (*dims, SAMPLE)]
-        unsure: set[str] = set()
-        if contacts and report:
-            from swtstudy.units.results import NAMES
-
-            unsure = {*NAMES, *EVERY_VARIABLE}
+        unsure = {*NAMES, *EVERY_VARIABLE} if contacts and report else set()
         check_figure(figure, [SAMPLE] * is_sampled + dims, grid, asked, report, unsure)
     if report or grid is None:
         told = {mistake.key for mistake in of_structure}  # once

@@ -19,6 +19,7 @@ from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_ove
 from swtstudy.study.keys import SignalTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.wording import number_of
 
 #: By what share of a step a record may be shorter than a whole number of periods.
 ROUNDING = 1e-6
@@ -132,7 +133,7 @@ class Signal:
     @property
     def words(self) -> str:
         """Cycles, samples, scatter, in a line."""
-        said = [f"{self.count} cycle{'s' * (self.count > 1)} of {self.cycles.shape[1]} samples"]
+        said = [f"{number_of(self.count, 'cycle')} of {self.cycles.shape[1]} samples"]
         if self.mean_normal is not None:
             said.append(f"mean normal load {self.mean_normal:.5g}")
         rounding = np.finfo(float).eps * self.count * np.abs(self.values).max(axis=0)

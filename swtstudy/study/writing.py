@@ -11,7 +11,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import html_table, listed, plain_words, unit_words
+from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
@@ -123,7 +123,7 @@ def as_html(study: Study) -> str:
 
 def _size(study: Study) -> str:
     axes = " × ".join(f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True))
-    points = f"{study.grid.size} point{'s' * (study.grid.size != 1)}"
+    points = number_of(study.grid.size, "point")
     return f"{points} = {axes}" if axes else points
 
 

@@ -117,9 +117,10 @@ def read_given(
         units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
-    two = {name: [*map(_number, two_of(fixed[name]))] for name in OF_BODIES if name in fixed}
-    sound = {
-        name: [number if (number := plain_number(each)) > 0.0 else 0.0 for each in two[name]] for name in two
+    sound = {  # 0 for what is no positive number: 0 is not below NaN
+        name: [max(0.0, plain_number(_number(each))) for each in two_of(fixed[name])]
+        for name in OF_BODIES
+        if name in fixed
     }
     moduli: dict[str, _Both] = {}
     if _YOUNG in sound:

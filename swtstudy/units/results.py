@@ -15,10 +15,17 @@ from swtstudy.units.life import ROUNDS, UNCOUNTED, Block, FatigueConstants, Shea
 from swtstudy.units.rows import LABELS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
-from swtstudy.vocabulary.derived import DERIVED, LIFE, NORMALISED, RANKS, REPETITIONS, SHARE, Derived
-from swtstudy.vocabulary.derived import LIVES as LIVES
-from swtstudy.vocabulary.derived import NAMES as NAMES
-from swtstudy.vocabulary.derived import PERCENTS as PERCENTS
+from swtstudy.vocabulary.derived import (
+    DERIVED,
+    LIFE,
+    LIVES,
+    NORMALISED,
+    PERCENTS,
+    RANKS,
+    REPETITIONS,
+    SHARE,
+    Derived,
+)
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, Request
 from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
@@ -37,8 +44,6 @@ _REPEATED = (
     "each at its own worst place: where these differ, the life is longer"
 )
 _SHARED = "share of a load's rounds in the damage of a repetition of the sequence of blocks"
-#: The rows of the criteria, under the name that archives import.
-KINDS = CRITERIA
 
 
 def scale_of(name: str, stresses: Sequence[float] = ()) -> Callable[[Contact, int], float]:

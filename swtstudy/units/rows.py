@@ -26,18 +26,18 @@ UNIT_KINDS = ("length", "force", "stress")
 #: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
 KNOWN: dict[str, dict[str, float]] = {
     "length": {
-        **{"m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9},
-        **{"in": 0.0254, "ft": 0.3048},
+        "m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9,
+        "in": 0.0254, "ft": 0.3048,
     },
     "force": {
-        **{"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "µN": 1e-6, "μN": 1e-6, "uN": 1e-6},
-        **{"lbf": 4.4482216152605, "kip": 4448.2216152605, "kgf": 9.80665},
+        "N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "µN": 1e-6, "μN": 1e-6, "uN": 1e-6,
+        "lbf": 4.4482216152605, "kip": 4448.2216152605, "kgf": 9.80665,
     },
     "stress": {
-        **{"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm²": 1e6, "N/mm2": 1e6},
-        **{"psi": 6894.757293168, "ksi": 6894757.293168},
+        "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm²": 1e6, "N/mm2": 1e6,
+        "psi": 6894.757293168, "ksi": 6894757.293168,
     },
-}
+}  # fmt: skip
 #: Their names as people write them out, and in labels.
 _PREFIXES = {"": "", "kilo": "k", "mega": "M", "giga": "G"}
 _PREFIXES |= {"centi": "c", "milli": "m", "micro": "µ", "nano": "n"}

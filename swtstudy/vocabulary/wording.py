@@ -171,6 +171,17 @@ def _large_or_small(value: float) -> bool:
     return math.isfinite(value) and value != 0.0 and not low <= abs(value) < high
 
 
+def number_of(count: int, noun: str) -> str:
+    """A number of things.
+
+    Examples
+    --------
+    >>> number_of(1, "point"), number_of(3, "point")
+    ('1 point', '3 points')
+    """
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
 def listed(words: Sequence[str], most: int) -> str:
     """Words after commas, of many the first two and the last."""
     if len(words) <= most:

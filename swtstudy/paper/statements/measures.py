@@ -83,12 +83,6 @@ def listed(values: xr.DataArray, form: str = ".2f") -> str:
     )
 
 
-#: Harmonics below this fraction of the largest one are traces of kinks between grid points.
-_SMALLEST_HARMONIC = 0.02
-#: A curve whose harmonics are all below this fraction of its values is constant but for rounding.
-_ROUNDING = 1e-9
-
-
 def spread(dataset: xr.Dataset, dim: str, *others: str) -> xr.DataArray:
     """Largest over smallest s along a dimension, over its other dimensions in this order, each ascending."""
     s = with_dims(dataset, dim, *others).s.sortby([*others])
