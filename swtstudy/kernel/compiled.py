@@ -62,7 +62,7 @@ def _bases():
 _FOLDER = cache_folder()
 
 
-def jit(function, **options):
+def entry(function, **options):
     """Compile a function: division by zero as in NumPy, no lock held, cached in the kernel's own folder."""
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _FOLDER
@@ -76,6 +76,29 @@ def jit(function, **options):
     return compiled
 
 
+def jit(function, **options):
+    """Compile a function for compiled functions alone: code for calls from Python costs an eighth."""
+    compiled = entry(function, no_cpython_wrapper=True, **options)
+    if numba.config.DISABLE_JIT:
+        return compiled
+
+    def refuse(*arguments):
+        raise TypeError(f"compiled code alone calls {function.__name__}; decorate it with entry for Python")
+
+    # A call from Python looks for compiled code that was put in, and then compiles.
+    compiled._insert, compiled._compile_for_args = lambda *code: None, refuse
+    return compiled
+
+
+def jit_inlined(function):
+    """The same for a long step of one caller.
+
+    The step becomes a part of the caller before the compiler optimises: it would optimise the step, and all
+    that the step calls, once for each function above it.
+    """
+    return jit(function, inline="always")
+
+
 def _compile_literals_as_numbers(compiled):
     """Let a call with a literal such as 0 use the code for all integers: Numba would compile it anew."""
     template = compiled.get_call_template
@@ -86,9 +109,9 @@ def _compile_literals_as_numbers(compiled):
     compiled.get_call_template = call_template
 
 
-def jit_reordered(function):
+def entry_reordered(function):
     """Compile a loop over finite numbers whose order of summation does not matter."""
-    return jit(function, fastmath=True)
+    return entry(function, fastmath=True)
 
 
 def once(function):

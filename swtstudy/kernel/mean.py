@@ -17,7 +17,7 @@ from math import acos, asin, cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.body import COARSEST, PROOF, largest_at
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import entry, jit, new_record
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
 NODES, FINE = 5, 8
@@ -105,7 +105,7 @@ def cells():
     return new_record(CELLS)
 
 
-@jit
+@entry
 def legendre(p, y):
     """Write Legendre polynomials at y in [-1, 1]."""
     p[0], p[1] = 1.0, y
@@ -278,7 +278,7 @@ def halve_cell(M, k, axis):
     M.high[k, axis], M.low[y, axis] = middle, middle
 
 
-@jit
+@entry
 def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, largest, known, rtol, first):
     """Write the mean about the place x of the surface line, or the value at ℓ/2 from it, and its error.
 

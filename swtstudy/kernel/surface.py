@@ -19,7 +19,7 @@ from math import asin, cosh, log, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import entry, jit
 from swtstudy.kernel.contact import MAX_PIECES
 
 MAX_TABLES = 17003
@@ -51,7 +51,7 @@ def asinh(c):
     return log(c + sqrt(c * c + 1.0))
 
 
-@jit
+@entry
 def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, plane):
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
     K.first[row] = k
@@ -124,7 +124,7 @@ def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_ou
         sums[first + 1] += H[c]
 
 
-@jit
+@entry
 def running(K, row, s, X, all_outside):
     """T1, T3, B and the part of V outside x, of a density up to s."""
     first, last = K.first[row], K.last[row]
@@ -145,7 +145,7 @@ def running(K, row, s, X, all_outside):
     return K.total[row, 0], K.total[row, 1], of_f, of_h
 
 
-@jit
+@entry
 def hertz(s, x):
     """T1, T3, B and the part of V outside x, of the paraboloid up to s, in closed form (Hamilton)."""
     if s >= x:
@@ -158,7 +158,7 @@ def hertz(s, x):
     return 2.0 * x * (f - sc), 4.0 * x * (0.375 * f - 0.5 * sc + 0.125 * sc * (1.0 - 2.0 * y * y)), 0.0, 0.0
 
 
-@jit
+@entry
 def strip_hertz(s, x):
     """T1 and B of the cylinder up to s, in closed form (McEwen), where `hertz` has its own."""
     if s >= x:

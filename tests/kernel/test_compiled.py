@@ -9,8 +9,12 @@ import sys
 import time
 from pathlib import Path
 
+import numba
+import numpy as np
 import pytest
 from folders import ROOT
+
+from swtstudy.kernel.chebyshev import clenshaw
 
 #: A function whose first call compiles, in two threads; processes with an argument begin together.
 FIRST_CALL = """
@@ -29,9 +33,9 @@ threads = [Thread(target=warm_up) for _ in range(2)]
 print(sum(count.stats.cache_misses.values()), len(count.signatures), compiled._FOLDER)
 """
 MODULE = """
-from swtstudy.kernel.compiled import jit, once
+from swtstudy.kernel.compiled import entry, once
 
-@jit
+@entry
 def count(n):
     total = 0
     for i in range(n):
@@ -167,3 +171,9 @@ def test_a_study_is_checked_without_a_compiler(tmp_path: Path) -> None:
     answer = subprocess.run(run, capture_output=True, text=True, check=False)
     assert answer.returncode == 0, answer.stderr
     assert "at 1 of 4 points: the tangential force is up to 1.01 times μ F_N" in answer.stderr
+
+
+@pytest.mark.skipif(numba.config.DISABLE_JIT, reason="nothing is compiled")
+def test_what_compiled_code_alone_calls_refuses_a_call_from_python() -> None:
+    with pytest.raises(TypeError, match="clenshaw; decorate it with entry"):
+        clenshaw(np.zeros(3), 0.5)
