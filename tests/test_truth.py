@@ -16,7 +16,8 @@ SAMPLE = 300
 RTOL = 1e-4
 #: Points with a trap each, which are always tried: a narrow interval beside a wide one, on the line; next to
 #: no slip; two instants with peaks within 4e-5 of each other, one of them between coarse instants; a
-#: second plane that is highest within one half of a piece.
+#: second plane that is highest within one half of a piece; pieces 180 times as long as the one beside them; a
+#: steep density, whose one panel reaches from the axis to the position.
 HARD = (
     "bulk stress, all controls 147",
     "phases next to 0 and π 422",
@@ -26,6 +27,8 @@ HARD = (
     "phases next to 0 and π 1673",
     "criteria of shear 171",
     "power law 647",
+    "points of tests 61",
+    "power law 213",
 )
 #: Scenes of which every point is a case of its own.
 NAMED = ("turns within growth", "coincident phases")

@@ -1,29 +1,22 @@
-"""One parameter point from keywords, as given, and positions and instants in it as labelled arrays.
-
-Its phase is not folded, so that time keeps its origin.
-"""
+"""One parameter point from keywords, as given, and positions and instants in it as labelled arrays."""
 
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping
-from fractions import Fraction
 
 import numpy as np
 import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
-from swtstudy.loads.loop import Loop
-from swtstudy.points.canonical import NUMBERS
+from swtstudy.points.canonical import points_from
 from swtstudy.points.reading import read_grid
-from swtstudy.points.values import as_number
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.margins import margins_of
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.choices import MOVED, family_of
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
-from swtstudy.vocabulary.parameters import PAIRS, SHIFT, STRAIN_SHARE, Control
+from swtstudy.vocabulary.parameters import PAIRS
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -42,33 +35,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     grid, mistakes = read_grid(dict(parameters), {})
     if grid is None:
         raise StudyError(mistakes)
-    profile = grid.fixed["profile"]
-    ratio = Fraction(str(grid.fixed["frequency_ratio"]))
-
-    moves = grid.fixed[SHIFT] == MOVED
-    # A bulk stress of the other body matters by the stick zone alone.
-    is_there = moves or as_number(grid.fixed[STRAIN_SHARE]) > 0.0
-
-    def number(name: str) -> np.ndarray:
-        value = as_number(grid.fixed[grid.control.given_for(name)])
-        left_out = name.startswith("bulk_stress") and not is_there
-        return np.array([0.0 if left_out else value])
-
-    course, control = grid.fixed["load"], grid.control
-    if not number("normal_amplitude").any():
-        # A component that stands still is prescribed as the other one: loops know no mixed control.
-        control = Control(control.tangential_force, control.tangential_force)
-    return Points(
-        profile=profile,  # type: ignore[arg-type]
-        p=np.array([ratio.numerator]),
-        q=np.array([ratio.denominator]),
-        shape={name: number(name) for name in family_of(profile).shape},
-        control=control,
-        path=course if isinstance(course, Loop) else None,
-        criterion=str(grid.fixed["criterion"]),
-        **{name: number(name) for name in NUMBERS if name != STRAIN_SHARE},
-        bulk_strain_share=number(STRAIN_SHARE) * moves,
-    )
+    return points_from(grid.given_point(), grid.definitions)
 
 
 def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:

@@ -104,7 +104,7 @@ GROUPS = 48
 RISE = 4.0
 #: Largest ratio of the lengths of two pieces beside each other, where it matters, and of the ends of a piece
 #: next to a singular edge that is not spaced in ln s.
-GRADED = 50.0
+GRADED = 20.0
 
 
 #: Ends of pieces outside of the contact, in its radii: without and with a stress that reaches far.

@@ -101,8 +101,8 @@ def rounded(values: NDArray) -> FloatArray:
     return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
 
 
-def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
-    """Canonical rows of points.
+def given_points(columns: Mapping[str, NDArray]) -> Table:
+    """Rows of points whose phases are as given, so that their time keeps its origin.
 
     Parameters
     ----------
@@ -113,8 +113,6 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     -------
     table
         Shape (n,) of `ROW`; columns that do not matter for a point are 0.
-    mirrored
-        Shape (n,): True where x is mirrored with respect to the canonical point.
     """
     table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
     for name in COLUMNS:
@@ -122,7 +120,45 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     _make_profiles_canonical(table)
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[SHIFT])
-    return table, _make_loads_canonical(table)
+    # A component that stands still is prescribed as the other one is, both that do as displacements.
+    rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
+    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
+    table["control"] = control_code(
+        np.where(rests, ~stands & tangential, normal), np.where(stands, ~rests & normal, tangential)
+    )
+    return table
+
+
+def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
+    """Canonical rows of points: their phases are folded.
+
+    Parameters
+    ----------
+    columns
+        As for `given_points`.
+
+    Returns
+    -------
+    table
+        Shape (n,) of `ROW`.
+    mirrored
+        Shape (n,): True where x is mirrored with respect to the canonical point.
+    """
+    from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
+
+    table = given_points(columns)
+    # A loop has neither phase nor frequencies.
+    is_loop, rests = table["load"] != code_of(HARMONIC, "load"), table["normal_amplitude"] == 0.0
+    phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
+    # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
+    nudge = 2 * 10.0**-DIGITS
+    folded, mirrored = fold_phase(phase + nudge, p, q)
+    table["p"], table["q"], table["phase"] = p, q, _in_turns(folded - nudge)
+    moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
+    both_ways = (q % 2 == 0) | rests
+    folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
+    table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
+    return table, mirrored
 
 
 def _make_profiles_canonical(table: Table) -> None:
@@ -151,30 +187,6 @@ def _make_shifts_canonical(table: Table, shift: NDArray) -> None:
     for name in ("bulk_stress_amplitude", "bulk_stress_phase"):
         table[name][other & ~shifted] = 0.0
     table[STRAIN_SHARE][~shifted] = 0.0
-
-
-def _make_loads_canonical(table: Table) -> BoolArray:
-    """Returns where x is mirrored."""
-    from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
-
-    # A loop has neither phase nor frequencies.
-    is_loop = table["load"] != code_of(HARMONIC, "load")
-    rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
-    phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
-    # A component that stands still is prescribed as the other one is, both that do as displacements.
-    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
-    table["control"] = control_code(
-        np.where(rests, ~stands & tangential, normal), np.where(stands, ~rests & normal, tangential)
-    )
-    # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
-    nudge = 2 * 10.0**-DIGITS
-    folded, mirrored = fold_phase(phase + nudge, p, q)
-    table["p"], table["q"], table["phase"] = p, q, _in_turns(folded - nudge)
-    moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
-    both_ways = (q % 2 == 0) | rests
-    folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
-    table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
-    return mirrored
 
 
 def _in_turns(angle: FloatArray) -> FloatArray:
