@@ -49,11 +49,10 @@ class Chunk:
     points: Points
     asked: Request
 
-    def halves(self) -> list[Chunk]:
-        """Its two halves."""
-        half = len(self.places) // 2
-        parts = slice(half), slice(half, None)
-        return [Chunk(self.places[part], self.points[part], self.asked) for part in parts]
+    def singly(self) -> Iterator[Chunk]:
+        """Each of its points alone."""
+        for k in range(len(self.places)):
+            yield Chunk(self.places[[k]], self.points[[k]], self.asked)
 
 
 def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
@@ -111,7 +110,7 @@ def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Arrays:
         fill(arrays, chunk, rtol, solver)
     except Exception as error:
         if len(chunk.places) > 1:
-            return stacked([_isolated(half, rtol, solver) for half in chunk.halves()])
+            return stacked([_isolated(one, rtol, solver) for one in chunk.singly()])
         arrays["message"][:] = f"{type(error).__name__}: {error}"
     return arrays
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future
-from itertools import islice
+from itertools import chain, islice
 from queue import Empty, SimpleQueue
 from typing import Any
 
@@ -32,8 +32,8 @@ class WorkerError(OSError):
 def solve(chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver, workers: Workers) -> None:
     """Solve all chunks, in any order; return when every result has been delivered.
 
-    Chunks that were in flight when a worker died are solved again, one after the other, and split until the
-    point that kills workers is found, if there is one.
+    The points of chunks that were in flight when a worker died are solved again one by one, so that a point
+    that kills workers fails alone.
 
     Parameters
     ----------
@@ -52,20 +52,11 @@ def solve(chunks: Iterable[Chunk], rtol: float, solver: Solver, deliver: Deliver
         If a worker cannot even begin to solve.
     """
 
-    def alone(chunk: Chunk) -> None:
-        """Solve one chunk with nothing beside it; split it until the point that kills is found."""
-        if not _until_loss(iter([chunk]), rtol, solver, deliver, workers):
-            return
-        if len(chunk.places) == 1:
-            deliver(chunk.places, blank(1, FAILED, LOST_WORKER))
-            return
-        for half in chunk.halves():
-            alone(half)
-
     waiting = iter(chunks)
     while lost := _until_loss(waiting, rtol, solver, deliver, workers):
-        for chunk in lost:
-            alone(chunk)
+        for one in chain.from_iterable(chunk.singly() for chunk in lost):
+            if _until_loss(iter([one]), rtol, solver, deliver, workers):
+                deliver(one.places, blank(1, FAILED, LOST_WORKER))
 
 
 def _until_loss(
