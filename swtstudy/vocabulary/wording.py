@@ -9,7 +9,7 @@ from fractions import Fraction
 from html import escape
 from typing import Any
 
-from swtstudy.vocabulary.choices import MOVED
+from swtstudy.vocabulary.choices import CRITERIA, MOVED
 from swtstudy.vocabulary.parameters import AXES, SHIFT
 
 #: A float is shown as a fraction or a root if it is relatively this close to it: rounding, no other number.
@@ -222,7 +222,11 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     --------
     >>> place_words("friction", 0.25), place_words("profile", "rounded_punch")
     ('$\\\\mu$ = 0.25', 'rounded punch')
+    >>> place_words("criterion", "findley")
+    'Findley stress'
     """
+    if name == "criterion":
+        return CRITERIA[str(value)].values
     if name == SHIFT:
         return f"stick zone {'moved' if value == MOVED else 'in place'}"
     alone = AXES[name].kind == "name" or "flag_meanings" in attributes
