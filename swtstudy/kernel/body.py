@@ -34,11 +34,10 @@ from swtstudy.kernel.history import (
     approaches,
     find_passing,
     is_calm,
-    may_be_refined,
     split,
 )
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, unresolved
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, mark_unresolved
 from swtstudy.kernel.profile import coordinate_at
 
 #: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
@@ -62,7 +61,6 @@ HERE = np.dtype(
     [
         ("stress", "f8", (ROWS, MAX_INSTANTS)),
         ("mirrored", "f8", (6, MAX_INSTANTS)),  # half a cycle later
-        ("double", "i8", (MAX_PARTS,)),
         ("out", "f8", (6,)),
         ("other", "f8", (6,)),
         ("first", "f8", (3,)),  # normal of the best plane so far
@@ -246,20 +244,11 @@ def settle_place(S, B, H, W, G, C, P, L, Q, tolerance):
     m, nu = H.instants, Q.poisson_ratio if Q.criterion == SWT else 0.0
     for _ in range(ROUNDS):
         value_on_plane(S, H, W, G, Q)
-        doubled = 0
-        S.missing = 0.0
-        for z in range(H.parts):
-            S.double[z] = 0
-            miss = unresolved(H, W, Q, z, 1.0, 0.0, tolerance)
-            S.missing = max(S.missing, miss)
-            if miss > 0.0 and may_be_refined(H, C, z):
-                S.double[z] = 1
-                doubled += 1
+        doubled, _, S.missing = mark_unresolved(H, W, C, Q, 1.0, 0.0, tolerance)
         if doubled == 0 or H.instants + doubled * ROOM > MAX_INSTANTS or H.parts + doubled >= MAX_PARTS:
             break
         for z in range(H.parts):
-            if S.double[z]:
-                S.double[z] = 0
+            if W.double[z]:
                 refine_part(S, B, H, z, C, P, L, Q.poisson_ratio, Q.friction)
         for i in range(m, H.instants):
             S.stress[6, i] = nu * (S.stress[0, i] + S.stress[1, i] + S.stress[2, i])

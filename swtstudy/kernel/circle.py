@@ -26,7 +26,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.line import ROUNDS
 from swtstudy.kernel.load import has_bulk
-from swtstudy.kernel.planes import BETWEEN, above, find_peaks, unresolved
+from swtstudy.kernel.planes import BETWEEN, above, find_peaks, mark_unresolved
 from swtstudy.kernel.profile import place_of
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md), unless a bulk stress or another
@@ -185,14 +185,10 @@ def settle(D, G, S, H, W, C, P, K, L, Q, angle):
     """
     n = G.normal
     for _ in range(ROUNDS):
-        before, doubled = G.best, 0
+        before = G.best
         set_curves(G, S, H, W, Q)
         find_peaks(H, W, Q, 1.0, 0.0)
-        for z in range(H.parts):
-            W.double[z] = 0
-            if unresolved(H, W, Q, z, 1.0, 0.0, Q.time) > 0.0 and may_be_refined(H, C, z):
-                W.double[z] = 1
-                doubled += 1
+        doubled, _, _ = mark_unresolved(H, W, C, Q, 1.0, 0.0, Q.time)
         for which in range(3):
             z = W.part[which]
             add_peak(D, z, W.place[which])

@@ -34,8 +34,8 @@ from swtstudy.kernel.planes import (
     fill,
     find_peaks,
     higher_plane,
+    mark_unresolved,
     survey_planes,
-    unresolved,
 )
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.shift import centre_of
@@ -198,14 +198,8 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
         find_peaks(H, W, Q, Ct, St)
-        most, doubled, confirming = 0.0, 0, False
-        for z in range(H.parts):
-            W.double[z] = 0
-            miss = unresolved(H, W, Q, z, Ct, St, Q.time)
-            if miss > 0.0 and may_be_refined(H, C, z):
-                most = max(most, miss)
-                W.double[z] = 1
-                doubled += 1
+        doubled, most, _ = mark_unresolved(H, W, C, Q, Ct, St, Q.time)
+        confirming = False
         if doubled == 0 and swt > (1.0 - Q.line) * best:
             confirming = True
             for which in range(3):

@@ -16,7 +16,7 @@ import numpy as np
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, peak, tail
 from swtstudy.kernel.compiled import entry_reordered, jit
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
-from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE
+from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE, may_be_refined
 
 #: Planes of the first look, over 2θ.
 PLANES = 16
@@ -342,3 +342,26 @@ def unresolved(H, W, Q, z, C, S, tolerance):
         if rise > 0.0 and error * share > tolerance:
             miss = max(miss, min(rise, 2.0 * error) * share)
     return miss
+
+
+@jit
+def mark_unresolved(H, W, C, Q, Ct, St, tolerance):
+    """Mark the parts of the cycle that may hide a higher value on a plane and can be refined.
+
+    `find_peaks` finds the maxima on the same plane.
+
+    Returns
+    -------
+    marked, most, missing
+        Number of marked parts; what one of these may hide, and what any part may hide, relative.
+    """
+    marked, most, missing = 0, 0.0, 0.0
+    for z in range(H.parts):
+        W.double[z] = 0
+        miss = unresolved(H, W, Q, z, Ct, St, tolerance)
+        missing = max(missing, miss)
+        if miss > 0.0 and may_be_refined(H, C, z):
+            W.double[z] = 1
+            most = max(most, miss)
+            marked += 1
+    return marked, most, missing
