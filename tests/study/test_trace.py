@@ -196,7 +196,7 @@ QUICK = ("dust", 6), 0.8
 @pytest.mark.parametrize(
     ("place", "kind", "samples"),
     [
-        pytest.param(place, *litter, marks=() if litter == QUICK[0] or place == QUICK[1] else pytest.mark.slow)
+        pytest.param(place, *litter, marks=[pytest.mark.slow] * (litter != QUICK[0] and place != QUICK[1]))
         for place in (-1.8, -0.9, 0.2, 0.8, 1.69)
         for litter in LITTER
     ],
