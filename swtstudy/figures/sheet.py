@@ -212,8 +212,8 @@ def wrap_texts(figure: Figure) -> None:
 
 def _place_panels(figure: Figure) -> None:
     """Give all panels their places; drawing the figure would also do that, in twice the time."""
-    engine: Any = figure.get_layout_engine()
-    engine.execute(figure)
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
     for axes in figure.axes:
         locator: Any = axes.get_axes_locator()
         axes.apply_aspect(locator(axes, None) if locator else None)
