@@ -70,6 +70,13 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
 
 
+@pytest.fixture
+def unwrapped(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Figures whose titles and labels stay in one line: the layout takes most of the time of a figure."""
+    for module in ("draw", "evaluated", "load", "point", "profile"):
+        monkeypatch.setattr(f"swtstudy.figures.{module}.wrap_texts", lambda _: None)
+
+
 @pytest.fixture(autouse=True)
 def signals_as_they_were() -> Iterator[None]:
     """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""

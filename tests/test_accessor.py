@@ -16,6 +16,9 @@ import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.results.evaluate import quantity_error
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 
 @pytest.fixture(scope="module")
 def archive(tmp_path_factory):

@@ -12,12 +12,12 @@ from __future__ import annotations
 import csv
 import gzip
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,21 +80,47 @@ class Point:
     values: dict[str, float] = field(default_factory=dict)
 
 
+class Scene(Sequence[Point]):
+    """The recorded points of a scene; each is read from its row when it is asked for."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._rows: list[tuple[list[str], list[str]]] = []
+
+    def add(self, columns: list[str], row: list[str]) -> None:
+        """Add a row of a table."""
+        self._rows.append((columns, row))
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, index: int) -> Point: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[Point]: ...
+
+    def __getitem__(self, index: int | slice) -> Point | Sequence[Point]:
+        numbers = range(len(self))[index]
+        if isinstance(numbers, range):
+            return [self._point(number) for number in numbers]
+        return self._point(numbers)
+
+    def _point(self, number: int) -> Point:
+        return _point(dict(zip(*self._rows[number], strict=True)), f"{self.name} {number}")
+
+
 @cache
-def points(pattern: str = "line_*") -> dict[str, tuple[Point, ...]]:
+def points(pattern: str = "line_*") -> dict[str, Scene]:
     """The recorded points by scene, of the files whose names match a pattern."""
-    found: dict[str, list[Point]] = {}
+    found: dict[str, Scene] = {}
     for file in sorted(FOLDER.glob(f"{pattern}.csv.gz")):
-        for row in rows(file):
-            scene = found.setdefault(row["scene"], [])
-            scene.append(_point(row, f"{row['scene']} {len(scene)}"))
-    return {scene: tuple(several) for scene, several in found.items()}
-
-
-def rows(file: Path) -> Iterator[dict[str, str]]:
-    """The rows of a compressed CSV file."""
-    with gzip.open(file, "rt", encoding="utf-8", newline="") as text:
-        yield from csv.DictReader(text)
+        with gzip.open(file, "rt", encoding="utf-8", newline="") as text:
+            columns, *several = csv.reader(text)
+        place = columns.index("scene")
+        for row in several:
+            found.setdefault(row[place], Scene(row[place])).add(columns, row)
+    return found
 
 
 def _point(row: dict[str, str], name: str) -> Point:

@@ -10,6 +10,7 @@ import json
 import math
 import platform
 from collections.abc import Collection, Hashable, Iterable, Mapping
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
@@ -76,19 +77,28 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
 
 def _read(kind: Any, text: object) -> Any:
     """The value of a type that is written as JSON; a ValueError with the first thing that is wrong in it."""
-    from pydantic import TypeAdapter, ValidationError
+    from pydantic import ValidationError
 
     try:
-        return TypeAdapter(kind).validate_json(text, strict=True)  # type: ignore[arg-type]
+        return _reader(kind).validate_json(text, strict=True)
     except ValidationError as error:
         wrong = error.errors()[0]
         raise ValueError(": ".join([*map(str, wrong["loc"]), wrong["msg"]])) from None
+
+
+@cache
+def _reader(kind: Any) -> Any:
+    """What reads values of a type; pydantic takes a millisecond to make one."""
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(kind)
 
 
 #: Packages whose versions can affect the numbers or the file.
 _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 
 
+@cache
 def versions() -> str:
     """Versions of Python, of this package and of those that affect its numbers and files."""
     found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]

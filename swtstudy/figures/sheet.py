@@ -191,18 +191,17 @@ def wrap_texts(figure: Figure) -> None:
         titles = (axes.title, axes._left_title)  # type: ignore[attr-defined]
         texts += [(title, axes, "title") for title in titles]
         texts += [(axes.xaxis.label, axes, "across"), (axes.yaxis.label, axes, "up")]
+    texts = [each for each in texts if each[0].get_text()]
     longest = max(
         (len(text.get_text()) for text in [*(each for each, *_ in texts), whole] if text), default=0
     )
     if figure.width is None and longest <= _LONG:
         return
-    figure.draw_without_rendering()
+    _place_panels(figure)
     for text, axes, place in texts:
         box = axes.bbox
         if place == "title":
-            ticks = axes.xaxis.get_tightbbox()
-            wide = max(box.width, (ticks.x1 if ticks else 0.0) - box.x0)
-            _wrap(text, min(wide, figure.bbox.width - box.x0), "width")
+            _wrap(text, _title_room(text, axes, figure.bbox.width), "width")
         elif place == "across":
             _wrap(text, (1.0 if figure.width is None else 1.15) * box.width, "width")
         else:
@@ -211,19 +210,49 @@ def wrap_texts(figure: Figure) -> None:
         _wrap(whole, 0.98 * figure.bbox.width, "width")
 
 
+def _place_panels(figure: Figure) -> None:
+    """Give all panels their places; drawing the figure would also do that, in twice the time."""
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
+    for axes in figure.axes:
+        locator: Any = axes.get_axes_locator()
+        axes.apply_aspect(locator(axes, None) if locator else None)
+
+
+def _title_room(title: Text, axes: Axes, width: float) -> float:
+    """Width for a title: its panel's, or up to the end of the last number below a title that is longer."""
+    box = axes.bbox
+    if title.get_window_extent().width <= box.width:
+        return float(box.width)
+    ticks = axes.xaxis.get_tightbbox()
+    return min(max(box.width, (ticks.x1 if ticks else 0.0) - box.x0), width - box.x0)
+
+
 def _wrap(text: Text, room: float, along: str) -> None:
     """Break a text into lines that are no longer than there is room."""
-    lines = []
+    lines: list[str] = []
     for given in text.get_text().splitlines():
-        line = ""
-        for word in _WORD.findall(given):
-            text.set_text(line + word)
-            if line and getattr(text.get_window_extent(), along) > room:
-                lines.append(line)
-                line, word = "", word.lstrip()
-            line += word
-        lines.append(line)
+        lines += _broken(text, given, room, along)
     text.set_text("\n".join(lines))
+
+
+def _broken(text: Text, given: str, room: float, along: str) -> list[str]:
+    """Lines that are no longer than there is room; a line that fits is measured as a whole."""
+
+    def fits(line: str) -> bool:
+        text.set_text(line)
+        return bool(getattr(text.get_window_extent(), along) <= room)
+
+    words = _WORD.findall(given)
+    if fits("".join(words)):
+        return ["".join(words)]
+    lines = [""]
+    for word in words:
+        if lines[-1] and not fits(lines[-1] + word):
+            lines.append(word.lstrip())
+        else:
+            lines[-1] += word
+    return lines
 
 
 class LoopHandler(HandlerLine2D):

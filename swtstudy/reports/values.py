@@ -8,6 +8,7 @@ import math
 import re
 import unicodedata
 from collections.abc import Mapping
+from functools import cache
 from importlib.resources import files
 from typing import Any
 
@@ -214,11 +215,17 @@ def _labels(values: xr.DataArray) -> dict[str, Any]:
 
 def rendered(template: str, **content: Any) -> str:
     """A page that needs no other file, from a template of this folder, which may call our functions."""
+    return _templates().get_template(template).render(**content)
+
+
+@cache
+def _templates() -> jinja2.Environment:
+    """The templates of this folder, each compiled when it is first used."""
     look: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
     loader = jinja2.PackageLoader("swtstudy.reports", ".")
     room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
     of_page = files("swtstudy.reports")
     own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
     ours = (along, is_number, number_words, place_html, share, symbol_of, unit_of, value_text)
-    room.globals |= {"describe": describe} | {each.__name__: each for each in ours}
-    return room.get_template(template).render(**own, **content)
+    room.globals |= {"describe": describe, **own} | {each.__name__: each for each in ours}
+    return room

@@ -6,6 +6,9 @@ import pytest
 import swtstudy
 from swtstudy.fields.inspection import marked_instants
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 SCENES = {
     "Table 1": {},
     "gross slip": {"phase": 1.4},

@@ -148,6 +148,7 @@ def test_a_maximum_off_the_line_is_seen() -> None:
     assert float(found.s_surface) <= 1.02 * max(float(field.s_local.max()), float(found.s))
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_figure_says_where_the_stick_zone_is() -> None:
     words = {}
     for shift in ("moved", "none"):

@@ -10,6 +10,9 @@ from solved import REGIMES
 import swtstudy
 from swtstudy import Study, open_results
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 19), np.linspace(0.1, 0.9, 17)
 
 

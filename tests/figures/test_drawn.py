@@ -17,6 +17,9 @@ from swtstudy.figures.lines import hue_scale, in_equal_ratios
 from swtstudy.figures.point import draw_slip_map
 from swtstudy.figures.words import tick_in_pi
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 
 @pytest.fixture
 def axes():

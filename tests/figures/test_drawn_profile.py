@@ -14,6 +14,9 @@ from swtstudy import draw_profile
 from swtstudy.cli import main
 from swtstudy.contacts import PhysicalContact
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 
 @pytest.mark.parametrize("indenter", [oracle.rounded_punch(0.5), oracle.power_law(1.5)], ids=str)
 def test_curves(indenter: oracle.Indenter) -> None:

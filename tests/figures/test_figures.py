@@ -45,6 +45,7 @@ def test_lines_ticks_and_legend(small, tmp_path):
     assert texts == [r"$\delta_A/\delta_0$ = 0.25", r"$\delta_A/\delta_0$ = 8/9"]
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
     figure = draw(panels)
     assert len(figure.axes) == 4
@@ -62,6 +63,7 @@ def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
     np.testing.assert_array_equal(figure.axes[0].lines[1].get_ydata(), panels.s[0, 1])
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_lines_differ_in_colour_and_style(panels):
     lines = draw(panels).axes[0].lines
     assert len({line.get_color() for line in lines}) == len(lines)
@@ -77,6 +79,7 @@ def test_the_ending_is_the_format(one_panel, tmp_path, suffix, start):
     assert (tmp_path / f"figure{suffix}").read_bytes().startswith(start)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_other_endings_are_refused(one_panel, tmp_path):
     with pytest.raises(ValueError, match=r"found \.docx; allowed: \.png"):
         save_figure(draw(one_panel), tmp_path / "figure.docx")
@@ -130,6 +133,7 @@ def surface(tmp_path):
     return run(Study.from_text(SURFACE), tmp_path / "surface.nc", solver=stand_in.smooth)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_contours_with_the_optimum(surface):
     figure = draw(surface)
     # Two panels and the scale of colours of each: the first would have few colours on that of the other.
@@ -174,6 +178,7 @@ def test_roles_that_do_not_fit_the_kind_are_refused(surface, layout, words):
         draw(surface, layout)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
     dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     dataset["s_error"] = 1e-6 * dataset.s
@@ -184,6 +189,7 @@ def test_an_error_that_can_be_seen_is_a_band(small, tmp_path):
     assert band[:, 1].max() == pytest.approx(1.05 * float(s.max()))
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_value_without_neighbours_is_a_dot_and_without_any_that_is_said(small, tmp_path):
     dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth).isel(normal_amplitude=0)
     one = dataset.isel(phase=[1])
@@ -196,6 +202,7 @@ def test_a_value_without_neighbours_is_a_dot_and_without_any_that_is_said(small,
     assert [text.get_text() for text in axes.texts] == ["no value"]
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_the_user_has_the_last_word_on_the_look(one_panel, tmp_path):
     import matplotlib
 
@@ -236,6 +243,7 @@ def test_pyplot_is_not_touched():
     )
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_regimes_are_marked_where_they_begin_and_long_ranges_are_logarithmic(tmp_path):
     text = """
 title = "Regimes"

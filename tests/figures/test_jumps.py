@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import matplotlib.text
@@ -10,9 +11,10 @@ import pytest
 import xarray as xr
 from drawn import draw, keys
 from made_up import made_up
+from matplotlib.axes import Axes
 
 from swtstudy.figures.lines import may_jump, place_jumps
-from swtstudy.figures.sheet import Figure, wrap_texts
+from swtstudy.figures.sheet import Figure, new_figure, wrap_texts
 from swtstudy.figures.words import tick_in_ratios
 
 X = np.linspace(0.0, 2.0 * np.pi, 49)
@@ -125,6 +127,36 @@ def test_a_long_label_is_no_taller_than_its_panel() -> None:
     figure.draw_without_rendering()
     assert axes.yaxis.label.get_window_extent().height <= axes.bbox.height
     assert "\n" in axes.get_ylabel()
+
+
+@pytest.mark.parametrize(
+    "narrow",
+    [
+        lambda axes: axes.set_yticks([0.5], ["a long name beside the panel"]),
+        lambda axes: axes.set_box_aspect(1.3),
+    ],
+    ids=["names", "aspect"],
+)
+def test_a_title_is_no_wider_than_the_panel_as_it_is_drawn(narrow: Callable[[Axes], object]) -> None:
+    figure = new_figure((4.0, 3.2))
+    axes = figure.subplots()
+    title = axes.set_title("as many words as are wider than it", loc="left")
+    narrow(axes)
+    wrap_texts(figure)
+    assert "\n" in title.get_text()
+    figure.draw_without_rendering()
+    assert title.get_window_extent().width <= axes.bbox.width
+
+
+def test_a_title_may_end_above_the_end_of_the_last_number() -> None:
+    figure = new_figure((4.0, 3.2))
+    axes = figure.subplots()
+    axes.set_xticks([1.0], ["the name of the last number"])
+    title = axes.set_title("as many words as are wider than it", loc="left")
+    wrap_texts(figure)
+    assert "\n" not in title.get_text()
+    figure.draw_without_rendering()
+    assert axes.bbox.width < title.get_window_extent().width < axes.xaxis.get_tightbbox().x1 - axes.bbox.x0
 
 
 @pytest.mark.parametrize(

@@ -96,6 +96,7 @@ def test_panels_stay_as_large_above_a_legend(width):
         assert getattr(above.axes[0].bbox, size) == pytest.approx(getattr(alone.axes[0].bbox, size), rel=0.03)
 
 
+@pytest.mark.usefixtures("unwrapped")
 @pytest.mark.parametrize(("count", "scale"), [(7, False), (8, True), (19, True)])
 def test_many_numbers_have_a_scale_and_no_legend(count, scale):
     friction = np.linspace(0.1, 1.0, count)
@@ -118,6 +119,7 @@ def colours_of(friction):
     return np.array([to_rgba(line.get_color()) for line in lines])
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_colour_stands_for_its_value():
     friction = np.array([0.1, 0.2, 0.4, 0.45, 0.5, 0.9, 0.95, 1.0])
     expected = colormaps["cividis"](0.9 * (friction - 0.1) / 0.9)
@@ -128,11 +130,13 @@ def test_a_colour_stands_for_its_value():
     assert grey[-1] < 0.8  # to be seen on white
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_colours_of_values_in_equal_ratios_are_evenly_spaced():
     expected = colormaps["cividis"](0.9 * np.linspace(0, 1, 9))
     np.testing.assert_allclose(colours_of(np.geomspace(1e-2, 1e2, 9)), expected, atol=0.01)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_scale_of_phases_is_in_multiples_of_pi():
     phase = np.linspace(0, 2 * np.pi, 9)
     dataset = made_up(lambda friction, phase: friction + np.sin(phase), friction=[0.1, 0.2, 0.3], phase=phase)

@@ -11,6 +11,9 @@ from matplotlib.lines import Line2D
 
 import swtstudy
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 
 def small_lines(legend: Legend) -> list[Line2D]:
     """What is drawn beside the samples of the lines."""

@@ -47,6 +47,7 @@ def test_ten_panels_are_no_wider_than_three(tmp_path: Path) -> None:
     assert titles[2] == r"(C)  $\mu$ = 0.3"  # not 3/10, which 0.1 + 0.2 is but for rounding
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_no_two_patches_of_a_legend_are_alike(tmp_path: Path) -> None:
     figure = swtstudy.run(Study.from_text(SAMPLE), tmp_path / "h.nc", solver=stand_in.smooth).swt.figure()
     (legend,) = figure.legends
@@ -84,6 +85,7 @@ def test_the_value_of_an_axis_is_the_title(tmp_path: Path, monkeypatch: pytest.M
     assert not any(figure.legends for figure in drawn)  # of one line
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_forces_and_lengths_are_decimals() -> None:
     contact = swtstudy.physical(
         young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5,

@@ -10,6 +10,9 @@ from swtstudy.points.validity import outside
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.variables import CONTACT
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 AMPLITUDE, FRICTION = np.linspace(0.1, 1.0, 10), np.linspace(0.2, 0.8, 7)
 
 

@@ -11,6 +11,9 @@ from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
 from swtstudy.vocabulary.variables import ATTRIBUTES
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 PHASE = np.linspace(0, np.pi, 13)
 FRICTION = np.array([0.1, 0.2, 0.4])
 WORDS = {

@@ -29,6 +29,7 @@ def rig(tmp_path: Path) -> Path:
     return tmp_path / "rig.toml"
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_the_picture_has_the_record_the_path_and_the_friction_margin(rig: Path) -> None:
     text = RIG.replace('file = "rig.csv"\n', f"vertices = {CYCLE.tolist()}\n").replace(
         "recorded_cycles = 3", ""
@@ -117,6 +118,7 @@ load = "a"
 """
 
 
+@pytest.mark.usefixtures("unwrapped")
 @pytest.mark.parametrize("modulus", ["210e3", "[210e3, 206e3]"])
 def test_friction_limits_the_load_on_bodies_of_two_moduli(modulus: str) -> None:
     loop = "[loads.a]\nabsolute = true\nvertices = [[300, -80], [320, 80]]\n"
@@ -124,6 +126,7 @@ def test_friction_limits_the_load_on_bodies_of_two_moduli(modulus: str) -> None:
     assert figure.axes[2].get_title(loc="left") == r"friction, at most 0.67 at $\mu$ = 0.4"  # 80/(0.4 · 300)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_normal_force_at_rest_is_drawn_as_what_it_is() -> None:
     given = "young_modulus = 210e3\nnormal_force = 200\ntangential_force_amplitude = 1\n"
     loop = "[loads.a]\nvertices = [[0, -60], [0, 60]]\n"

@@ -98,7 +98,7 @@ def test_processes_and_threads_compile_once_and_remove_folders_not_used_for_long
 
 
 @pytest.mark.parametrize("home", ["home", pytest.param("none", marks=pytest.mark.slow)])
-def test_compiled_code_is_kept_where_one_can_write(
+def test_compiled_code_is_kept_where_one_can_write_and_a_terminal_is_told(
     tmp_path: Path, environment: dict[str, str], home: str
 ) -> None:
     # A file in the place of the home: nobody can write below it, and the package is left alone.
@@ -110,13 +110,27 @@ def test_compiled_code_is_kept_where_one_can_write(
     for folder in (copy / "kernel", copy):
         folder.chmod(0o555)
     before = sorted(copy.rglob("*"))
-    misses, _, folder = ended(start(tmp_path, environment))
-    assert misses == 1
+    misses, folder, heard = on_a_terminal(tmp_path, environment)
+    assert (misses, heard) == (1, "compiling the solver, once, about a minute\r\n")
     assert Path(folder).is_relative_to(tmp_path / ("temporary" if home == "none" else "home"))
-    assert ended(start(tmp_path, environment))[0] == 0
+    assert on_a_terminal(tmp_path, environment) == (0, folder, "")
     assert sorted(copy.rglob("*")) == before
     for written in (copy, copy / "kernel"):
         written.chmod(0o755)
+
+
+def on_a_terminal(tmp_path: Path, environment: dict[str, str]) -> tuple[int, str, str]:
+    """Functions compiled anew in a process on a terminal, the folder, and what is told there."""
+    pty = pytest.importorskip("pty")
+    ours, theirs = pty.openpty()
+    misses, _, folder = ended(start(tmp_path, environment, stderr=theirs))
+    os.write(theirs, b".")
+    words = b""
+    while not words.endswith(b"."):
+        words += os.read(ours, 1000)
+    os.close(ours)
+    os.close(theirs)
+    return misses, folder, words.decode().removesuffix(".")
 
 
 @pytest.mark.slow
@@ -127,23 +141,6 @@ def test_without_any_place_it_compiles_each_time(tmp_path: Path, environment: di
     run = [sys.executable, "-c", place + FIRST_CALL]
     done = subprocess.run(run, cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert (done.returncode, done.stdout.split()[1:]) == (0, ["1"]), done.stderr
-
-
-def test_a_terminal_is_told_of_the_first_compile(tmp_path: Path, environment: dict[str, str]) -> None:
-    pty = pytest.importorskip("pty")
-    heard = []
-    for _ in range(2):
-        ours, theirs = pty.openpty()
-        process = start(tmp_path, environment, stderr=theirs)
-        process.communicate(timeout=120)
-        os.write(theirs, b".")
-        words = b""
-        while not words.endswith(b"."):
-            words += os.read(ours, 1000)
-        heard.append(words.decode())
-        os.close(ours)
-        os.close(theirs)
-    assert heard == ["compiling the solver, once, about a minute\r\n.", "."]
 
 
 READ_ONLY = """

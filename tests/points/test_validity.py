@@ -266,6 +266,7 @@ def test_old_results_say_what_they_can(rig):
     assert validity_lines(rig.drop_vars(margins))[0].startswith("no equilibrium at 1 of 3 points")
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_inspection_says_it():
     with pytest.raises(swtstudy.StudyError, match=r"\|F_x\| is up to 1.2 μ F_N"):
         swtstudy.inspect_point(normal_force_amplitude=0.0, tangential_force_amplitude=1.2)

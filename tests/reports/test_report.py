@@ -500,6 +500,7 @@ friction = 0.5
 """
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_the_page_of_a_record_has_its_loads_and_all_columns(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -144,6 +144,7 @@ def likelihood(law, distance, scatter, bounds, runout):
     return np.where(runout, norm.logsf(np.log10(bounds), predicted, scatter), cracked).sum()
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     """The largest likelihood by brute force; leaving them out, or taking them for cracks, is too short."""
     from scipy.optimize import minimize

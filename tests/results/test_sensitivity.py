@@ -144,6 +144,7 @@ def test_other_samples_are_refused(results, tmp_path):
         sensitivity(run(plain, tmp_path / "b.nc", workers=1, solver=ishigami))
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_the_bars_are_the_indices(indices):
     figure = draw_sensitivity(indices)
     panels = np.array(figure.axes).reshape(2, 2)

@@ -146,6 +146,7 @@ def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) ->
     assert np.isfinite(filled.dissipation).all()
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_figures_show_them_with_their_errors(tmp_path: Path) -> None:
     figure = '[figure]\nx = "phase"\ny = ["s", "dissipation"]\n'
     text = study(quantities=("dissipation",)).text + figure

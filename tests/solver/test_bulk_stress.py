@@ -328,6 +328,7 @@ def test_means_over_a_distance_know_it(exponent: float) -> None:
     assert float(found.s_line.sel(direction="depth").squeeze()) == pytest.approx(mean, rel=3e-3)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_it_has_its_own_curve_in_the_cycle() -> None:
     own: dict[str, Any] = {"bulk_stress_amplitude": 0.1, "bulk_stress_mean": 0.05, "bulk_stress_phase": 2.0}
     point = swtstudy.inspect_point(**PARAMETERS, **own)

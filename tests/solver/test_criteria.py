@@ -459,6 +459,7 @@ def test_where_slip_reverses_at_a_sharp_edge_the_shear_has_no_bound() -> None:
     assert (np.diff(amplitudes[0.02]) < 0.01 * sliding[0]).all()
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_point_by_criteria_of_shear_in_units() -> None:
     """What swt_field and inspect_point say of the critical point is what the results have there."""
     own = STEEL | {"tangential_force_amplitude": 60.0, "normal_sensitivity": 0.3}

@@ -8,6 +8,9 @@ from numpy.typing import NDArray
 
 import swtstudy
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 Array = NDArray[np.float64]
 
 

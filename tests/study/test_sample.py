@@ -275,6 +275,7 @@ def with_points(axes):
     return [line for line in axes.lines if len(line.get_xdata())]
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_scatter_has_a_panel_for_each_parameter(results):
     figure = draw(results)
     assert [axes.get_xlabel() for axes in figure.axes] == [r"$\psi$ (rad)", r"$\mu$"]
@@ -288,6 +289,7 @@ def test_a_scatter_has_a_panel_for_each_parameter(results):
     ]
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
     (axes, *_), (legend,) = (lambda figure: (figure.axes, figure.legends))(draw(results))
     first, second = with_points(axes)
@@ -308,6 +310,7 @@ def test_a_scatter_of_regimes_has_a_row_for_each(results):
     assert axes.get_ylim() == (-0.5, 5.5)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_a_histogram_counts_and_has_percentiles(results):
     figure = draw(results, keys("sample", panels="profile", kind="histogram"))
     for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):

@@ -175,28 +175,34 @@ def swt(profile: swtstudy.TabulatedProfile) -> float:
     return swtstudy.physical(profile=profile, **GIVEN).solve(rtol=1e-3).SWT.values[0]
 
 
-def test_a_clean_trace_is_told_nothing_of(tmp_path: Path) -> None:
-    profile, told = read(tmp_path, *pad())
+@pytest.fixture(scope="module")
+def clean(tmp_path_factory: pytest.TempPathFactory) -> swtstudy.TabulatedProfile:
+    """The profile of the trace with nothing on it."""
+    profile, told = read(tmp_path_factory.mktemp("clean"), *pad())
     assert told == []
-    assert swt(profile) == pytest.approx(CLEAN, rel=1e-3)
+    return profile
 
 
-#: What lies on a trace, of so many samples; those beside a number that means nothing take a second each.
+def test_a_clean_trace_has_its_swt(clean: swtstudy.TabulatedProfile) -> None:
+    assert swt(clean) == pytest.approx(CLEAN, rel=1e-3)
+
+
+#: What lies on a trace, of so many samples.
 LITTER = [("dust", 6), ("dust", 1), ("pit", 6), ("zero", 8), ("sentinel", 8)]
+#: Quickly tested: all of it at one place, one kind at all places.
+QUICK = ("dust", 6), 0.8
 
 
 @pytest.mark.parametrize(
     ("place", "kind", "samples"),
     [
-        pytest.param(
-            place, *litter, marks=pytest.mark.slow if litter[0] == "sentinel" and place != 0.8 else ()
-        )
+        pytest.param(place, *litter, marks=[pytest.mark.slow] * (litter != QUICK[0] and place != QUICK[1]))
         for place in (-1.8, -0.9, 0.2, 0.8, 1.69)
         for litter in LITTER
     ],
 )
 def test_dust_pits_and_dropouts_anywhere_are_set_aside(
-    tmp_path: Path, place: float, kind: str, samples: int
+    tmp_path: Path, clean: swtstudy.TabulatedProfile, place: float, kind: str, samples: int
 ) -> None:
     x, z = pad()
     first = int(np.searchsorted(x, place))
@@ -206,7 +212,6 @@ def test_dust_pits_and_dropouts_anywhere_are_set_aside(
     else:
         z[some] = 0.0 if kind == "zero" else -9999.0
     profile, told = read(tmp_path, x, z)
-    clean = read(tmp_path, *pad())[0]
     off = np.interp(clean.radius, profile.radius, profile.height) - clean.height
     assert np.abs(off[clean.radius < 0.8]).max() < 1e-6
     if (kind, place) != ("zero", 0.2):  # there the heights are 0

@@ -16,6 +16,9 @@ from swtstudy.study.definition import one_of_study
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 FORCES = {"normal_force_amplitude": "0.2", "tangential_force_amplitude": "0.3"}
 BLOCKS = """
 [loads.gentle]

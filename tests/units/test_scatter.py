@@ -92,6 +92,7 @@ def test_each_body_has_lives_of_its_own_modulus(tmp_path: Path) -> None:
     np.testing.assert_allclose(one.cycles_50 / other.cycles_50, one.cycles / other.cycles, rtol=1e-4)
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
     figure = '[figure]\nx = "tangential_amplitude"\ny = ["cycles", "failure_probability"]\n'
     found = results(tmp_path, SAMPLE + RANGE + figure)

@@ -15,6 +15,9 @@ from swtstudy.contacts import PhysicalContact
 from swtstudy.study.definition import one_of_study
 from swtstudy.study.writing import to_toml
 
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 RIG = {
     "young_modulus": 73.1e3,
     "poisson_ratio": 0.33,
