@@ -196,11 +196,6 @@ def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
     return float(M["average"]), float(M["error"])
 
 
-def slope_of_mean():
-    """Slope over x of the mean over a half sphere or half disc that was found last; 0 of another kind."""
-    return float(_of_this_thread("cells", cells)["slope"])
-
-
 def surface_above(opened, limit, s):
     """The criterion along the surface line, closely where it exceeds a limit.
 

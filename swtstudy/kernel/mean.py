@@ -46,8 +46,6 @@ SINGLE, AVERAGED, OF_VALUE, OF_POINT = 0.03, 0.3, 1e-4, 1e-3
 #: Values below this share of the mean, as far as that is known, are not told as closely; the least error
 #: claimed on lines, over the largest value there.
 FLOOR, OF_LARGEST = 0.02, 2e-5
-#: Half angle from which on an arc is a whole circle.
-ALL_AROUND = 3.14
 #: Most values at places.
 MOST_VALUES = 3000
 
@@ -61,25 +59,20 @@ def _nodes():
 
 
 def _along():
-    """For each number of values on half an arc their places over its length, and their weights.
-
-    The weights of the mean, and of the value at the end of the arc, an even function.
-    """
-    places, weights, ends = np.zeros((3, MAX_ALONG + 1, MAX_ALONG))
+    """For each number of values on half an arc their places over its length, and their weights."""
+    places, weights = np.zeros((2, MAX_ALONG + 1, MAX_ALONG))
     for count in range(1, MAX_ALONG + 1):
-        node, weight = (each[count:] for each in np.polynomial.legendre.leggauss(2 * count))
-        places[count, :count], weights[count, :count] = node, weight
-        ends[count, :count] = np.linalg.inv(np.vander(node**2)).sum(axis=0)
-    return places, weights, ends
+        node, weight = np.polynomial.legendre.leggauss(2 * count)
+        places[count, :count], weights[count, :count] = node[count:], weight[count:]
+    return places, weights
 
 
 NODE, TO_SERIES = _nodes()
-ALONG, OF_ALONG, AT_END = _along()
+ALONG, OF_ALONG = _along()
 GAUSS, WEIGHT = np.polynomial.legendre.leggauss(FINE)
 GAUSS, WEIGHT = 0.5 + 0.5 * GAUSS, 0.5 * WEIGHT
-#: Values that a cell's polynomials are made of: the criterion's mean on an arc, what it may miss, and the
-#: criterion at the arc's end.
-WHAT = 3
+#: Values that a cell's polynomial is made of: the criterion, and what it may miss.
+WHAT = 2
 CELLS = np.dtype(
     [
         ("kind", "i8"),
@@ -97,10 +90,8 @@ CELLS = np.dtype(
         ("integral", "f8", (MAX_CELLS,)),
         ("missing", "f8", (MAX_CELLS,)),
         ("volume", "f8", (MAX_CELLS,)),
-        ("flow", "f8", (MAX_CELLS,)),  # change of the integral as the centre moves away from the axis
         ("lacking", "f8", (MAX_CELLS, 2)),  # in u and w
         ("average", "f8"),
-        ("slope", "f8"),  # over the place x, of a half sphere
         ("error", "f8"),
         ("of_cells", "f8"),
         ("largest", "f8"),  # value
@@ -155,30 +146,6 @@ def node_of(M, k, i, j, m):
 
 
 @jit
-def rate_of_arc(M, d, r):
-    """Relative rate at which an arc grows as the centre of the sphere moves away from the axis."""
-    half = half_arc(M, d, r)
-    if half >= ALL_AROUND or M.centre == 0.0:
-        return 0.0
-    return (r * cos(half) - M.centre) / (max(r * M.centre * sin(half), 1e-150) * half)
-
-
-@jit
-def flow_of_disc(M, k):
-    """Change of the integral of cell k, if it is at the edge of the half disc, as the disc moves."""
-    low, high, total = M.low[k, 1], M.high[k, 1], 0.0
-    for f in range(FINE if M.high[k, 0] == 1.0 else 0):
-        w, value = low + (high - low) * GAUSS[f], 0.0
-        legendre(M.p[1], 2.0 * GAUSS[f] - 1.0)
-        for a in range(NODES):
-            for b in range(NODES):
-                value += M.p[1, b] * M.value[0, a, b]
-        across = cos(pi * w * w * (3.0 - 2.0 * w))
-        total += WEIGHT[f] * (high - low) * 6.0 * w * (1.0 - w) * pi * M.reach * across * value
-    return total
-
-
-@jit
 def write_series(M, at):
     """Write the polynomials of a cell from values at its nodes, (WHAT, NODES, NODES)."""
     rows = NODES if M.kind == SPHERE else 1
@@ -205,7 +172,6 @@ def fill_cell(M, k, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, 
                 )
                 at[0, i, j] += OF_ALONG[M.along, m] * value
                 at[1, i, j] += OF_ALONG[M.along, m] * missing
-                at[2, i, j] += AT_END[M.along, m] * value
                 M.largest = max(M.largest, value)
                 M.evaluated += 1
     write_series(M, at)
@@ -218,7 +184,6 @@ def integrate_cell(M, k):
     rows = NODES if M.kind == SPHERE else 1
     u0, u1, w0, w1 = M.low[k, 0], M.high[k, 0], M.low[k, 1], M.high[k, 1]
     M.integral[k], M.missing[k], M.volume[k] = 0.0, 0.0, 0.0
-    M.flow[k] = flow_of_disc(M, k) if M.plane and M.kind == SPHERE else 0.0
     change_u, change_w, off_u, off_w = 0.0, 0.0, 0.0, 0.0
     for e in range(FINE):
         # A sphere's arcs end like a root at its pole.
@@ -238,21 +203,18 @@ def integrate_cell(M, k):
                 weight *= WEIGHT[f] * (w1 - w0) * 6.0 * w * (1.0 - w) * most * d
                 if M.plane == 0:
                     weight *= r * half_arc(M, d, r)
-            value, lack, at_end, top_u, top_w = 0.0, 0.0, 0.0, 0.0, 0.0
+            value, lack, top_u, top_w = 0.0, 0.0, 0.0, 0.0
             for a in range(NODES):
                 for b in range(rows):
                     base = M.p[0, a] * M.p[1, b]
                     term = base * M.value[0, a, b]
                     value += term
                     lack += base * M.value[1, a, b]
-                    at_end += base * M.value[2, a, b]
                     if a >= NODES - TOP:
                         top_u += term
                     if rows > 1 and b >= NODES - TOP:
                         top_w += term
             M.integral[k] += weight * value
-            if rows > 1 and M.plane == 0:
-                M.flow[k] += weight * at_end * rate_of_arc(M, d, r)
             M.missing[k] += weight * lack
             M.volume[k] += weight
             change_u += weight * top_u
@@ -266,15 +228,13 @@ def integrate_cell(M, k):
 @jit
 def sum_cells(M):
     """Write the mean and its error."""
-    whole, missing, volume, lacking, flow = 0.0, 0.0, 0.0, 0.0, 0.0
+    whole, missing, volume, lacking = 0.0, 0.0, 0.0, 0.0
     for k in range(M.cells):
         whole += M.integral[k]
-        flow += M.flow[k]
         missing += M.missing[k]
         volume += M.volume[k]
         lacking += M.lacking[k, 0] + M.lacking[k, 1]
     M.average, M.of_cells = whole / volume, lacking / volume
-    M.slope = flow / volume if M.x >= 0.0 else -flow / volume
     M.error = CLAIMED * M.of_cells + abs(missing / volume) + OF_VALUE * abs(M.average)
     if M.average < 0.0:  # a mean of values that are never negative
         M.error -= M.average
@@ -338,7 +298,6 @@ def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, 
         `FIRST`, or `ROUGHLY` of a mean that only leads to another.
     """
     M.kind, M.plane, M.x, M.centre, M.largest, M.evaluated = kind, P.plane, x, abs(x), 0.0, 0
-    M.slope = 0.0
     M.into[0], M.into[1] = right, down
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     if kind == POINT:

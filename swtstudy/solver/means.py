@@ -7,9 +7,8 @@ that place. These are means of a parameter that is quadratic in stress, not of s
 line methods are.
 
 Each is the largest one over x. swt is largest at a peak that may be narrower than ℓ, and the largest mean is
-often elsewhere. Columns of a few values tell about where it is; from the highest of them parabolas through
-rough means lead to its maximum. A kink may have moved that: the slope of the mean over a half sphere, which
-values at its boundary tell, leads back. About lines parabolas through closer means do.
+often elsewhere. Columns of a few values tell about where it is; from the highest of them parabolas lead
+to its maximum.
 
 With ℓ → 0 all three tend to the largest swt over all planes of the surface line. That is s, unless a plane
 that does not hold the y axis is higher, or unless the critical point is the edge r = b of a truncated
@@ -19,8 +18,7 @@ paraboloid: beside that the pressure is infinite like a logarithm, and so slow i
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cache, partial
-from typing import NamedTuple
+from functools import partial
 
 import numpy as np
 
@@ -33,7 +31,6 @@ from swtstudy.kernel.field import (
     largest_radius,
     mean_about,
     open_cycle,
-    slope_of_mean,
     surface_above,
 )
 from swtstudy.kernel.mean import FIRST, LINE, POINT, ROUGHLY, SPHERE
@@ -50,11 +47,6 @@ ENDS = ("", "_error", "_x")
 RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
 #: A parabola has found a place if it foretells the mean there so closely, relative; most means on the way.
 FORETOLD, MOST_STEPS = 1e-3, 12
-#: The same with the cells at first: of means that lead to a top, of means beside it on lines, and at it.
-EXACTNESS = (ROUGH, ROUGHLY), (CLOSE, FIRST), (RTOL, FIRST)
-#: Places beside the top of a line's mean, in ℓ; sharpest top that is believed, in mean/ℓ²; most means that
-#: are told on the way that slopes lead.
-BESIDE, SHARPEST, MOST_LOOKS = 0.1, 0.25, 4
 #: Columns of at least this share of the highest are looked at, and means at these of this share of the
 #: largest one are climbed from: they lie within ℓ/4 of their maxima.
 WORTH_A_LOOK, WORTH_A_CLIMB = 0.7, 0.94
@@ -65,16 +57,8 @@ _NODE, _WEIGHT = np.polynomial.legendre.leggauss(3)
 NODE, OF_LINE = 0.5 + 0.5 * _NODE, 0.5 * (1.0 + _NODE) * _WEIGHT
 #: Most columns within the contact; over s, a limit below which all of them are looked at.
 MOST_COLUMNS, LOWEST = 400, 0.02
-#: A mean about a place, its error, and the slope, which is known of half spheres and half discs.
-Mean = Callable[[float], tuple[float, float, float]]
-
-
-class Top(NamedTuple):
-    """A maximum of a mean over places x: bend (x - place)² is how far the mean is lower beside it."""
-
-    mean: float
-    place: float
-    bend: float
+#: A mean about a place, and its error.
+Mean = Callable[[float], tuple[float, float]]
 
 
 def _of_disc() -> FloatArray:
@@ -131,12 +115,9 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
 def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict[str, FloatArray]:
     """By kind the largest means over ℓ in each direction, their errors and their places, (directions, 3)."""
 
-    def mean(
-        kind: str, way: int, known: float, rtol: float, first: int, x: float
-    ) -> tuple[float, float, float]:
+    def mean(kind: str, way: int, known: float, rtol: float, first: int, x: float) -> tuple[float, float]:
         direction = DOWN if way == 0 else direction_at(opened, x)
-        own = mean_about(opened, KINDS[kind], x, direction, distance, known, rtol, first)
-        return *own, slope_of_mean()
+        return mean_about(opened, KINDS[kind], x, direction, distance, known, rtol, first)
 
     least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
     x, columns = _columns(opened, critical, s, distance, least)
@@ -150,11 +131,10 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
         if min(abs(start - critical) for start in starts) > 0.5 * distance:
             starts.append(critical)
         for way in range(1 if kind == "volume" else len(DIRECTIONS)):
-            rough, close, told = (cache(partial(mean, kind, way, most, *how)) for how in EXACTNESS)
-            tops = _climb_all(rough, starts, 0.25 * distance)
-            if kind == "line":  # its few rough values make false tops
-                tops = [_climb(close, top.place, BESIDE * distance) for top in tops]
-            value, error, place = max(_settle(told, top, distance) for top in tops)
+            rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
+            close = partial(mean, kind, way, most, CLOSE, FIRST)
+            place, known = _climb_all(rough, close, starts, 0.25 * distance)
+            value, error = mean(kind, way, known, RTOL, FIRST, place)
             rows.append((far, 0.0, np.nan) if far > value else (value, error + FORETOLD * value, place))
         found[kind] = np.array(rows)
     return found
@@ -188,28 +168,28 @@ def _tops(estimate: FloatArray) -> list[int]:
     return [int(k) for k in order if is_top[k]]
 
 
-def _climb_all(mean: Mean, starts: list[float], step: float) -> list[Top]:
-    """Tops that are reached from places, the highest first, if one of them may be the largest mean."""
-    tops: list[Top] = []
-    for value, x in sorted(((mean(x)[0], x) for x in starts), reverse=True):
-        if tops and value < WORTH_A_CLIMB * max(tops).mean:
+def _climb_all(rough: Mean, close: Mean, starts: list[float], step: float) -> tuple[float, float]:
+    """The place of the largest mean that is reached from places, and the mean: roughly the highest first."""
+    best, largest = starts[0], 0.0
+    for value, x in sorted(((rough(x)[0] if len(starts) > 1 else 1.0, x) for x in starts), reverse=True):
+        if value < WORTH_A_CLIMB * largest:
             break
-        top = _climb(mean, x, step)
-        if all(abs(top.place - other.place) > 0.5 * step for other in tops):
-            tops.append(top)
-    return sorted((top for top in tops if top.mean >= (1.0 - ROUGH) * max(tops).mean), reverse=True)
+        place, value = _climb(close, x, step)
+        if value > largest:
+            best, largest = place, value
+    return best, largest
 
 
-def _climb(mean: Mean, x: float, step: float) -> Top:
-    """From a place to a top by parabolas through three places, until one foretells the mean there."""
-    at, of, foretold, bend = [x], [mean(x)[0]], np.inf, np.inf
+def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
+    """From a place to a maximum by parabolas through three places, until one foretells the mean there."""
+    at, of, foretold = [x], [mean(x)[0]], np.inf
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
         if k in (0, len(at) - 1):  # the top of what is known so far is at its end
             new, foretold = at[k] + (step if k > 0 or len(at) == 1 else -step), np.inf
             step *= 2.0 if len(at) > 2 else 1.0
         else:
-            foretold, new, bend = _top_of_parabola(at[k - 1 : k + 2], of[k - 1 : k + 2])
+            new, foretold = _top_of_parabola(at[k - 1 : k + 2], of[k - 1 : k + 2])
         value = mean(new)[0]
         j = int(np.searchsorted(at, new))
         at.insert(j, new)
@@ -217,32 +197,15 @@ def _climb(mean: Mean, x: float, step: float) -> Top:
         if abs(value - foretold) <= FORETOLD * value:
             break
     k = int(np.argmax(of))
-    return Top(of[k], at[k], bend)
+    return at[k], of[k]
 
 
-def _settle(mean: Mean, top: Top, distance: float) -> tuple[float, float, float]:
-    """The mean at a top, its error and the place; or at a higher place to which the slope there leads."""
-    best, x, before, known = (0.0, 0.0, top.place), top.place, None, 0.0
-    for _ in range(MOST_LOOKS):
-        value, error, slope = mean(x)
-        best = max(best, (value, error, x))
-        if before is None:  # a kink makes a rough top too sharp
-            bend = min(top.bend, SHARPEST * value / distance**2)
-        else:
-            bend = max(0.5 * (known - slope) / (x - before), 0.0)
-        if slope * slope <= 4.0 * bend * FORETOLD * value:
-            break
-        before, known = x, slope
-        x += float(np.clip(0.5 * slope / max(bend, 1e-300), -0.25 * distance, 0.25 * distance))
-    return best
-
-
-def _top_of_parabola(at: list[float], of: list[float]) -> Top:
-    """The top of the parabola through three places, the highest in the middle."""
+def _top_of_parabola(at: list[float], of: list[float]) -> tuple[float, float]:
+    """Place and value of the top of the parabola through three places, the highest in the middle."""
     (a, b, c), (before, m, after) = at, of
     left, right = (m - before) / (b - a), (m - after) / (c - b)
-    bend = (left + right) / (c - a)
+    curvature = (left + right) / (c - a)
     slope = (left * (c - b) - right * (b - a)) / (c - a)
-    if bend <= 0.0:  # three equal means
-        return Top(m, b + 0.5 * (c - b), 0.0)
-    return Top(m + 0.25 * slope * slope / bend, b + 0.5 * slope / bend, bend)
+    if curvature <= 0.0:  # three equal means
+        return b + 0.5 * (c - b), m
+    return b + 0.5 * slope / curvature, m + 0.25 * slope * slope / curvature

@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from body import DOWN, opened
-from scenes import plane_points, points
+from scenes import points
 from scipy.integrate import simpson
 from solved import solve_points
 
 from swtstudy import TabulatedProfile
 from swtstudy.kernel import mean
-from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about, slope_of_mean
+from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about
 
 #: Means of monomials in the offsets over a half sphere of radius 1.
 MOMENTS = {
@@ -65,19 +65,6 @@ def test_means_over_half_spheres(centre, powers, size):
     off = abs(found.average - max(MOMENTS[powers] * size ** sum(powers), 0.0))
     assert off < 2e-3 * size ** sum(powers)
     assert off <= found.error + 1e-3 * size ** sum(powers)
-
-
-@pytest.mark.parametrize("profile", ["paraboloid", "cylinder"])
-@pytest.mark.parametrize(("place", "size"), [(-0.9, 0.1), (0.9, 0.1), (0.9, 0.6)])
-def test_the_slope_of_a_mean_is_its_change_over_places(profile, place, size):
-    batch = plane_points(profile, 0.3, 0.6, 0.0, 0.5) if profile == "cylinder" else SCENES[profile]
-    cycle, step = opened(batch), 0.02 * size
-    mean_about(cycle, mean.SPHERE, place, DOWN, size, 0.0, 1e-4)
-    slope = slope_of_mean()
-    low, high = (
-        mean_about(cycle, mean.SPHERE, place + side, DOWN, size, 0.0, 1e-4)[0] for side in (-step, step)
-    )
-    assert slope == pytest.approx((high - low) / (2.0 * step), rel=0.05, abs=0.01 * (low + high) / size)
 
 
 def test_means_over_half_discs():
