@@ -153,17 +153,12 @@ def test_the_package_exports_lazily():
 
 
 def test_axes_of_dask_are_solved_lazily_and_give_the_same_bits():
-    given = {
-        "normal_amplitude": [0.25, 0.75],
-        "frequency_ratio": "3/2",
-        "rtol": 1e-3,
-        "critical_distance": 0.1,
-    }
+    given = {"normal_amplitude": [0.25, 0.75], "rtol": 1e-3, "critical_distance": 0.1}
     given["quantities"] = ["dissipation"]
-    phase = np.linspace(0.0, 6.0, 5)
+    phase = np.linspace(0.0, 6.0, 3)
     now = swtstudy.solve(phase=phase, **given)
     later = swtstudy.solve(phase=dask.array.from_array(phase, chunks=2), **given)
-    assert later.s.chunks == ((2, 2, 1), (2,))
+    assert later.s.chunks == ((2, 1), (2,))
     assert {name for name in later if dask.is_dask_collection(later[name].data)} == {*now.data_vars}
     xr.testing.assert_identical(later.compute(scheduler="threads"), now)
 

@@ -23,14 +23,14 @@ def largest(dataset: xr.Dataset) -> float:
 def test_runs_in_several_threads_write_and_read_their_archives(tmp_path):
     def job(number):
         path = tmp_path / f"{number}.nc"
-        for more in range(3):
+        for more in range(2):
             text = TEXT.replace("0.5]", f"0.5, {1 + more}]")
             run(Study.from_text(text), path, solver=stand_in.smooth)
             open_results(path)
         return open_results(path)
 
     with ThreadPoolExecutor(4) as pool:
-        found = list(pool.map(job, range(8)))
+        found = list(pool.map(job, range(5)))
     for each in found:
         xr.testing.assert_equal(each.drop_vars("run"), found[0].drop_vars("run"))
 

@@ -61,7 +61,7 @@ def test_lengths_of_a_shape_are_drawn():
     assert face.get_position() == (0.25, -0.77)
     ends = [(text.xy[0], text.xyann[0]) for text in sketch.texts if text.get_text() == ""]
     assert (0.5, 0.0) in ends
-    wavy = {"profile": "wavy_paraboloid", "waviness_amplitude": 0.01, "wavelength": 5.0}
+    wavy = {"profile": "wavy_cylinder", "waviness_amplitude": 0.01, "wavelength": 5.0}
     sketch = draw_profile(**wavy).axes[0]
     (words,) = [text for text in sketch.texts if "lambda" in text.get_text()]
     assert words.get_text() == r"$\lambda$, height $2h$ = 0.02 $\delta_0$"

@@ -329,7 +329,7 @@ def test_a_point_of_a_criterion_of_shear(axes, criterion, k):
 )
 def test_labels_of_the_radii_have_room(amplitude):
     figure = swtstudy.inspect(normal_amplitude=amplitude)
-    figure.draw_without_rendering()
+    figure.get_layout_engine().execute(figure)
     (axes,) = (each for each in figure.axes if "(F)" in each.get_title("left"))
     least, largest = (
         next(text.get_window_extent() for text in axes.texts if word in text.get_text())

@@ -56,6 +56,7 @@ def test_all_archives_make_a_table(tmp_path):
     assert summary.strip() in table
 
 
+@pytest.mark.pages
 def test_the_table_in_the_results_is_that_of_the_archives_beside_it(tmp_path):
     table = tmp_path / "statements.md"
     result = call("check", "--results", folders.RESULTS, "--output", table)
