@@ -131,7 +131,7 @@ def place_in(M, u, w):
     return d, r if M.plane else max(r, 0.0), d * sin(phi), most
 
 
-@jit
+@entry
 def node_of(M, k, i, j, m):
     """Place x, y, z of node (i, j) of cell k, value number m on its arc."""
     u = M.low[k, 0] + (M.high[k, 0] - M.low[k, 0]) * NODE[i]
@@ -145,7 +145,7 @@ def node_of(M, k, i, j, m):
     return side * r * cos(theta), r * sin(theta), z
 
 
-@jit
+@entry
 def write_series(M, at):
     """Write the polynomials of a cell from values at its nodes, (WHAT, NODES, NODES)."""
     rows = NODES if M.kind == SPHERE else 1
@@ -178,7 +178,7 @@ def fill_cell(M, k, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, 
     integrate_cell(M, k)
 
 
-@jit
+@entry
 def integrate_cell(M, k):
     """Integrals of cell k, and what it lacks."""
     rows = NODES if M.kind == SPHERE else 1
@@ -225,7 +225,7 @@ def integrate_cell(M, k):
     M.lacking[k, 1] = OF_CHANGE * abs(change_w) + OF_OFF[M.kind] * off_w
 
 
-@jit
+@entry
 def sum_cells(M):
     """Write the mean and its error."""
     whole, missing, volume, lacking = 0.0, 0.0, 0.0, 0.0
@@ -241,7 +241,7 @@ def sum_cells(M):
         M.average = 0.0
 
 
-@jit
+@entry
 def worst_cell(M, rtol):
     """The cell that most is lacking in, and the axis; -1 if the mean is accurate enough."""
     size, of_values = ENOUGH * rtol * M.average, M.error - CLAIMED * M.of_cells
@@ -256,7 +256,7 @@ def worst_cell(M, rtol):
     return k, axis
 
 
-@jit
+@entry
 def lay_cells(M, first):
     """Lay out the first cells."""
     along, across = (first, first) if M.kind == SPHERE else (first * first, 1)
@@ -267,7 +267,7 @@ def lay_cells(M, first):
         M.low[k, 1], M.high[k, 1] = j / across, (j + 1.0) / across
 
 
-@jit
+@entry
 def halve_cell(M, k, axis):
     """Halve cell k along an axis; the other half is the last cell."""
     y = M.cells
