@@ -21,6 +21,7 @@ from swtstudy import Study, run
 TOGETHER = (
     ("counted_cycles",),
     ("critical_distance",),
+    ("develop", "rooms"),
     ("force_control",),
     ("inspected_forces",),
     ("fit",),

@@ -92,25 +92,31 @@ def module_of(path: Path) -> str:
 MODULES = {module_of(path): path for path in sorted(PACKAGE.rglob("*.py"))}
 
 
-@cache
 def imported(path: Path, types: bool = False) -> frozenset[str]:
     """Modules of the package that a file imports when it runs, anywhere in it; or also for its types."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if (
-            not types
-            and isinstance(node, ast.If)
-            and isinstance(node.test, ast.Name)
-            and node.test.id == "TYPE_CHECKING"
-        ):
-            node.body = []
-    found: set[str] = set()
-    for node in ast.walk(tree):
+    names = {name for name, of_types in _imports(path) if types or not of_types}
+    return frozenset(names & MODULES.keys()) - {module_of(path)}
+
+
+@cache
+def _imports(path: Path) -> frozenset[tuple[str, bool]]:
+    """Names that a file imports, each with whether that is for types alone."""
+    found: set[tuple[str, bool]] = set()
+    todo: list[tuple[ast.AST, bool]] = [(ast.parse(path.read_text(encoding="utf-8")), False)]
+    while todo:
+        node, of_types = todo.pop()
         if isinstance(node, ast.ImportFrom) and node.module:
-            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+            names = [node.module, *(f"{node.module}.{alias.name}" for alias in node.names)]
+            found |= {(name, of_types) for name in names}
         elif isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
-    return frozenset(found & MODULES.keys()) - {module_of(path)}
+            found |= {(alias.name, of_types) for alias in node.names}
+        guard = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        # Statements alone: expressions import nothing.
+        for part in ("body", "orelse", "finalbody", "handlers", "cases"):
+            below = getattr(node, part, [])
+            if isinstance(below, list):
+                todo += [(each, of_types or (guard and part == "body")) for each in below]
+    return frozenset(found)
 
 
 def rooms(house: House) -> str:

@@ -52,7 +52,7 @@ def test_a_radius_in_metres_is_told(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("face", [0.0, 0.2])
 def test_heights_in_micrometres_are_told(tmp_path: Path, face: float) -> None:
-    x = np.linspace(-2.0, 2.0, 401)
+    x = np.linspace(-2.0, 2.0, 201)
     z = np.maximum(np.abs(x) - face, 0.0) ** 2 / 50.0
     profile = '[profiles.pad]\nfile = "pad.csv"\ntwo_sided = true\n'
     given = (

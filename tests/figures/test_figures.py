@@ -70,6 +70,7 @@ def test_lines_differ_in_colour_and_style(panels):
     assert len({str(line.get_linestyle()) + str(line._dash_pattern) for line in lines}) == len(lines)
 
 
+@pytest.mark.usefixtures("unwrapped")
 @pytest.mark.quick(2)
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]

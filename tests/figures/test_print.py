@@ -122,6 +122,7 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
         (1, 10, None, 3),
     ],
 )
+@pytest.mark.usefixtures("unwrapped")
 def test_panels_side_by_side(rows, count, width, across):
     axes = {"phase": PHASE, "normal_amplitude": np.linspace(0.1, 0.9, count)}
     y = ["s", "critical_angle"][:rows]
@@ -137,6 +138,7 @@ def test_panels_side_by_side(rows, count, width, across):
 @pytest.mark.parametrize(
     ("y", "numbered"), [(["s"], [True, False]), (["s", "critical_angle"], [True, False] * 2)]
 )
+@pytest.mark.usefixtures("unwrapped")
 def test_panels_with_an_axis_in_common_have_its_numbers_once(y, numbered):
     axes = {"phase": PHASE, "normal_amplitude": [0.1, 0.2]}
     panels = made_up(wave, **axes).swt.panels("phase", panels="normal_amplitude", y=y).axes

@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 import tomllib
+from functools import cache
 from importlib.util import find_spec
 
 import pytest
@@ -67,7 +68,7 @@ def test_every_file_is_a_script_or_of_use_to_one():
     modules = [file for file in (STUDIES).rglob("*.py") if file not in SCRIPTS.values()]
     for module in modules:
         if module.name != "__main__.py":
-            assert module.stem in imported_beside(module), f"{module} is not run"
+            assert module.stem in imported_in(module.parent), f"{module} is not run"
 
 
 def test_mutants_that_may_live_are_changes_of_the_package():
@@ -78,7 +79,8 @@ def test_mutants_that_may_live_are_changes_of_the_package():
         assert mutant["was"] in " ".join(text.split()), mutant["file"]
 
 
-def imported_beside(module):
-    """Names of the modules that other files of the folder import."""
-    trees = [ast.parse(file.read_text(encoding="utf-8")) for file in module.parent.glob("*.py")]
+@cache
+def imported_in(folder):
+    """Names of the modules that files of a folder import."""
+    trees = [ast.parse(file.read_text(encoding="utf-8")) for file in folder.glob("*.py")]
     return {node.module for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import xarray as xr
-from ContactMechanics.ReferenceSolutions import Hertz
 from numpy.typing import NDArray
+from oracles import hertz
 from oracles import profiles as oracle
 from oracles.hamilton import hamilton
 from oracles.springs import Path, bimodal, polygon, spring_forces
@@ -72,8 +72,8 @@ def test_on_the_surface_full_sliding_is_hamiltons_solution(ν: float, μ: float)
 def test_beneath_it_full_sliding_is_hamiltons_solution(ν: float, places: tuple[Array, ...]) -> None:
     μ = 0.4
     found = at(*places, [0.0], poisson_ratio=ν, friction=μ, **of_load(0.0, 20.0, 0.0, 1, 1))[0] / P0
-    pressed = np.array(Hertz.stress_Cartesian(*places, ν))
-    dragged = np.array(Hertz.stress_for_tangential_loading(*places, ν))
+    pressed = np.array(hertz.pressed(*places, ν))
+    dragged = np.array(hertz.dragged(*places, ν))
     np.testing.assert_allclose(found.T, pressed + μ * dragged, rtol=0.0, atol=1e-9)
 
 
@@ -87,10 +87,10 @@ def test_cattaneo_mindlin_is_a_superposition_of_hamiltons_solutions(
     load = of_load(0.0, amplitude, 0.0, 1, 1)
     depths = np.array([1.0, 1.0 - 0.5 * (amplitude - u), 1.0 - amplitude])
     shares = μ * np.array([-1.0, 2.0, -1.0])
-    expected = np.array(Hertz.stress_Cartesian(*places, ν))
+    expected = np.array(hertz.pressed(*places, ν))
     for depth, share in zip(depths, shares, strict=True):
         a = np.sqrt(depth)
-        expected += share * a * np.array(Hertz.stress_for_tangential_loading(*(v / a for v in places), ν))
+        expected += share * a * np.array(hertz.dragged(*(v / a for v in places), ν))
     found = at(*places, instant, poisson_ratio=ν, friction=μ, **load)[0] / P0
     np.testing.assert_allclose(found.T, expected, rtol=0.0, atol=1e-9)
     line = at(X, 0.0, 0.0, instant, poisson_ratio=ν, friction=μ, **load)[0]
