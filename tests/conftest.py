@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 from collections import Counter
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 # Before NumPy: two processes of tests with two BLAS threads each would fight for two cores.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import pytest
-import xarray as xr
-from real import STUDY
 
-from swtstudy import Study, run
+import swtstudy  # imports the rest when it is used: the process that only hands out tests needs none of it
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (
@@ -61,14 +63,17 @@ def small_text() -> str:
 
 
 @pytest.fixture
-def small(small_text) -> Study:
-    return Study.from_text(small_text)
+def small(small_text) -> swtstudy.Study:
+    return swtstudy.Study.from_text(small_text)
 
 
 @pytest.fixture(scope="session")
 def solved(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     """Results of the study with units of `real`."""
-    return run(Study.from_text(STUDY), tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
+    from real import STUDY
+
+    study = swtstudy.Study.from_text(STUDY)
+    return swtstudy.run(study, tmp_path_factory.mktemp("real") / "sphere.nc", workers=1)
 
 
 @pytest.fixture
@@ -96,6 +101,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         cases[test] += 1
         if item.name in LONG_EXAMPLES or (quick and cases[test] > quick.args[0]):
             item.add_marker(pytest.mark.slow)
+
+
+def pytest_collection() -> None:
+    """Collect no garbage for now: Python would look through a million objects, again and again."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Collect garbage again; the objects that are there by now stay, and are not looked at any more."""
+    gc.collect()
+    gc.freeze()
+    gc.enable()
 
 
 @pytest.hookimpl(optionalhook=True)

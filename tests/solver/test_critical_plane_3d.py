@@ -68,7 +68,7 @@ def test_rotating_a_history_rotates_the_plane_only(histories):
 def test_no_plane_is_higher(histories):
     stress = histories(np.random.default_rng(4), 60)
     swt, normal = swt_of_history(stress, POISSON)
-    assert (swt_on_planes(stress, directions(5000), POISSON).max(axis=1) <= swt * (1 + 1e-12)).all()
+    assert (swt_on_planes(stress, directions(2000), POISSON).max(axis=1) <= swt * (1 + 1e-12)).all()
     on_its_plane = [
         swt_on_planes(s[None], n[None], POISSON)[0, 0] for s, n in zip(stress, normal, strict=True)
     ]

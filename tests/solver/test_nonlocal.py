@@ -54,8 +54,7 @@ def fill(cells, k, function):
     mean.integrate_cell(cells, k)
 
 
-@pytest.mark.parametrize("size", [0.4, 0.05])
-@pytest.mark.parametrize("centre", [1.2, 0.5, 0.0])
+@pytest.mark.parametrize(("centre", "size"), [(1.2, 0.4), (1.2, 0.05), (0.5, 0.05), (0.0, 0.4)])
 @pytest.mark.parametrize("powers", MOMENTS)
 def test_means_over_half_spheres(centre, powers, size):
     def monomial(x, y, z):
@@ -82,7 +81,7 @@ def test_means_over_half_discs():
 @pytest.mark.parametrize("kind", [mean.SPHERE, mean.LINE])
 def test_kinks_are_halved_and_in_the_error(kind):
     """A ridge at a depth of 0.087: what is claimed holds before and after halvings."""
-    exact = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, 0.2, rounds=400).average
+    exact = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, 0.2, rounds=200).average
     claimed = []
     for rounds in (0, 5, 30):
         found = of_known(lambda x, y, z: 1.0 + 10.0 * abs(z - 0.087), kind, 0.2, rounds=rounds)

@@ -61,7 +61,7 @@ def test_no_mean_about_another_place_is_larger(name: str) -> None:
     found = worst_means(batch, solve_points(batch), np.array([distance]))
     cycle = opened(batch)
     end = largest_radius(cycle) + distance
-    for place in np.arange(-end, end, 0.5 * distance):
+    for place in np.arange(-end, end, 0.8 * distance):
         volume = mean_about(cycle, SPHERE, place, DOWN, distance, 0.0, 1e-2)[0]
         assert volume < 1.01 * found["volume"][0, 0]
         for way, direction in enumerate((DOWN, direction_at(cycle, place))):

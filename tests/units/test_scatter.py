@@ -16,7 +16,7 @@ from swtstudy.study.writing import to_toml
 
 LOADS = "normal_force = 200\nfrequency_ratio = 3\nnormal_amplitude = 5e-4\n"
 AXES = "[axes]\ntangential_amplitude = [1e-3, 2e-3, 3e-3]\n"
-SAMPLE = '[sample]\ndesign = "sobol"\nsize = 256\ntarget_life = 4e5\n'
+SAMPLE = '[sample]\ndesign = "sobol"\nsize = 64\ntarget_life = 2e5\n'
 RANGE = '[sample.ranges]\nstrength = { distribution = "normal", mean = 927, deviation = 30 }\n'
 COVARIANCE = """[sample.covariance]
 strength = { strength = 900, ductility = -0.9 }
@@ -42,18 +42,18 @@ def test_percentiles_are_those_of_the_lives_of_all_draws(tmp_path: Path, more: s
     assert found.s.dims == ("tangential_amplitude",)  # no further points
     assert (found.counted_number.sum("counted_cycle") > 1.0).any()  # several cycles in a round
     draws = draws_of(found)
-    assert len(draws) == 256
+    assert len(draws) == 64
     lives = np.array([each.rounds(found.SWT, found.counted, found.counted_number).values for each in draws])
     for percent in (10, 50, 90):
         ranked = np.sort(lives, axis=0)[int(np.ceil(0.01 * percent * len(draws))) - 1]
         np.testing.assert_allclose(found[f"cycles_{percent}"], ranked, rtol=1e-9)
-    np.testing.assert_allclose(found.failure_probability, (lives < 4e5).mean(axis=0))
+    np.testing.assert_allclose(found.failure_probability, (lives < 2e5).mean(axis=0))
     assert 0.0 < float(found.failure_probability[1]) < 1.0
     np.testing.assert_allclose(found.cycles_50, found.cycles, rtol=0.05)
 
 
 def test_draws_have_the_covariance(tmp_path: Path) -> None:
-    draws = draws_of(results(tmp_path, SAMPLE.replace("256", "4096") + COVARIANCE))
+    draws = draws_of(results(tmp_path, SAMPLE.replace("64", "4096") + COVARIANCE))
     columns = np.array([[each.strength, each.ductility, each.strength_exponent] for each in draws])
     wanted = np.array([[900.0, -0.9, 0.0], [-0.9, 1.6e-3, 0.0], [0.0, 0.0, 4e-6]])
     scale = np.sqrt(np.outer(np.diag(wanted), np.diag(wanted)))
@@ -70,7 +70,7 @@ def test_another_scatter_solves_nothing_again(tmp_path: Path) -> None:
 
 
 def test_parameters_may_be_sampled_beside_constants(tmp_path: Path) -> None:
-    more = SAMPLE.replace("256", "8") + RANGE + "friction = [0.4, 0.6]\n"
+    more = SAMPLE.replace("64", "8") + RANGE + "friction = [0.4, 0.6]\n"
     text = f"{CONTACT}{LOADS}{more}tangential_amplitude = [1e-3, 3e-3]\n".replace("friction = 0.5\n", "")
     found = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
     assert found.cycles_10.dims == ("sample",)
@@ -97,16 +97,16 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
     figure = '[figure]\nx = "tangential_amplitude"\ny = ["cycles", "failure_probability"]\n'
     found = results(tmp_path, SAMPLE + RANGE + figure)
     told = "\n".join(describe(found))
-    assert re.search(r"scatter        256 draws: strength 9\d\d(\.\d)? ± 30", told)
+    assert re.search(r"scatter        64 draws: strength 9\d\d(\.\d)? ± 30", told)
     assert "scatter of the constants, shortest lives: N10 = " in told
-    assert "probability of a crack before 400000 load cycles: up to 1." in told
+    assert "probability of a crack before 200000 load cycles: up to 1." in told
     assert "cycles_10 extrapolated" not in told
     upper, lower = found.swt.figure().axes
     (band,) = upper.collections
     ends = band.get_paths()[0].vertices[:, 1]
     assert float(found.cycles_10.min()) == pytest.approx(ends.min())
     assert float(found.cycles_90.max()) == pytest.approx(ends.max())
-    assert lower.get_ylabel().replace("\n", " ") == "probability of a crack before 400000 load cycles, $P$"
+    assert lower.get_ylabel().replace("\n", " ") == "probability of a crack before 200000 load cycles, $P$"
 
 
 @pytest.mark.parametrize(
@@ -119,7 +119,7 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
         (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance: found"),
         (SAMPLE + COVARIANCE + RANGE, "strength, which has a range; allowed: one of the two"),
         (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
-        (SAMPLE.replace("4e5", "-1") + RANGE, "sample.target_life: found -1"),
+        (SAMPLE.replace("2e5", "-1") + RANGE, "sample.target_life: found -1"),
         ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "2 of strength, 1 of ductility"),
     ],
 )
