@@ -88,7 +88,7 @@ def _read(kind: Any, text: object) -> Any:
 
 @cache
 def _reader(kind: Any) -> Any:
-    """What reads values of a type; pydantic takes a millisecond to make one."""
+    """The reader of values of a type; pydantic takes a millisecond to make one."""
     from pydantic import TypeAdapter
 
     return TypeAdapter(kind)

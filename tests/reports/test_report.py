@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 from dataclasses import replace
+from functools import cache
 from html.parser import HTMLParser
 from io import StringIO
 from pathlib import Path
@@ -20,11 +21,13 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from folders import RESULTS
+from matplotlib.figure import Figure
 from real import ALLOY, CRITERIA
 
 import swtstudy
 from swtstudy import Study
 from swtstudy.cli import main
+from swtstudy.figures.point import inspect
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, indices_of, levers, parameters_of, sentences
 from swtstudy.reports.page import Picture, caption_of, derived, embedded, page
@@ -124,7 +127,17 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
 
 @pytest.fixture(scope="module")
 def small_page(small: xr.Dataset) -> str:
-    return page(small, "small")
+    """A whole page; both points have the picture of the first one, as each takes seconds."""
+    drawn: list[Figure] = []
+
+    def drawn_once(**parameters: object) -> Figure:
+        drawn[:] = drawn or [inspect(**parameters)]
+        return drawn[0]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("swtstudy.reports.page.inspect", drawn_once)
+        patch.setattr("swtstudy.reports.page.embedded", cache(embedded))
+        return page(small, "small")
 
 
 def table_in(text: str) -> pd.DataFrame:
