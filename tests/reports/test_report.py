@@ -216,19 +216,19 @@ def test_a_point_is_inspected_with_what_it_was_solved_with(name: str) -> None:
         assert float(again.s) == pytest.approx(float(one.s), rel=2e-3)
 
 
-@pytest.mark.parametrize("name", ["page.pdf", "page"])
-def test_a_page_is_html_or_in_a_folder(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("name", ["page", "v1.2/"])
+def test_a_page_may_be_in_a_folder(tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("swtstudy.reports.site.page", lambda *_: "a page")
     monkeypatch.setattr("swtstudy.reports.site.listing", lambda *_: "a list")
-    done = CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", str(tmp_path / name)])
-    if name == "page":
-        assert (tmp_path / "page" / "friction.html").exists()
-    else:
-        assert "allowed: a file that ends with .html, or a folder" in done.stderr
-        assert not (tmp_path / name).exists()
-    folder = f"{tmp_path}/v1.2/"
-    assert CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", folder]).exit_code == 0
-    assert Path(folder, "index.html").exists()
+    done = CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", f"{tmp_path}/{name}"])
+    assert done.exit_code == 0, done.output
+    assert {path.name for path in (tmp_path / name).iterdir()} == {"friction.html", "index.html"}
+
+
+def test_a_page_is_html(tmp_path: Path) -> None:
+    done = CliRunner().invoke(main, ["report", str(RESULTS / "friction.nc"), "-o", f"{tmp_path}/page.pdf"])
+    assert "allowed: a file that ends with .html, or a folder" in done.stderr
+    assert not list(tmp_path.iterdir())
 
 
 def test_values_of_several_criteria_are_not_compared() -> None:
