@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (
+    ("cli",),
     ("counted_cycles",),
     ("critical_distance",),
     ("develop", "rooms"),
@@ -34,6 +35,8 @@ TOGETHER = (
     ("s_error",),
     ("sensitivity",),
     ("shown",),
+    ("trace",),
+    ("validity",),
 )
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 

@@ -7,8 +7,7 @@ import stand_in
 
 from swtstudy import Study, run
 
-checker = pytest.importorskip("compliance_checker.runner")
-# Its own dependencies warn, each in its way.
+# The checker's dependencies warn, each in its way.
 pytestmark = pytest.mark.filterwarnings("ignore")
 
 FOUR = 'title = "t"\n[axes]\nphase = [0, 1]\nfrequency_ratio = ["1/2", 1]\nfriction = [0.1, 0.2]\n'
@@ -17,6 +16,7 @@ NAMED = 'title = "t"\n[axes]\nprofile = ["rounded_punch", "truncated_paraboloid"
 
 @pytest.mark.parametrize("text", [FOUR, NAMED, 'title = "t"'])
 def test_cf(text, tmp_path):
+    checker = pytest.importorskip("compliance_checker.runner")
     run(Study.from_text(text), tmp_path / "archive.nc", solver=stand_in.smooth)
     checker.CheckSuite.load_all_available_checkers()
     report = tmp_path / "report.json"

@@ -26,6 +26,9 @@ from swtstudy.study.template import template, template_with_units
 from swtstudy.vocabulary.choices import FAMILIES, is_plane
 from swtstudy.vocabulary.parameters import PARAMETERS
 
+#: The tests look at what is written, not at the layout of figures.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 STUDY_FILES = sorted(STUDIES.glob("*.toml"))
 
 

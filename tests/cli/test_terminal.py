@@ -23,6 +23,9 @@ from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import numbers_words, raised
 
+#: The tests look at what is written, not at the layout of figures.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
 
 class Terminal(io.StringIO):
     def isatty(self) -> bool:

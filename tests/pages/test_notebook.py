@@ -3,9 +3,6 @@
 import pytest
 from folders import ROOT, STUDIES
 
-nbformat = pytest.importorskip("nbformat")
-nbclient = pytest.importorskip("nbclient")
-pytest.importorskip("ipykernel")
 # The machinery around the kernel warns in its own ways.
 pytestmark = pytest.mark.filterwarnings("ignore")
 
@@ -50,6 +47,8 @@ def pictures(notebook) -> int:
 
 @pytest.mark.pages
 def test_the_notebook(monkeypatch):
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
     committed = nbformat.read(NOTEBOOK, as_version=4)
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     monkeypatch.setenv("PYTHONPATH", str(ROOT))

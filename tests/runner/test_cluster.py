@@ -18,15 +18,19 @@ from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.runner.engine import LOST_WORKER, WorkerError
 from swtstudy.runner.workers import ClusterPool
 
-distributed = pytest.importorskip("distributed")
-# Its own warnings about a killed worker are none of ours.
+# The warnings of distributed about a killed worker are none of ours.
 pytestmark = [pytest.mark.filterwarnings("default"), pytest.mark.slow]
 
 WIDE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 2, num = 400}\n'
 
 
+@pytest.fixture(autouse=True)
+def distributed():
+    return pytest.importorskip("distributed")
+
+
 @pytest.fixture
-def client(tmp_path):
+def client(distributed, tmp_path):
     with (
         distributed.LocalCluster(
             n_workers=2, threads_per_worker=1, dashboard_address=None, local_directory=str(tmp_path)

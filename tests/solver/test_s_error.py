@@ -86,9 +86,8 @@ PHASES = [
 LENGTHS = [{}, {}, {}, {"flat_radius": 20.0}, {"flat_radius": 6.581116694018547}]
 
 
-@pytest.mark.quick(2)
 @pytest.mark.parametrize(
-    "case", [pytest.param(k, marks=[pytest.mark.slow] if k == 3 else []) for k in range(len(ROUNDED))]
+    "case", [pytest.param(k, marks=[pytest.mark.slow] if k in (0, 3) else []) for k in range(len(ROUNDED))]
 )
 def test_s_error_bounds_what_rounding_and_tables_make_of_s(case: int) -> None:
     profile, values = ROUNDED[case]

@@ -130,6 +130,7 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
     assert not schema.exists()
 
 
+@pytest.mark.usefixtures("unwrapped")
 def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = computed(tmp_path, STUDY + FIGURE)
     monkeypatch.setattr("swtstudy.vocabulary.files._sync", full)
@@ -139,6 +140,7 @@ def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.
     assert not [each for each in tmp_path.iterdir() if each.name.startswith(".")]
 
 
+@pytest.mark.usefixtures("unwrapped")
 @pytest.mark.parametrize(
     ("content", "words"),
     [
