@@ -85,7 +85,7 @@ def lift(Q, value):
     return h if Q.outer == 1.0 else h ** (1.0 / Q.outer)
 
 
-@jit
+@entry
 def partials(Q, T, A):
     """h_T, h_A, h_TT, h_TA, h_AA."""
     m, k = Q.power, Q.sensitivity
