@@ -63,7 +63,7 @@ _FOLDER = cache_folder()
 
 
 def entry(function, **options):
-    """Compile a function: division by zero as in NumPy, no lock held, cached in the kernel's own folder."""
+    """Compile a function that Python calls, too: division by zero as in NumPy, no lock held, cached."""
     before = numba.config.CACHE_DIR
     numba.config.CACHE_DIR = _FOLDER
     try:

@@ -66,13 +66,13 @@ def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, 
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
     K.first[row] = k
     K.total[row, 0], K.total[row, 1] = 0.0, 0.0
-    sums = np.zeros(4)
+    sums, inner = np.zeros(4), 0.0 if all_outside else X
     for p in range(p0, p1):
         if begin[p] >= top or k + 2 >= MAX_TABLES:
             break
-        low = begin[p]
-        while not all_outside and low < min(end[p], X) and k + 1 < MAX_TABLES:
-            high = inside_end(low, min(end[p], X), X)
+        low, last = begin[p], min(end[p], inner)
+        while low < last and k + 1 < MAX_TABLES:
+            high = inside_end(low, last, X)
             tabulate_panel(
                 K, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, plane, sums
             )

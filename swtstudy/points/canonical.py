@@ -120,12 +120,9 @@ def given_points(columns: Mapping[str, NDArray]) -> Table:
     _make_profiles_canonical(table)
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[SHIFT])
-    # A component that stands still is prescribed as the other one is, both that do as displacements.
-    rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
-    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
-    table["control"] = control_code(
-        np.where(rests, ~stands & tangential, normal), np.where(stands, ~rests & normal, tangential)
-    )
+    # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
+    rests, tangential = table["normal_amplitude"] == 0.0, (table["control"] & 2) == 2
+    table["control"] = np.where(rests, control_code(tangential, tangential), table["control"])
     return table
 
 
@@ -147,8 +144,12 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
     table = given_points(columns)
+    # So is a tangential load at rest as the normal one, and both at rest as displacements.
+    rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
+    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
+    table["control"] = control_code(normal & ~(rests & stands), np.where(stands, normal & ~rests, tangential))
     # A loop has neither phase nor frequencies.
-    is_loop, rests = table["load"] != code_of(HARMONIC, "load"), table["normal_amplitude"] == 0.0
+    is_loop = table["load"] != code_of(HARMONIC, "load")
     phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS

@@ -131,7 +131,7 @@ class Grid:
 
     def given_point(self) -> Table:
         """The row of the only point of the grid, with its phases as given; shape (1,)."""
-        return given_points(self._row_columns(np.zeros(1, int))).reshape(1)
+        return given_points(self._row_columns(np.zeros(1, int)))
 
     def _row_columns(self, places: IndexArray) -> dict[str, NDArray]:
         """The columns of rows at n places, (n,) or (1,)."""

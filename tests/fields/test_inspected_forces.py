@@ -163,3 +163,5 @@ def test_where_there_is_no_equilibrium_there_is_no_cycle():
         swtstudy.inspect(normal_force_amplitude=0.4, tangential_force_amplitude=0.95)
     with pytest.raises(ValueError, match=r"^normal_force_amplitude: found 1.2"):
         swtstudy.inspect(normal_force_amplitude=1.2)
+    with pytest.raises(ValueError, match=r"^normal_force_amplitude: found 1.2"):
+        swtstudy.inspect(normal_force_amplitude=1.2, tangential_amplitude=0)
