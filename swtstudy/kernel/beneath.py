@@ -35,7 +35,7 @@ from swtstudy.kernel.punch import (
     upper_root,
 )
 from swtstudy.kernel.shift import centre_of
-from swtstudy.kernel.surface import acosh
+from swtstudy.kernel.surface import acosh, inside_end
 
 #: Row and cell of the profile; no literal, for which Numba would compile anew.
 FIRST = np.int64(0)
@@ -120,7 +120,7 @@ def cell_end(B, b, low, end):
     elif low >= B.sigma:
         high = min(high, B.sigma * cosh(acosh(low / B.sigma) + 2.0 * longest))
     else:
-        high = min(high, B.sigma)
+        high = inside_end(low, min(end, B.sigma), B.sigma)
     if b > 0.0:
         high = min(high, low + BESIDE_FACE * sqrt(b * b + low * low))
     # No sliver is left over.
