@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.sheet import WIDTHS, new_figure, place_legend
 from swtstudy.figures.style import save_figure, stroke, styled
 from swtstudy.kernel.batch import chunks
-from swtstudy.kernel.compiled import entry, new_record, new_records
+from swtstudy.kernel.compiled import jit, new_record, new_records
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.course import STATE, write_states, write_stress
 from swtstudy.kernel.criterion import lifted, swing_weights, value_of
@@ -174,7 +174,7 @@ def _in_plane(ν: Array, r: Array, share: Array | float) -> tuple[Array, Array]:
 _MEMORY, _CONJUGATE = workspace(), new_record(CONJUGATE)
 
 
-@entry
+@jit
 def highest_at_states(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, states, found):  # type: ignore[no-untyped-def]
     """`swtstudy.kernel.dense.highest_on_planes` of the states alone, instead of the whole cycle."""
     for i in range(places.shape[0]):

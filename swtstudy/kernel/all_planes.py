@@ -17,7 +17,7 @@ from math import acos, cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry, entry_reordered, jit, new_record, once
+from swtstudy.kernel.compiled import jit, jit_reordered, new_record
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, slope_bound, value_of
 from swtstudy.kernel.planes import NOISE, above
 
@@ -147,7 +147,7 @@ def measure(G, S, m, Q):
         G.most[1] = OF_J2 * G.of_swing + (1.0 - 2.0 * nu) * (high - low)
 
 
-@entry_reordered
+@jit_reordered
 def tension_and_strain(S, m, x, y, z, of_stress):
     """T and A of the strain on a plane."""
     a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
@@ -159,7 +159,7 @@ def tension_and_strain(S, m, x, y, z, of_stress):
     return top, high - low
 
 
-@entry_reordered
+@jit_reordered
 def project(S, m, x, y, z, row, p, q, r):
     """Write the shear stress on a plane along (p, q, r) into a row of S; returns the largest σ_n."""
     a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
@@ -172,7 +172,7 @@ def project(S, m, x, y, z, row, p, q, r):
     return top
 
 
-@entry_reordered
+@jit_reordered
 def width(S, m, C, D):
     """Extent of the path of the shear stress along the line (C, D)."""
     low, high = 1e300, -1e300
@@ -563,7 +563,7 @@ def highest_plane(G, S, m, Q, floor, tolerance):
     return G.best
 
 
-@entry
+@jit
 def highest_planes(G, S, histories, Q, tolerance, values, normals):
     """Write the criterion and the normal of its plane for each of some histories, (n, m, 6).
 
@@ -600,22 +600,9 @@ def planes_of(histories, Q, tolerance):
         The criterion, (n,); unit normals, (n, 3), 0 where the criterion is 0; and for how many histories the
         search ended before its bound was met.
     """
-    _warm_up()
-    return _planes_of(histories, Q, tolerance)
-
-
-def _planes_of(histories, Q, tolerance):
     n, m = histories.shape[:2]
     values, normals = np.empty(n), np.empty((n, 3))
     histories = np.ascontiguousarray(histories, dtype=float)
     room = new_record(PLANES), np.zeros((ROWS, m))
     unsettled = highest_planes(*room, histories, Q, float(tolerance), values, normals)
     return values, normals, int(unsettled)
-
-
-@once
-def _warm_up():
-    """Compile what the search needs, or load it."""
-    from swtstudy.kernel.line import ask
-
-    _planes_of(np.ones((1, 1, 6)), ask(0.3, 0.5, 1e-2), 1e-2)

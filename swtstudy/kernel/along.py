@@ -2,7 +2,7 @@
 
 from math import sqrt
 
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.history import FIRST
 from swtstudy.kernel.line import (
     ASKED,
@@ -29,7 +29,7 @@ def excess(S, k, limit):
     return most
 
 
-@entry
+@jit
 def map_line(S, H, W, C, R, P, K, L, Q, limit):
     """Halve the line until no interval hides anything that exceeds its ends or the limit; write it into S."""
     smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
@@ -44,7 +44,7 @@ def map_line(S, H, W, C, R, P, K, L, Q, limit):
         m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
 
 
-@entry
+@jit
 def plane_at(S, H, W, C, R, P, K, L, Q, largest, x):
     """2θ of the critical plane at a signed x."""
     S.best, S.positions, b = 0.0, 0, P.flat_radius

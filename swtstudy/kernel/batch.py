@@ -9,7 +9,7 @@ import numpy as np
 
 from swtstudy.kernel.body import body_workspace
 from swtstudy.kernel.circle import circles, search_circles
-from swtstudy.kernel.compiled import new_record, new_records, once
+from swtstudy.kernel.compiled import new_record, new_records
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.cycles import COUNTED, count_points, counting
 from swtstudy.kernel.line import ASK, ask
@@ -142,34 +142,18 @@ def solve_batch(*points, **given):
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.point.RESULT`.
     """
-    warm_up()
     parts = []
     for _, profiles, which, loads, asks in chunks(*points, **given):
         parts.append(new_records(len(which), RESULT))
         solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
         _refuse_overflow(parts[-1]["overflow"].any())
         if parts[-1]["circle"].any():
-            warm_up_circles()
             search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
             if (parts[-1]["circle"] * parts[-1]["shift"]).any():
                 places = _of_this_thread("body", body_workspace)
                 search_shifted_circles(*places, *_workspace(), profiles, which, loads, asks, parts[-1])
             _refuse_overflow(parts[-1]["overflow"].any())
     return _joined(parts, RESULT)
-
-
-@once
-def warm_up():
-    """Compile what the points need, or load it: once in a process, in one process at a time."""
-    solve_batch("rounded_punch", [0.3], [0.5], [0.25], [0.25], shape={"flat_radius": [0.5]}, rtol=1e-2)
-
-
-@once
-def warm_up_circles():
-    """The same for the circles, which many points do without."""
-    records = (new_records(0, kind) for kind in (PROFILE, LOAD, ASK, RESULT))
-    profiles, loads, asks, found = records
-    search_circles(*_circles(), *_workspace(), profiles, np.zeros(0, np.int64), loads, asks, found)
 
 
 def count_batch(x, double_angle, *points, **given):

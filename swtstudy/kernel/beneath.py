@@ -19,7 +19,7 @@ from math import asin, asinh, cos, cosh, hypot, pi, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import entry, entry_reordered, jit
+from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN
 from swtstudy.kernel.growth import find_stretch, solved_places
 from swtstudy.kernel.load import bulk_at, load_at
@@ -127,7 +127,7 @@ def cell_end(B, b, low, end):
     return end if high > low + 0.9 * (end - low) and (B.omega > 0.0 or low >= B.sigma) else high
 
 
-@entry_reordered
+@jit_reordered
 def tabulate_cell(B, k, plane, exponent, density, begin, end, low, high, b, total):
     """Cell k: running integrals of a panel's density times the functions, added to the total up to there.
 
@@ -192,7 +192,7 @@ def tabulate(B, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
     return k
 
 
-@entry_reordered
+@jit_reordered
 def running(B, row, s, f):
     """Write the running integrals of a density up to s."""
     first, last = B.first[row], B.last[row]
@@ -388,7 +388,7 @@ def with_bulk(P, bulk, nu, out):
         out[1] += nu * bulk
 
 
-@entry
+@jit
 def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
     """Write the stress at places (n, 3) and instants (m,) of the cycle, shape (n, m, 6)."""
     m = time.shape[0]
@@ -407,7 +407,7 @@ def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
             with_bulk(P, bulk[i], nu, out[p, i])
 
 
-@entry
+@jit
 def edges(P, L, time, radius):
     """Write the contact radius at instants."""
     for i in range(time.shape[0]):

@@ -21,7 +21,7 @@ from swtstudy.kernel.all_planes import (
 )
 from swtstudy.kernel.beneath import PLACE, open_place, stress_of_state, with_bulk
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import entry, jit, new_record
+from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import SHORTEST
 from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
 from swtstudy.kernel.growth import places_at
@@ -306,7 +306,7 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
     return value_of(Q, h), value_of(Q, h) * S.missing
 
 
-@entry
+@jit
 def largest_at_places(
     S,
     B,
@@ -348,7 +348,7 @@ def largest_at_places(
             normals[i, 0], normals[i, 1], normals[i, 2] = np.nan, np.nan, np.nan
 
 
-@entry
+@jit
 def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
     """Write the largest von Mises stress of the cycle at places, (n, 3)."""
     for i in range(places.shape[0]):
@@ -366,7 +366,7 @@ def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
         values[i] = sqrt(largest_square)
 
 
-@entry
+@jit
 def write_instants(H, L, time):
     """Write the instants of the parts at a place, of the cycle; returns how many these are."""
     m = 0

@@ -19,7 +19,7 @@ import numpy as np
 from swtstudy.kernel import INNERMOST, NEAREST
 from swtstudy.kernel.all_planes import PLANES, ROWS, activate, climb_from, highest_plane, measure
 from swtstudy.kernel.chebyshev import FINEST, barycentric
-from swtstudy.kernel.compiled import entry, entry_reordered, jit, new_record
+from swtstudy.kernel.compiled import jit, jit_reordered, new_record
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
 from swtstudy.kernel.growth import lay_out
@@ -69,7 +69,7 @@ def circles():
     return new_record(CIRCLE), new_record(PLANES), np.zeros((ROWS, MAX_INSTANTS))
 
 
-@entry_reordered
+@jit_reordered
 def fill_circle(H, S, m, nu, angle):
     """Write the stress at an angle of the circle: rr, φφ, zz, φz, rz, rφ in the place of xx to xy."""
     C, D, of_sum = cos(angle), sin(angle), (nu - 0.5) / (1.0 + nu)
@@ -372,7 +372,7 @@ def surface_value(D, G, S, C, R, H, W, K, P, L, Q, found):
     return top if top > known else s
 
 
-@entry
+@jit
 def search_circles(D, G, S, C, R, _, H, W, K, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points, where the line may not be enough.
 

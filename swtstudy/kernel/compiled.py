@@ -1,183 +1,117 @@
-"""Options with which the kernel is compiled, the folder of compiled code, and how it gets there once."""
+"""How functions of the kernel are compiled: each is optimised once, with the function that Python calls.
 
-import os
-import shutil
-import sys
-import tempfile
-import time
-from contextlib import contextmanager, suppress
-from functools import wraps
-from hashlib import sha256
-from pathlib import Path
-from threading import RLock
+Numba optimises a function anew in each function above it, and makes machine code of it each time. Here a
+function has two compiled forms: a part, intermediate code that becomes machine code in the functions above
+it, and for calls from Python a whole, which is kept in the folder of compiled code.
+"""
+
+from functools import cached_property, update_wrapper
 
 import numba
 import numpy as np
-from numba.core import event
+from llvmlite.binding import parse_assembly
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
+from numba.extending import typeof_impl
 
-try:
-    import fcntl
-except ImportError:  # Windows: two processes may both compile, each of them what is right
-    fcntl = None  # type: ignore[assignment]
-
-#: Folders of other sources are removed when they have not been used for so many days.
-KEPT_DAYS = 30
+from swtstudy.kernel.cache import FOLDER, compiling
 
 
-def cache_folder():
-    """Folder of compiled code, one for each state of the sources; "" if there is no place to write to.
+class _Part(JITCodeLibrary):
+    """The code of a part."""
 
-    Numba itself sees changes in a function's own file only. The folder lies in ``NUMBA_CACHE_DIR`` if that is
-    set, or in the user's cache, or else in the temporary folder: never beside the sources, which may be
-    read-only.
-    """
-    sources = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))))
-    for base in _bases():
-        folder = Path(base) / f"kernel-{sources.hexdigest()[:16]}"
+    def finalize(self):
+        """Give the function's environment an address, at which Numba sets it; optimise and emit nothing."""
+        self._raise_if_finalized()
+        variables = self._final_module.global_variables
+        environment = [str(each) for each in variables if each.name.startswith("_ZN08NumbaEnv")]
+        self._codegen._add_module(parse_assembly("\n".join(environment)))
+        self._finalized = True
+
+
+class _Whole(JITCodeLibrary):
+    """The code of a whole."""
+
+    def finalize(self):
+        """Take in the parts of the parts, too, before all is optimised."""
+        for library in self._linking_libraries:  # which grows
+            more = dict.fromkeys(library._linking_libraries)
+            self._linking_libraries += [each for each in more if each not in self._linking_libraries]
+        super().finalize()
+
+
+def _compiler_into(kind):
+    """Numba's compiler, with another kind of library for the code of a function."""
+
+    class Own(Compiler):
+        def define_pipelines(self):
+            state = self.state
+            state.library = kind(state.targetctx.codegen(), state.func_id.func_qualname)
+            state.library.enable_object_caching()
+            return super().define_pipelines()
+
+    return Own
+
+
+_TO_PART, _TO_WHOLE = _compiler_into(_Part), _compiler_into(_Whole)
+
+
+class Compiled:
+    """A function that is compiled when it is first called."""
+
+    def __init__(self, function, reordered):
+        update_wrapper(self, function)
+        self._options = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+        self._options["fastmath"] = reordered
+        self._is_ready = False
+
+    @cached_property
+    def part(self):
+        """Numba's dispatcher for calls from compiled functions."""
+        options = self._options | {"pipeline_class": _TO_PART, "no_cpython_wrapper": True}
+        made = numba.njit(**options)(self.__wrapped__)
+        template = made.get_call_template
+
+        def call_template(arguments, keywords):
+            # A call with a literal such as 0 uses the code for all integers: Numba would compile it anew.
+            return template(tuple(numba.types.unliteral(each) for each in arguments), keywords)
+
+        made.get_call_template = call_template
+        return made
+
+    @cached_property
+    def whole(self):
+        """Numba's dispatcher for calls from Python."""
+        before = numba.config.CACHE_DIR
+        numba.config.CACHE_DIR = FOLDER
         try:
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            tempfile.TemporaryFile(dir=folder).close()
-        except OSError:
-            continue
-        # Compiled code of another user is not run: anybody may make a folder in the temporary one.
-        if not hasattr(os, "getuid") or folder.stat().st_uid == os.getuid():
-            return str(folder)
-    return ""
+            options = self._options | {"pipeline_class": _TO_WHOLE, "cache": bool(FOLDER)}
+            return numba.njit(**options)(self.__wrapped__)
+        finally:
+            numba.config.CACHE_DIR = before
+
+    def __call__(self, *arguments):
+        if not self._is_ready:
+            with compiling(f"{self.__module__}.{self.__name__}"):
+                self.whole.compile(tuple(map(numba.typeof, arguments)))
+            self._is_ready = True
+        return self.whole(*arguments)
 
 
-def _bases():
-    """Where the folder may be, the best place first."""
-    if given := os.environ.get("NUMBA_CACHE_DIR"):
-        yield given
-    users = (
-        os.environ.get("LOCALAPPDATA") or os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
-    )
-    if os.path.isabs(users):
-        yield Path(users) / "swtstudy"
-    with suppress(OSError):  # there is no temporary folder either
-        owner = f"-{os.getuid()}" if hasattr(os, "getuid") else ""
-        yield Path(tempfile.gettempdir()) / f"swtstudy{owner}"
+@typeof_impl.register(Compiled)
+def _type_of_part(function, context):
+    """What compiled functions see of another one."""
+    return numba.types.Dispatcher(function.part)
 
 
-_FOLDER = cache_folder()
+def jit(function):
+    """Compile a function: division by zero as in NumPy, no lock held."""
+    return function if numba.config.DISABLE_JIT else Compiled(function, reordered=False)
 
 
-def entry(function, **options):
-    """Compile a function that Python calls, too: division by zero as in NumPy, no lock held, cached."""
-    before = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = _FOLDER
-    try:
-        own = {"cache": bool(_FOLDER), "error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-        compiled = numba.njit(**own, **options)(function)
-    finally:
-        numba.config.CACHE_DIR = before
-    if not numba.config.DISABLE_JIT:
-        _compile_literals_as_numbers(compiled)
-    return compiled
-
-
-def jit(function, **options):
-    """Compile a function for compiled functions alone: code for calls from Python costs an eighth."""
-    compiled = entry(function, no_cpython_wrapper=True, **options)
-    if numba.config.DISABLE_JIT:
-        return compiled
-
-    def refuse(*arguments):
-        raise TypeError(f"compiled code alone calls {function.__name__}; decorate it with entry for Python")
-
-    # A call from Python looks for compiled code that was put in, and then compiles.
-    compiled._insert, compiled._compile_for_args = lambda *code: None, refuse
-    return compiled
-
-
-def jit_inlined(function):
-    """The same for a long step of one caller.
-
-    The step becomes a part of the caller before the compiler optimises: it would optimise the step, and all
-    that the step calls, once for each function above it.
-    """
-    return jit(function, inline="always")
-
-
-def _compile_literals_as_numbers(compiled):
-    """Let a call with a literal such as 0 use the code for all integers: Numba would compile it anew."""
-    template = compiled.get_call_template
-
-    def call_template(arguments, keywords):
-        return template(tuple(numba.types.unliteral(each) for each in arguments), keywords)
-
-    compiled.get_call_template = call_template
-
-
-def entry_reordered(function):
+def jit_reordered(function):
     """Compile a loop over finite numbers whose order of summation does not matter."""
-    return entry(function, fastmath=True)
-
-
-def once(function):
-    """Make a function of compiled calls run once in a process, and by one process at a time.
-
-    The others find its compiled functions in the folder. Threads wait for one another, too.
-    """
-    lock, begun = RLock(), []
-
-    @wraps(function)
-    def first_call():
-        with lock:
-            if not begun:
-                begun.append(True)
-                with _locked(), _told():
-                    function()
-
-    return first_call
-
-
-@contextmanager
-def _locked():
-    """Hold the lock of the folder; without one where the system has none."""
-    if fcntl is None or not _FOLDER:
-        yield
-        return
-    with open(Path(_FOLDER) / "lock", "w") as file:
-        with suppress(OSError):  # a file system without locks
-            fcntl.flock(file, fcntl.LOCK_EX)
-        yield
-
-
-class _Compiling(event.Listener):
-    """Say on a terminal that something is compiled, which nothing in the folder has spared."""
-
-    def __init__(self):
-        self.begun = False
-
-    def on_start(self, event):
-        if not self.begun and sys.stderr is not None and sys.stderr.isatty():
-            print("compiling the solver, once, about a minute", file=sys.stderr, flush=True)
-        self.begun = True
-
-    def on_end(self, event):
-        pass
-
-
-@contextmanager
-def _told():
-    """Tell of what is compiled in a with block, and tidy up afterwards."""
-    compiling = _Compiling()
-    with event.install_listener("numba:compile", compiling):
-        yield
-    if _FOLDER:
-        with suppress(OSError):
-            os.utime(_FOLDER)
-        if compiling.begun:
-            remove_unused(Path(_FOLDER))
-
-
-def remove_unused(folder):
-    """Remove the folders of compiled code beside this one that have not been used for long."""
-    for other in folder.parent.glob("kernel-*"):
-        with suppress(OSError):
-            if other != folder and time.time() - other.stat().st_mtime > KEPT_DAYS * 86400.0:
-                shutil.rmtree(other, ignore_errors=True)
+    return function if numba.config.DISABLE_JIT else Compiled(function, reordered=True)
 
 
 def new_record(kind):

@@ -19,7 +19,7 @@ events the state is smooth: a stretch of time in which the edge moves, and perha
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.events import out_of_equilibrium, turning_points
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at
 
@@ -268,7 +268,7 @@ def unload(C, L, top, begin, end):
     return top
 
 
-@entry
+@jit
 def solve_cycle(C, L):
     """One stationary load cycle; half of it where the other half is its mirror image."""
     C.pieces, C.stretches, C.overflow, C.shift = 0, 0, 0, 0.0

@@ -8,7 +8,7 @@ increasing functions of the profile, through the place s of the edge.
 import numpy as np
 
 from swtstudy.kernel.chebyshev import panel_of
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.load import BY_POWER, BY_SERIES, MAP_ORDER, MAX_MAP, UNMAPPED, mapped
 from swtstudy.kernel.profile import density_at, force_at, place_of
 
@@ -101,7 +101,7 @@ def _other_coordinate(profile, x):
     return depth.reshape(x.shape)
 
 
-@entry
+@jit
 def _depths(P, places, depth):
     """Write G at places of a profile in the force: ∫ dG/ds ds by Gauss's rule on each panel."""
     before = np.zeros(P.panels + 1)
@@ -121,7 +121,7 @@ def rise(P, a, b):
     return 0.5 * (b - a) * total
 
 
-@entry
+@jit
 def _places(P, x, place, force):
     """Write the places of coordinates and ∫ ξ dG up to there; returns that up to the coordinate 1."""
     for i in range(x.shape[0]):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import OPEN, offset, piece_at
 from swtstudy.kernel.growth import coordinates_at, find_stretch
 from swtstudy.kernel.history import begin_history, split, stress
@@ -28,7 +28,7 @@ STATE = np.dtype(
 )
 
 
-@entry
+@jit
 def write_states(C, R, P, L, U, instants, out):
     """Write the states of the contact at instants in [0, period]."""
     for i in range(instants.shape[0]):
@@ -45,7 +45,7 @@ def write_states(C, R, P, L, U, instants, out):
         state.answer = sign * answer_at(C, R, P, U, k, state.edge_s, state.front_s)
 
 
-@entry
+@jit
 def write_springs(C, R, P, L, U, states, places, largest, compression, force):
     """Write compression and tangential force of springs at places s, by state and spring.
 
@@ -75,7 +75,7 @@ def write_springs(C, R, P, L, U, states, places, largest, compression, force):
                     force[i, j] = state.tangential - state.sign * offset(C, L, piece, at)
 
 
-@entry
+@jit
 def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
     """Write the stress at place s on one side, as a history of the instants of the states."""
     begin_history(H, C, R, P, K, place, largest, side)
@@ -87,7 +87,7 @@ def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
     H.instants = states.shape[0]
 
 
-@entry
+@jit
 def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
     """Cut the cycle where the stress at place s on one side has cusps in time.
 
@@ -101,7 +101,7 @@ def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
         split(H, C, P, K, L, k, nu, mu)
 
 
-@entry
+@jit
 def write_values(S, H, W, C, R, P, K, L, Q, largest, places, values, angles):
     """Write the criterion and 2θ of the critical plane at places s, at x > 0 and at x < 0."""
     for i in range(places.shape[0]):

@@ -16,7 +16,7 @@ from math import acos, atan2, hypot, pi, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 
 SWT, FATEMI_SOCIE, FINDLEY = np.arange(3)
 NAMES = ("swt", "fatemi_socie", "findley")
@@ -51,7 +51,7 @@ def set_criterion(record, name, poisson_ratio, walker_exponent=0.5, normal_sensi
         record["factor"] = 0.5 ** (2.0 * gamma) / (1.0 - poisson_ratio**2)
 
 
-@entry
+@jit
 def swing_weights(Q, C, S):
     """Weights of b and c in the swing of the plane with cos 2θ = C, sin 2θ = S: ε_n or τ."""
     if Q.criterion == SWT:
@@ -59,7 +59,7 @@ def swing_weights(Q, C, S):
     return -S, C
 
 
-@entry
+@jit
 def lifted(Q, T, A, noise):
     """H of T and A, 0 at least; a tension up to noise is none."""
     if Q.criterion == SWT:
@@ -72,7 +72,7 @@ def lifted(Q, T, A, noise):
     return max(A + 2.0 * Q.sensitivity * T, 0.0)
 
 
-@entry
+@jit
 def value_of(Q, h):
     """The criterion from h."""
     return Q.factor * h if Q.outer == 1.0 else Q.factor * h**Q.outer
@@ -85,7 +85,7 @@ def lift(Q, value):
     return h if Q.outer == 1.0 else h ** (1.0 / Q.outer)
 
 
-@entry
+@jit
 def partials(Q, T, A):
     """h_T, h_A, h_TT, h_TA, h_AA."""
     m, k = Q.power, Q.sensitivity
@@ -131,7 +131,7 @@ def sensitivities(Q, T, A):
     return Q.outer * h_t / h, Q.outer * h_a / h
 
 
-@entry
+@jit
 def far_field(Q, largest, smallest, plane):
     """The criterion under a bulk stress along x alone, and 2θ of its plane (rad).
 

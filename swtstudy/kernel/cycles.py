@@ -17,7 +17,7 @@ from math import cos, isnan, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, vertex
-from swtstudy.kernel.compiled import entry, jit, new_record
+from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field, lifted, sensitivities, swing_weights, value_of
 from swtstudy.kernel.growth import lay_out
@@ -149,7 +149,7 @@ def follow(N, H, W, Q, C, S):
     N.points = n
 
 
-@entry
+@jit
 def count_cycles(N, Q):
     """Write the values of the closed cycles of the history.
 
@@ -431,7 +431,7 @@ def count_point(C, R, S, H, W, K, N, P, L, Q, x, angle, out):
     out.overflow = C.overflow
 
 
-@entry
+@jit
 def count_points(C, R, S, H, W, K, N, profiles, which, loads, asks, x, angle, first, out):
     """Point i from the first on: profile which[i], loads[i], asks[i], its critical x and 2θ.
 

@@ -1,12 +1,12 @@
 """The criterion on grids of positions and planes at many instants: plain loops, against which s is held."""
 
-from swtstudy.kernel.compiled import entry
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.criterion import lifted, swing_weights, value_of
 from swtstudy.kernel.history import MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.planes import extremes, fill
 
 
-@entry
+@jit
 def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, halved, found):
     """Write the largest value over planes at places s, and the number of its plane, at x > 0 and x < 0.
 

@@ -7,7 +7,7 @@ from math import ceil, inf, nan
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.load import (
     DIFFERENCE,
     NORMAL,
@@ -207,7 +207,7 @@ def stick_limit(L, T, m):
     return 0.5 * (lowest - highest)
 
 
-@entry
+@jit
 def slide(L, T, m):
     """By how much the tangential displacement exceeds the limit of partial slip.
 
@@ -245,7 +245,7 @@ def highest_ratio(L, a, b):
     return best
 
 
-@entry
+@jit
 def force_ratio(L, T, m):
     """Largest |F_x|/(μ F_N) between m events; NaN where the tangential force is not prescribed."""
     if L.tangential_force == 0:

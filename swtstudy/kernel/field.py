@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swtstudy.kernel.along import map_line, plane_at
-from swtstudy.kernel.batch import _of_this_thread, _refuse_overflow, _workspace, chunks, warm_up
+from swtstudy.kernel.batch import _of_this_thread, _refuse_overflow, _workspace, chunks
 from swtstudy.kernel.beneath import edges, stress_field
 from swtstudy.kernel.body import (
     COARSEST,
@@ -68,7 +68,6 @@ def open_cycle(tolerance=GROWTH, **given):
     Opened
         None if there is no equilibrium.
     """
-    warm_up()
     _, profiles, _, loads, asks = next(iter(chunks(**given)))
     C, R = _workspace()[:2]
     P, L, Q = profiles[0], loads[0], asks[0]

@@ -3,7 +3,7 @@
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric, fit, panel_of, tail
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
 from swtstudy.kernel.events import SAME_INSTANT
 from swtstudy.kernel.load import NORMAL, instant_of, load_at, rates_at
@@ -28,7 +28,7 @@ GROWTH = np.dtype(
 )
 
 
-@entry
+@jit
 def lay_out(R, C, P, L, tolerance):
     """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front.
 
@@ -121,7 +121,7 @@ def coordinates_at(C, L, k, t):
     return n, 0.0 if i == NONE else front_on(C, L, i, push, v - push * n, n)
 
 
-@entry
+@jit
 def solved_places(C, P, L, k, t):
     """Places s of the edge and of the front at an instant of stretch k."""
     n, front = coordinates_at(C, L, k, t)
@@ -162,7 +162,7 @@ def tabulate_places(C, P, L, k, tolerance):
         intervals *= 2
 
 
-@entry
+@jit
 def find_stretch(C, L, t):
     """The stretch of an instant in [0, period], the instant within it, and the sign of the tangential load.
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import entry, jit, jit_inlined, new_record
+from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
@@ -143,7 +143,7 @@ def shifted(C, P, z, m):
     return m + 1
 
 
-@entry
+@jit
 def cusps(S, C, P, L, Q, largest):
     """Write the sorted ends of the pieces of the line, places s; returns how many."""
     z, b = S.cusp, P.flat_radius
@@ -372,7 +372,7 @@ def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
     return m
 
 
-@jit_inlined
+@jit
 def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
     """Divide the group of pieces k at its middle cusp; returns the number of intervals.
 
@@ -409,7 +409,7 @@ def ends_group(S, j, last, largest):
     return j % step == 0 or j == last or GROUPS * gap > largest
 
 
-@jit_inlined
+@jit
 def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
     """Evaluate cusps and make intervals of the pieces between them, and groups if there are many.
 
@@ -438,7 +438,7 @@ def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
     return m
 
 
-@jit_inlined
+@jit
 def begin_search(S, H, W, C, R, P, K, L, Q):
     """Places s of the smallest and the largest contact, the last cusp's number, and the first intervals'."""
     smallest, largest = place_of(P, C.smallest), place_of(P, C.largest)
@@ -449,7 +449,7 @@ def begin_search(S, H, W, C, R, P, K, L, Q):
     return smallest, largest, cusp_count, m
 
 
-@jit_inlined
+@jit
 def search_line(S, H, W, C, R, P, K, L, Q):
     """Find the largest swt on the line; returns by how much a higher one may be hidden."""
     smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
@@ -497,7 +497,7 @@ def share_curvature(S, m):
     set_bound(S, right)
 
 
-@jit_inlined
+@jit
 def cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
     """Cut interval k in two, be it a group of pieces or not; returns the number of intervals."""
     if S.cusps[k, 1] > 0:
@@ -506,7 +506,7 @@ def cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
     return m + 1
 
 
-@jit_inlined
+@jit
 def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
     """Halve interval k; its upper half becomes interval m. Below the limit nothing matters.
 

@@ -13,7 +13,7 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import panel_of
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 
 #: The four functions of time: n, v, α = v - n, β = v + n.
 NORMAL, TANGENTIAL, DIFFERENCE, SUM = np.arange(4)
@@ -70,7 +70,7 @@ def power(c, s, k):
     return x, y
 
 
-@entry
+@jit
 def mapped(L, x):
     """The diagram's normal load n of a prescribed one, and two derivatives; bodies that are apart stay so."""
     if x <= 0.0:
@@ -97,7 +97,7 @@ def mapped(L, x):
     return value, width * rate, width * width * bend
 
 
-@entry
+@jit
 def load_at(L, t):
     """N and v at one instant."""
     if L.sides > 0:
@@ -119,7 +119,7 @@ def load_at(L, t):
     return n, v
 
 
-@entry
+@jit
 def rates_at(L, t):
     """N, v and their first and second derivatives: n, v, n′, v′, n″, v″."""
     if L.sides > 0:
@@ -149,7 +149,7 @@ def rates_at(L, t):
     return n, v, dn, dv, ddn, ddv
 
 
-@entry
+@jit
 def bulk_at(L, t):
     """B at one instant."""
     if L.bulk_moves == 0:
@@ -168,13 +168,13 @@ def bulk_at(L, t):
     return total
 
 
-@entry
+@jit
 def smallest_bulk(L):
     """Smallest B of the cycle."""
     return L.bulk_range[0]
 
 
-@entry
+@jit
 def largest_bulk(L):
     """Largest B of the cycle."""
     return L.bulk_range[1]

@@ -17,7 +17,7 @@ from math import acos, asin, cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.body import COARSEST, PROOF, largest_at
-from swtstudy.kernel.compiled import entry, jit, new_record
+from swtstudy.kernel.compiled import jit, new_record
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
 NODES, FINE = 5, 8
@@ -105,7 +105,7 @@ def cells():
     return new_record(CELLS)
 
 
-@entry
+@jit
 def legendre(p, y):
     """Write Legendre polynomials at y in [-1, 1]."""
     p[0], p[1] = 1.0, y
@@ -131,7 +131,7 @@ def place_in(M, u, w):
     return d, r if M.plane else max(r, 0.0), d * sin(phi), most
 
 
-@entry
+@jit
 def node_of(M, k, i, j, m):
     """Place x, y, z of node (i, j) of cell k, value number m on its arc."""
     u = M.low[k, 0] + (M.high[k, 0] - M.low[k, 0]) * NODE[i]
@@ -145,7 +145,7 @@ def node_of(M, k, i, j, m):
     return side * r * cos(theta), r * sin(theta), z
 
 
-@entry
+@jit
 def write_series(M, at):
     """Write the polynomials of a cell from values at its nodes, (WHAT, NODES, NODES)."""
     rows = NODES if M.kind == SPHERE else 1
@@ -178,7 +178,7 @@ def fill_cell(M, k, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, 
     integrate_cell(M, k)
 
 
-@entry
+@jit
 def integrate_cell(M, k):
     """Integrals of cell k, and what it lacks."""
     rows = NODES if M.kind == SPHERE else 1
@@ -225,7 +225,7 @@ def integrate_cell(M, k):
     M.lacking[k, 1] = OF_CHANGE * abs(change_w) + OF_OFF[M.kind] * off_w
 
 
-@entry
+@jit
 def sum_cells(M):
     """Write the mean and its error."""
     whole, missing, volume, lacking = 0.0, 0.0, 0.0, 0.0
@@ -241,7 +241,7 @@ def sum_cells(M):
         M.average = 0.0
 
 
-@entry
+@jit
 def worst_cell(M, rtol):
     """The cell that most is lacking in, and the axis; -1 if the mean is accurate enough."""
     size, of_values = ENOUGH * rtol * M.average, M.error - CLAIMED * M.of_cells
@@ -256,7 +256,7 @@ def worst_cell(M, rtol):
     return k, axis
 
 
-@entry
+@jit
 def lay_cells(M, first):
     """Lay out the first cells."""
     along, across = (first, first) if M.kind == SPHERE else (first * first, 1)
@@ -267,7 +267,7 @@ def lay_cells(M, first):
         M.low[k, 1], M.high[k, 1] = j / across, (j + 1.0) / across
 
 
-@entry
+@jit
 def halve_cell(M, k, axis):
     """Halve cell k along an axis; the other half is the last cell."""
     y = M.cells
@@ -278,7 +278,7 @@ def halve_cell(M, k, axis):
     M.high[k, axis], M.low[y, axis] = middle, middle
 
 
-@entry
+@jit
 def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, largest, known, rtol, first):
     """Write the mean about the place x of the surface line, or the value at ℓ/2 from it, and its error.
 

@@ -14,7 +14,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, peak, tail
-from swtstudy.kernel.compiled import entry_reordered, jit
+from swtstudy.kernel.compiled import jit, jit_reordered
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
 from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE, may_be_refined
 
@@ -62,7 +62,7 @@ def above(f1, f2, drop):
     return 0.5 * (f1 + f2) + 0.125 * drop + 0.5 * (f2 - f1) * (f2 - f1) / drop
 
 
-@entry_reordered
+@jit_reordered
 def fill(H, W, side, Q):
     """Write a, b, c, d of all instants at side · x; returns the largest b² + c², and the largest |a|."""
     largest, of_a, nu = 0.0, 0.0, Q.poisson_ratio
@@ -80,7 +80,7 @@ def fill(H, W, side, Q):
     return largest, of_a
 
 
-@entry_reordered
+@jit_reordered
 def extremes(W, m, C, S, of_b, of_c):
     """Largest σ_n, largest and smallest swing over the instants on one plane."""
     top, high, low = -1e300, -1e300, 1e300

@@ -6,7 +6,7 @@ import numpy as np
 
 from swtstudy.kernel import NEAREST
 from swtstudy.kernel.circle import beside_singular_edge, needs_circle
-from swtstudy.kernel.compiled import entry, jit, jit_inlined, new_record
+from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
@@ -144,7 +144,7 @@ def towards_centre(C, P, place):
     return innermost ** (P.exponent - 1.0)
 
 
-@jit_inlined
+@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -195,7 +195,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.s_surface = nan if beside_singular_edge(P, out.critical_x, NEAREST) else out.s
 
 
-@entry
+@jit
 def solve_points(C, R, S, H, W, K, profiles, which, loads, asks, out):
     """Point i: profile which[i], loads[i], asks[i]."""
     for i in range(which.shape[0]):

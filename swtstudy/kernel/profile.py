@@ -11,7 +11,7 @@ from math import pi, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, MEANS, ORDER, RUN, clenshaw, fit, panel_of
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 
 #: Coordinates of the memory diagram.
 DEPTH, FORCE = 0, 1
@@ -50,7 +50,7 @@ SAMPLES = 4 * GUESSES
 ENOUGH, MORE, TOO_MANY = np.arange(3)
 
 
-@entry
+@jit
 def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, rough):
     """Append panels whose series has died out to those that are settled; returns how many these are.
 
@@ -86,7 +86,7 @@ def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, ro
     return count
 
 
-@entry
+@jit
 def assemble(P, settled, order, largest):
     """Write the panels in their order, up to where the coordinate exceeds largest, and their integrals.
 
@@ -218,7 +218,7 @@ def density_on(P, p, s):
     return power_of(s, P.rises[0]) * clenshaw(P.first_density, y) if p == 0 else clenshaw(P.density[p], y)
 
 
-@entry
+@jit
 def coordinate_at(P, s):
     """Coordinate of the diagram, depth or force, at s."""
     if P.exponent > 0.0:
@@ -226,7 +226,7 @@ def coordinate_at(P, s):
     return coordinate_on(P, panel_of(P.begin, 0, P.panels, s), s)
 
 
-@entry
+@jit
 def density_at(P, s):
     """Density dG/ds, or dN/ds in the plane, at s."""
     n = P.exponent
@@ -236,7 +236,7 @@ def density_at(P, s):
     return density_on(P, panel_of(P.begin, 0, P.panels, s), s)
 
 
-@entry
+@jit
 def force_at(P, s):
     """∫ ξ dG up to s, of a disc."""
     n = P.exponent
@@ -246,7 +246,7 @@ def force_at(P, s):
     return P.force_begin[p] + clenshaw(P.force[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
 
 
-@entry
+@jit
 def place_of(P, coordinate):
     """Inverse of `coordinate_at`: a guess from the panel's table, then Newton's method within a bracket."""
     if coordinate <= 0.0:
@@ -281,7 +281,7 @@ def place_of(P, coordinate):
     return s
 
 
-@entry
+@jit
 def radius_of(P, s):
     """Radius ξ at s."""
     return sqrt(s * s + P.flat_radius * P.flat_radius)

@@ -5,7 +5,7 @@ from math import atan2, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry, new_record
+from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.profile import MEAN_LOAD, PROFILE, tabulate_profile
 from swtstudy.profiles.families import FORMS, power_law
 from swtstudy.vocabulary.choices import family_of, is_plane
@@ -146,7 +146,7 @@ def _of_table(table, in_force, largest, rtol):
     return record
 
 
-@entry
+@jit
 def _sum_knots(at, places, jumps, b, plane, s, values):
     """Write dG/ds = (s/ξ) ∫ (r f′)′ dr/√(ξ²-r²), or in the plane s ∫ f″ dr/√(ξ²-r²), at s = √(ξ²-b²).
 

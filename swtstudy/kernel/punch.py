@@ -25,7 +25,7 @@ from math import atan2, log, pi, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 
 #: Functions of a disc, the larger number, and of a strip.
 FUNCTIONS, OF_STRIP = 10, 4
@@ -103,7 +103,7 @@ def reciprocal(w):
     return complex(w.real / m, -w.imag / m) if m > TINY else complex(0.0, 0.0)
 
 
-@entry
+@jit
 def strip(x, z, xi, f):
     """Write the four functions of a strip of half-width ξ at x ≥ 0."""
     w = complex(x, z)
@@ -126,7 +126,7 @@ def strip_moments(x, z, xi, f):
     )
 
 
-@entry
+@jit
 def components(plane, n, t, x, y, z, nu, s, other):
     """Write the stress at (x, y, z): xx, yy, zz, yz, xz, xy; and in `other` that under the opposite shear.
 

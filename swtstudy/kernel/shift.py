@@ -13,7 +13,7 @@ the mean of both. That is exact for the cylinder under a constant normal load wh
 within the contact, e + c ≤ a, and nearly so for the sphere, whose transverse strain is balanced in part only.
 """
 
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.events import stick_limit
 from swtstudy.kernel.load import load_at
 from swtstudy.kernel.profile import coordinate_at, place_of
@@ -22,7 +22,7 @@ from swtstudy.kernel.profile import coordinate_at, place_of
 ROUNDING = 1e-9
 
 
-@entry
+@jit
 def shift_of(L, P, Q, T, m):
     """Shift of a stick zone over how far the coordinate of its end is below the edge's; 0 where it stays.
 
@@ -43,7 +43,7 @@ def shift_of(L, P, Q, T, m):
     return shift if abs(shift) * (edge - stick) <= room * (1.0 + ROUNDING) else 0.0
 
 
-@entry
+@jit
 def centre_of(P, shift, load, reach, s):
     """Centre of the stick zone of size s, which reaches the edge at most.
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from swtstudy.kernel.body import COARSEST, largest_at
 from swtstudy.kernel.circle import HIGHER, may_be_anywhere
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.profile import place_of
@@ -56,7 +56,7 @@ def highest_on_circle(S, B, H, W, G, C, R, P, K, L, Q, radius, largest, known):
     return max(best, known)
 
 
-@entry
+@jit
 def search_shifted_circles(B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points with a shifted stick zone.
 

@@ -19,7 +19,7 @@ from math import asin, ceil, cosh, log, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import entry, jit
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import MAX_PIECES
 
 MAX_TABLES = 17003
@@ -61,7 +61,7 @@ def inside_end(low, end, X):
     return end if tables <= 1 else X * sin(first + (last - first) / tables)
 
 
-@entry
+@jit
 def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, plane):
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
     K.first[row] = k
@@ -134,7 +134,7 @@ def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_ou
         sums[first + 1] += H[c]
 
 
-@entry
+@jit
 def running(K, row, s, X, all_outside):
     """T1, T3, B and the part of V outside x, of a density up to s."""
     first, last = K.first[row], K.last[row]
@@ -155,7 +155,7 @@ def running(K, row, s, X, all_outside):
     return K.total[row, 0], K.total[row, 1], of_f, of_h
 
 
-@entry
+@jit
 def hertz(s, x):
     """T1, T3, B and the part of V outside x, of the paraboloid up to s, in closed form (Hamilton)."""
     if s >= x:
@@ -168,7 +168,7 @@ def hertz(s, x):
     return 2.0 * x * (f - sc), 4.0 * x * (0.375 * f - 0.5 * sc + 0.125 * sc * (1.0 - 2.0 * y * y)), 0.0, 0.0
 
 
-@entry
+@jit
 def strip_hertz(s, x):
     """T1 and B of the cylinder up to s, in closed form (McEwen), where `hertz` has its own."""
     if s >= x:

@@ -21,7 +21,7 @@ from math import cos, log, nan, pi, sin
 import numpy as np
 
 from swtstudy.kernel.chebyshev import clenshaw, panel_of, vertex
-from swtstudy.kernel.compiled import entry, jit, jit_inlined
+from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, solve_cycle
 from swtstudy.kernel.control import NODE, WEIGHT, rise
 from swtstudy.kernel.events import force_ratio, slide, stick_limit, turning_points
@@ -167,7 +167,7 @@ def unit_of(P):
     return P.unit if P.in_force else force_at(P, place_of(P, 1.0))
 
 
-@entry
+@jit
 def tabulate_other(U, P):
     """Prepare the other coordinate of a profile."""
     U.unit = 1.0 if P.plane else unit_of(P)
@@ -204,7 +204,7 @@ def over_piece(C, R, P, U, i, s):
     return U.grown[k] + grown_from(R, P, U, k, s)
 
 
-@entry
+@jit
 def tabulate_answer(U, C, R, P):
     """Prepare the component that is not prescribed; the diagram lies on the radius."""
     for i in range(C.pieces):
@@ -355,7 +355,7 @@ def largest_ratio(C, R, P, L, U):
     return min(largest, 1.0)
 
 
-@entry
+@jit
 def permanent_stick(L, P, T, m):
     """Radius inside of which springs never slip, NaN where there is none; T has m events."""
     limit = stick_limit(L, T, m)
@@ -368,7 +368,7 @@ def largest_contact(L, P):
     return radius_of(P, place_of(P, L.normal_range[1]))
 
 
-@jit_inlined
+@jit
 def cycle_of(C, R, P, L, Q, U, with_ratio, out):
     """Quantities of the cycle of one point: the force ratio only where asked, NaN out of equilibrium."""
     solve_cycle(C, L)
@@ -392,14 +392,14 @@ def cycle_of(C, R, P, L, Q, U, with_ratio, out):
         out.overflow = C.overflow
 
 
-@entry
+@jit
 def cycles_of(C, R, U, profiles, which, loads, asks, with_ratio, out):
     """Quantities of the cycles of points: profile which[i], loads[i], asks[i]."""
     for i in range(which.shape[0]):
         cycle_of(C, R, profiles[which[i]], loads[i], asks[i], U, with_ratio, out[i])
 
 
-@entry
+@jit
 def margins_of(C, profiles, which, loads, asks, out):
     """Write how far points are from where the model ends, by the load alone, also out of equilibrium."""
     for i in range(which.shape[0]):
