@@ -14,7 +14,7 @@ Where a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece 
 its own, and its stresses are added instead of its functions.
 """
 
-from math import asin, asinh, cos, cosh, hypot, pi, sin, sinh, sqrt
+from math import asin, asinh, cos, cosh, exp, hypot, pi, sin, sinh, sqrt
 
 import numpy as np
 
@@ -44,6 +44,9 @@ MAX_CELLS = 9973
 BENEATH, INSIDE, OUTSIDE = np.arange(3)
 #: Longest cell in u: its series of ORDER terms misses 1e-8 of the singular part.
 LONGEST = 1.0
+#: Largest logarithm of the growth of the density of ξⁿ in a cell, unless its load up to there is such a share
+#: of the whole.
+STEEPEST, NOTHING = 1.2, 1e-10
 #: Widest cell over its distance from the branch of ξ = √(b² + s²) at s = ib.
 BESIDE_FACE = 1.5
 #: Depths below this share of the distance from the axis or from the face's edge are the surface's.
@@ -111,10 +114,12 @@ def variable(B, kind, s):
 
 
 @jit
-def cell_end(B, b, low, end):
+def cell_end(B, b, exponent, low, end):
     """Where the cell from `low` on ends, `end` at most."""
     longest = LONGEST
     high = end
+    if exponent > 1.0:
+        high = min(high, max(low * exp(STEEPEST / (exponent - 1.0)), B.reach * NOTHING ** (1.0 / exponent)))
     if B.omega > 0.0:
         high = min(high, B.sigma + B.omega * sinh(asinh((low - B.sigma) / B.omega) + longest))
     elif low >= B.sigma:
@@ -184,7 +189,7 @@ def tabulate(B, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
             if k + 1 >= MAX_CELLS:
                 B.overflow = 1
                 return k
-            high = cell_end(B, b, low, end[p])
+            high = cell_end(B, b, exponent, low, end[p])
             tabulate_cell(B, k, plane, exponent, density[p], begin[p], end[p], low, high, b, total)
             k += 1
             low = high
