@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,10 +19,14 @@ from swtstudy.vocabulary.mistakes import Mistake, StudyError
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
-#: Middles of the first search, over the central half of the trace, with so many samples at most.
-MIDDLES, MOST_SAMPLES = 41, 1000
-#: Share of the distance to the nearer end by which the middle is searched around a first estimate.
-NEAR = 0.2
+#: Middles of the first search, over the central half of the trace, and the most radii at which both sides are
+#: compared; the distance of these over the step between samples, a share with which no two places are alike.
+MIDDLES, MOST_RADII, GOLDEN = 41, 1000, 0.618
+#: Share of the heights at each end that may be dust.
+DUST = 0.02
+#: Share of the first range that is searched again with a tilt, and then so many of its steps in the lowest
+#: region.
+NEAR, STEPS_AROUND = 0.3, 2.0
 #: Misfit over the rise that is not told from none: the spline's own.
 FINEST = 1e-4
 #: Knots of the even spline whose residuals tell outliers: their spacing is wider than a grain of dust.
@@ -40,8 +44,6 @@ LOWEST = 0.5
 OUTLIER, MOST_OUTLIERS = 8.0, 0.2
 #: A gap is longer than this number of steps; a sample represents its side up to this number of steps.
 GAP, REACH = 5.0, 1.5
-#: Rounds in which gaps are filled by the spline of the round before: each halves their influence.
-REFILLED = 12
 #: Least share of the trace that both sides together cover without a warning.
 LEAST_USED = 0.7
 #: Share of the points, at least so many, of whose parabola the lowest point is the zero of heights.
@@ -50,6 +52,9 @@ INNERMOST, LEAST = 0.1, 5
 ROUND, LEAST_FACE = 1e-5, 0.05
 #: Share of the radii up to which a trace is smoothed to one contact area: contacts are smaller as a rule.
 COMPACT = 0.5
+#: A face may be hidden by noise. So many parts of the heights are averaged; standard deviations of a mean
+#: that is none by chance, once in 3000 traces; how often that a height is at 1.5 times the radius of a face.
+AVERAGED, BEYOND_NOISE, STEEPLY = 50, 4.5, 10.0
 #: Share of its largest rise that a trace has at both of its ends.
 LEAST_RISE = 0.02
 
@@ -185,9 +190,11 @@ class Fold:
         """Fold a trace, of positions and heights (k,) in any order; with ``level`` without its tilt."""
         from scipy.interpolate import CubicSpline
 
-        kept = _without_sentinels(height)
-        middle, tilt, rise = _middle(position[kept], height[kept], level)
-        kept[kept] = ~_outliers(position[kept], height[kept] - tilt * position[kept], middle, rise)
+        kept = real = _without_sentinels(height)
+        for _ in range(2):  # the middle of what is left without dust is closer
+            middle, tilt = _middle(position[kept], height[kept], level)
+            kept = real.copy()
+            kept[real] = ~_outliers(position[real], height[real] - tilt * position[real], middle)
         sides = _sides(position[kept], height[kept] - tilt * position[kept], middle)
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
         values = np.array([CubicSpline(*side)(radius) for side in sides])
@@ -199,10 +206,26 @@ class Fold:
         inner = slice(max(LEAST, int(INNERMOST * len(radius))))
         mean = mean - np.polynomial.Polynomial.fit(radius[inner] ** 2, mean[inner], 1)(0.0)
         mean[0] = 0.0
-        rises = int(np.argmax(mean > ROUND * mean.max()))
+        rises = _face(mean, noise)
         if radius[rises] > LEAST_FACE * radius[-1]:
+            mean = np.maximum(mean - mean[:rises].mean(), 0.0)
             mean[:rises] = 0.0
         return cls(radius, mean, noise, middle, kept)
+
+
+def _face(height: FloatArray, noise: float) -> int:
+    """Number of heights from the middle on that are a flat face, but for their noise."""
+    some = max(LEAST, len(height) // AVERAGED)
+    means, limit = (
+        np.convolve(height, np.full(some, 1.0 / some), "same"),
+        BEYOND_NOISE * noise / np.sqrt(some),
+    )
+    up_to = np.cumsum(height) / np.arange(1, len(height) + 1)
+    hidden = int(np.argmax(np.abs(means - up_to)[some:] > limit))
+    # A parabola is within its noise at first, too: behind a face heights grow faster.
+    behind = means[min(some + hidden + hidden // 2, len(means) - some)]
+    hidden = hidden + some if hidden and behind > STEEPLY * limit else 0
+    return max(int(np.argmax(height > ROUND * height.max())), hidden)
 
 
 def _without_sentinels(height: FloatArray) -> BoolArray:
@@ -221,112 +244,90 @@ def _without_sentinels(height: FloatArray) -> BoolArray:
     return kept
 
 
-def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[float, float, _Even]:
-    """The middle, the tilt, and the even spline of the whole trace about that middle."""
-    x, z, filled = _bridged(position, height)
-    every = slice(None, None, -(-len(x) // MOST_SAMPLES))
-    x, z, filled = x[every], z[every], filled[every]
-    quarter = 0.25 * float(np.ptp(x))
-    centre = 0.5 * float(x.min() + x.max())
-    even = _best(x, z, (centre - quarter, centre + quarter), np.inf, False)
-    for share in (1.0, LOWEST):
-        rise = even.rise(x)
-        lowest = (np.abs(x - even.middle) <= even.end) & (rise <= share * rise.max())
-        if lowest.sum() < 4 * FEWEST:
-            break
-        # All middles with one window: with a smaller one each spline would fit better.
-        near = min(even.middle - x[lowest].min(), x[lowest].max() - even.middle)
-        around = (even.middle - NEAR * near, even.middle + NEAR * near)
-        for _ in range(REFILLED if filled.any() else 1):
-            even = _best(x[lowest], z[lowest], around, (1.0 - NEAR) * near, level)
-            z[filled] = (even(x) + even.tilt * (x - even.middle))[filled]
-    return (
-        even.middle,
-        even.tilt,
-        _Even.of(position, height - even.tilt * position, even.middle, np.inf, False),
-    )
-
-
-def _bridged(position: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray, BoolArray]:
-    """Ascending samples with each gap filled by a parabola through its surroundings; and which are filled.
-
-    A sample opposite a gap would fit any middle.
-    """
+def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[float, float]:
+    """The middle, and the tilt about it."""
     x, z = _merged(position, height)
-    steps = np.diff(x)
-    step = float(np.median(steps))
-    added = [(x, z)]
-    for gap in np.flatnonzero(steps > GAP * step):
-        near = (x > x[gap] - steps[gap]) & (x < x[gap + 1] + steps[gap])
-        inside = np.arange(x[gap] + step, x[gap + 1], step)
-        added.append((inside, np.polynomial.Polynomial.fit(x[near], z[near], 2)(inside)))
-    filled = np.arange(sum(len(some) for some, _ in added)) >= len(x)
-    x, z = np.concatenate(added, axis=1)
-    order = np.argsort(x)
-    return x[order], z[order], filled[order]
+    centre, reach = 0.5 * float(x[0] + x[-1]), 0.25 * float(np.ptp(x))
+    best = _best(x, z, (centre - reach, centre + reach), np.inf, False)
+    reach *= NEAR
+    best = _best(x, z, (best.middle - reach, best.middle + reach), np.inf, level)
+    lowest = best.even - best.low <= LOWEST * best.rise
+    if lowest.sum() >= 2 * FEWEST:
+        # All middles with one window: with a smaller one each would have less to differ in.
+        reach *= STEPS_AROUND * 2.0 / (MIDDLES - 1)
+        window = float(lowest.mean() * best.radius[-1]) - reach
+        best = _best(x, z, (best.middle - reach, best.middle + reach), window, level)
+    return best.middle, best.tilt
 
 
-def _best(x: FloatArray, z: FloatArray, ends: tuple[float, float], window: float, level: bool) -> _Even:
-    """The even spline about the best middle between two ends."""
+def _best(x: FloatArray, z: FloatArray, ends: tuple[float, float], window: float, level: bool) -> _Folded:
+    """A trace folded at the best middle between two ends."""
     from scipy.optimize import minimize_scalar
 
     middles = np.linspace(*ends, MIDDLES)
-    best = int(np.argmin([_Even.of(x, z, middle, window, level).cost for middle in middles]))
+    best = int(np.argmin([_Folded.at(x, z, middle, window, level).cost for middle in middles]))
     bounds = middles[max(best - 1, 0)], middles[min(best + 1, MIDDLES - 1)]
     found = minimize_scalar(
-        lambda middle: _Even.of(x, z, middle, window, level).cost,
+        lambda middle: _Folded.at(x, z, middle, window, level).cost,
         bounds=bounds,
         method="bounded",
         options={"xatol": 1e-6 * (middles[1] - middles[0])},
     )
-    return _Even.of(x, z, float(found.x), window, level)
+    return _Folded.at(x, z, float(found.x), window, level)
 
 
-@dataclass(frozen=True, eq=False)
-class _Even:
-    """A tilt and an even cubic spline about a middle, fitted to a trace by Tukey's biweight.
+class _Folded(NamedTuple):
+    """Ascending samples folded at a middle: the mean of both sides over the radius, its rise, and the tilt.
 
-    ``cost`` is the logarithm of the misfit over the rise, and what the tilt adds.
+    ``cost`` is the logarithm of the mean difference of both sides over the rise, and what the tilt adds. Dust
+    is the same in it at all middles, and so the edges of a flat face tell its middle, however few they are.
     """
 
     middle: float
-    end: float
     tilt: float
-    coefficients: FloatArray
+    radius: FloatArray
+    even: FloatArray
+    low: float
+    rise: float
     cost: float
 
     @classmethod
-    def of(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Even:
-        """Fit the samples within a window that have another side."""
-        end = float(min(middle - x.min(), x.max() - middle, window))
-        some = np.abs(x - middle) <= end
-        x, z = x[some] - middle, z[some]
-        base = _basis(x, end)
-        columns = np.column_stack([base, x / end]) if level else base
-        weight, span = np.ones(len(x)), float(np.ptp(z)) or 1.0
-        for step in range(STEPS):
-            gram = columns.T @ (weight[:, None] * columns)
-            gram[np.diag_indices_from(gram)] += 1e-9 * len(x) / len(gram)
-            found = np.linalg.solve(gram, columns.T @ (weight * z))
-            size = np.abs(z - columns @ found)
-            scale = max(float(np.median(size)) / 0.6745, FINEST * span)
-            share = np.minimum(size / (TUKEY * scale), 1.0)
-            # Absolute deviations first: squares would follow the outliers.
-            weight = scale / np.maximum(size, scale) if step < STEPS // 2 else (1.0 - share**2) ** 2
-        loss = TUKEY * scale * np.sqrt(np.mean(1.0 - (1.0 - share**2) ** 3) / 3.0)
-        rise = float(np.ptp(base @ found[: base.shape[1]]))
-        tilt = float(found[-1]) / end if level else 0.0
+    def at(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Folded:
+        """Fold within a window; where a side has a gap, nothing is known."""
+        end, step = min(middle - x[0], x[-1] - middle, window), float(np.median(np.diff(x)))
+        # Between samples noise is lower: radii have all places between them, whatever the middle.
+        radius = np.arange(0.5, MOST_RADII) * max(GOLDEN * step, end / MOST_RADII)
+        radius = radius[radius <= end]
+        radius = radius[_reached(x, middle + radius) & _reached(x, middle - radius)]
+        right, left = (np.interp(middle + sign * radius, x, z) for sign in (1.0, -1.0))
+        odd, even, tilt = 0.5 * (right - left), 0.5 * (right + left), 0.0
+        if level:  # the line through 0 of the least absolute deviations
+            order = np.argsort(odd / radius)
+            share = np.cumsum(radius[order])
+            tilt = float((odd / radius)[order[np.searchsorted(share, 0.5 * share[-1])]])
+        low, high = np.quantile(even, [DUST, 1.0 - DUST])
+        span, rise = float(np.ptp(z)) or 1.0, float(high - low)
+        loss = float(np.abs(odd - tilt * radius).mean())
         cost = np.log(np.hypot(loss, FINEST * span) / max(rise, FINEST * span))
-        cost += TILT_PENALTY * abs(tilt) * end / span
-        return cls(middle, end, tilt, np.asarray(found[: base.shape[1]], np.float64), float(cost))
+        return cls(middle, tilt, radius, even, float(low), rise, cost + TILT_PENALTY * abs(tilt) * end / span)
 
-    def rise(self, x: FloatArray) -> FloatArray:
-        """The even part at positions, above that at the middle."""
-        return np.asarray(self(x) - self(np.full(1, self.middle)))
 
-    def __call__(self, x: FloatArray) -> FloatArray:
-        inside = np.clip(x - self.middle, -self.end, self.end)
-        return np.asarray(_basis(inside, self.end) @ self.coefficients)
+def _even_spline(x: FloatArray, z: FloatArray, middle: float) -> Callable[[FloatArray], FloatArray]:
+    """An even cubic spline about a middle, fitted by Tukey's biweight to what has another side."""
+    end = float(min(middle - x.min(), x.max() - middle))
+    some = np.abs(x - middle) <= end
+    base, z, span = _basis(x[some] - middle, end), z[some], float(np.ptp(z[some])) or 1.0
+    weight = np.ones(len(z))
+    for step in range(STEPS):
+        gram = base.T @ (weight[:, None] * base)
+        gram[np.diag_indices_from(gram)] += 1e-9 * len(z) / len(gram)
+        found = np.linalg.solve(gram, base.T @ (weight * z))
+        size = np.abs(z - base @ found)
+        scale = max(float(np.median(size)) / 0.6745, FINEST * span)
+        # Absolute deviations first: squares would follow the outliers.
+        share = np.minimum(size / (TUKEY * scale), 1.0)
+        weight = scale / np.maximum(size, scale) if step < STEPS // 2 else (1.0 - share**2) ** 2
+    return lambda at: np.asarray(_basis(np.clip(at - middle, -end, end), end) @ found)
 
 
 def _basis(x: FloatArray, end: float) -> FloatArray:
@@ -340,8 +341,8 @@ def _basis(x: FloatArray, end: float) -> FloatArray:
     return np.column_stack([found[:, 0] + found[:, 1], found[:, 2:]])
 
 
-def _outliers(position: FloatArray, height: FloatArray, middle: float, even: _Even) -> BoolArray:
-    """Which samples stand out of the even spline, and of the samples opposite."""
+def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolArray:
+    """Which samples stand out of an even spline, and of the samples opposite."""
     radius = np.abs(position - middle)
     left = position < middle
     differs = np.full(len(position), np.nan)
@@ -349,7 +350,7 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float, even: _Ev
         r, z = _merged(radius[~side], height[~side])
         inside = side & (radius <= r[-1]) & (radius >= r[0]) & _reached(r, radius)
         differs[inside] = height[inside] - np.interp(radius[inside], r, z)
-    residual = height - even(position)
+    residual = height - _even_spline(position, height, middle)(position)
     known = np.isfinite(differs)
     if not known.any():
         return np.zeros(len(position), bool)

@@ -264,15 +264,43 @@ def test_a_trace_of_which_much_is_unused_is_told(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("geometry", ["plane", "axisymmetric"])
-def test_a_rough_trace_is_smoothed_to_one_contact_area(geometry: str) -> None:
-    """Smoothed by the difference of its sides alone, a worn pad touches in several places."""
+def test_a_rough_trace_is_smoothed_to_one_contact_area(tmp_path: Path, geometry: str) -> None:
+    """Smoothed by the difference of its sides alone, a wavy pad touches in several places."""
     words = (
-        r"smoothing = .*, 1\.\d* times the r.m.s. difference of both sides: with less it touches in several"
+        r"smoothing = .*, 2\.?\d* times the r.m.s. difference of both sides: with less it touches in several"
     )
-    path = DATA / "trace_of_worn_pad.csv"
+    x, z = np.loadtxt(DATA / "trace_of_worn_pad.csv", delimiter=",", skiprows=1).T
+    path = tmp_path / "wavy.csv"
+    rows = np.column_stack([x, z + 1e-4 * np.cos(25.0 * (x + 0.0037))])
+    np.savetxt(path, rows, delimiter=",", header="position,height", comments="")
     with pytest.warns(UserWarning, match=words):
         found = read_trace(path, geometry=geometry)
     assert found.compact_radius >= 0.75
     less = read_trace(path, geometry=geometry, smoothing=found.smoothing / 1.3)
     assert less.compact_radius < 0.75
-    assert found.smoothing < 1e-4
+    assert found.smoothing < 2e-4
+
+
+@pytest.mark.parametrize("tilt", [0.0, 3e-4])
+@pytest.mark.parametrize(
+    ("half_width", "radius", "end", "noise"),
+    [(1.0, 13.0, 2.0, 0.0), (1.0, 13.0, 2.0, 2e-5), (2.5, 2.0, 3.0, 2e-5), (2.5, 10.0, 3.5, 2e-5)],
+)
+def test_a_flat_face_with_noise_is_the_flat_face(
+    tmp_path: Path, half_width: float, radius: float, end: float, noise: float, tilt: float
+) -> None:
+    """Only its edges tell where the middle of a flat face is."""
+    x = np.arange(-end, end, 0.004)
+    beyond = np.maximum(np.abs(x - 0.05) - half_width, 0.0)
+    z = beyond**2 / (2.0 * radius) + noise * np.random.default_rng(4).normal(size=x.size) + tilt * x
+    path = tmp_path / "flat.csv"
+    given = GIVEN | {"normal_force": 400.0 * half_width, "normal_force_amplitude": 0.0}
+    np.savetxt(path, np.column_stack([x, z]), delimiter=",", header="position,height", comments="")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        worn = read_trace(path, geometry="plane")
+    own = {"profile": "rounded_flat", "radius": radius, "flat_half_width": half_width}
+    found, exact = (swtstudy.physical(**given, **each) for each in ({"profile": worn}, own))
+    assert found.contact_radius == pytest.approx(exact.contact_radius, rel=0.003)
+    one, two = (float(each.solve(rtol=1e-3).SWT[0]) for each in (found, exact))
+    assert one == pytest.approx(two, rel=0.15 if noise else 0.01)
