@@ -154,12 +154,16 @@ def _dot() -> dict[str, Any]:
     return {"marker": "o", "markersize": size, "color": "black", "linestyle": ""}
 
 
+#: Share of their size by which values change that are drawn as constant, such as a measured load with noise.
+SLIGHT = 5e-3
+
+
 def limits(values: FloatArray, below: float, above: float, size: float = 0.0) -> tuple[float, float]:
-    """Limits of an axis with room at both ends; constant values get room relative to their size."""
+    """Limits of an axis with room at both ends; values that hardly change get room relative to their size."""
     low, span = float(values.min()), float(np.ptp(values))
     size = max(size, float(np.abs(values).max()))
-    if span <= 1e-13 * size:  # constant but for rounding
-        low, span = low - 0.05 * (size or 1.0), 0.1 * (size or 1.0)
+    if span <= SLIGHT * size:
+        low, span = low + 0.5 * span - 0.05 * (size or 1.0), 0.1 * (size or 1.0)
     return low - below * span, low + (1.0 + above) * span
 
 

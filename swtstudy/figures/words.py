@@ -121,6 +121,8 @@ class Label(NamedTuple):
         return f"{self.scale * value:.{digits}g}{self.unit}"
 
 
+#: Most characters of all labels of the ticks across a panel.
+MOST_ACROSS = 20
 #: By the name of a variable.
 Labels = Mapping[str, Label]
 NO_LABELS: Labels = MappingProxyType({})
@@ -132,9 +134,12 @@ def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) ->
         if name is not None and name in labels:
             scale, symbol, _ = label = labels[name]
             low, high = sorted(end * scale for end in axis.get_view_interval())
-            ticks = MaxNLocator(5, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-            inside = [tick for tick in ticks if low <= tick <= high]
-            axis.set_ticks([tick / scale for tick in inside], labels=[f"{tick:.6g}" for tick in inside])
+            for most in (5, 3):
+                ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+                words = [f"{tick:.6g}" for tick in ticks if low <= tick <= high]
+                if axis is axes.yaxis or sum(map(len, words)) <= MOST_ACROSS:
+                    break
+            axis.set_ticks([float(each) / scale for each in words], labels=words)
             axis.set_label_text(f"${symbol}$" + (f" ({label.unit.strip()})" if label.unit else ""))
 
 
