@@ -63,8 +63,8 @@ def test_s_error_bounds_the_error(part: slice, rtol: float) -> None:
 def test_s_error_is_not_far_above_the_tolerance(part: slice, rtol: float) -> None:
     _, claimed, s = errors(part.start, part.step, rtol)
     assert np.median(claimed / s) <= rtol
-    # Where it is more, it is mostly the rounding of both factors.
-    assert np.mean(claimed <= (1.0 + rtol) * rtol * s) >= 0.8
+    # Rounding comes on top: mostly less than 5e-7, where both factors vanish more.
+    assert np.mean(claimed <= (rtol + 5e-7) * s) >= 0.8
 
 
 # Profile, ν, μ, δA/δ0, amplitude, ψ, p, q, lengths: what arrives at the critical point does so within a few
