@@ -15,7 +15,18 @@ import numpy as np
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.study.columns import read_columns
-from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
+from swtstudy.study.cycles import (
+    determined,
+    drift,
+    folded,
+    harmonics,
+    mean_over,
+    repeats,
+    repetitions,
+    scatter,
+    spikes,
+    uneven_ends,
+)
 from swtstudy.study.keys import SignalTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
@@ -294,13 +305,14 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
-    for line in _doubts(signal, key, given.recorded_cycles is None):
+    for line in _doubts(signal, key, given):
         warnings.warn(f"{name}: {line}", stacklevel=3)
     return signal
 
 
-def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
+def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
     """Lines on a gap in the time, a closed record, one that repeats, and cycles that are none or drift."""
+    unsaid, kept = given.recorded_cycles is None, getattr(given, "keep_cycles", False)
     values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
     gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
     if gap > max(0.25 * period, 3.0 * most):
@@ -313,12 +325,25 @@ def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
             yield f"the record repeats {times:.0f} times: recorded_cycles = {times:.0f}?"
         else:
             yield f"the record repeats {times:.1f} times: period = {period / times:.4g}?"
+    elif (parts := repetitions(signal.cycles)) > 1:
+        right = {"recorded_cycles": count * parts, "period": period / parts, "frequency": parts / period}
+        each = "each cycle" if count > 1 else "the cycle"
+        yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
+        return
     if signal.is_folded_apart:
         yield f"its {count} cycles differ by more than their mean moves; is {key} right?"
     elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
         found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
         late = "late" if shift > 0.0 else "early"
         yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"
+    elif not kept and (uneven := uneven_ends(signal.cycles)):
+        column, ends, (first, last, mean) = uneven
+        each = f"{ends} cycles have" if ends > 1 else "cycle has"
+        found = (
+            f"the first {each} a {(*COLUMNS, BULK)[column]} amplitude of {first:.4g}, the last of {last:.4g}"
+        )
+        out = "cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true"
+        yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
 
 
 def _without_spikes(
