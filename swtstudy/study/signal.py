@@ -246,8 +246,14 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     return signal_from(Path(path), checked_name(own), sound_keys(SignalTable, given))
 
 
-def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, Any] | None = None) -> Signal:
-    """The signal in a file; see `read_signal`, and `read_columns` for the labels of a study's units."""
+def signal_from(
+    path: Path,
+    name: str,
+    given: SignalTable,
+    labels: Mapping[str, Any] | None = None,
+    kinds: Mapping[str, str] = KINDS,
+) -> Signal:
+    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units."""
     lengths = [
         each for each in ("recorded_cycles", "period", "frequency") if getattr(given, each) is not None
     ]
@@ -256,20 +262,22 @@ def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, 
     if given.frequency is not None and given.time is None:
         allowed = "time = the header of the time, in whose unit a cycle takes 1/frequency; or recorded_cycles"
         raise StudyError([Mistake("frequency", literal(given.frequency), allowed)])
-    time, values = _table(path, given, labels)
+    time, values = _table(path, given, labels, kinds)
     if len(values) < 2:
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
     return _whole(name, time, values, given)
 
 
-def _table(path: Path, given: SignalTable, labels: Mapping[str, Any] | None) -> tuple[FloatArray, FloatArray]:
+def _table(
+    path: Path, given: SignalTable, labels: Mapping[str, Any] | None, kinds: Mapping[str, str]
+) -> tuple[FloatArray, FloatArray]:
     """Time and loads."""
     form = given.model_copy(
         update={"columns": {**given.columns, **({TIME: given.time} if given.time else {})}}
     )
     names = (*([TIME] if given.time else []), *COLUMNS, *([BULK] if BULK in given.columns else []))
     optional = () if BULK in given.columns else (BULK,)
-    values = read_columns(path, names, optional, form, KINDS, labels, gaps=given.time is not None)
+    values = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
     if not given.time:
         return np.arange(len(values), dtype=np.float64), values
     wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
@@ -294,7 +302,8 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         period = float(length * len(time) / (len(time) - 1) / count)
     samples, highest = period / step, given.harmonics or 0
     if count < 1:
-        raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
+        own = given.frequency or period
+        raise StudyError([Mistake(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
     values = _without_spikes(name, time, values, period, count, given)
