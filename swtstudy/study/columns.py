@@ -17,7 +17,7 @@ import numpy as np
 
 from swtstudy.study.keys import SEPARATORS, FileTable
 from swtstudy.units.rows import KNOWN
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
@@ -154,8 +154,8 @@ def read_columns(
     kinds: Mapping[str, str] | None = None,
     labels: Mapping[str, Any] | None = None,
     gaps: bool = False,
-) -> FloatArray:
-    """Columns of numbers of a table, shape (rows, k), in the order of the names.
+) -> tuple[FloatArray, IndexArray]:
+    """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def read_columns(
             table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
         values = table.numbers(names)
     report.refuse()
-    return values
+    return values, np.array([line for line, _ in table.cells])
 
 
 def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:

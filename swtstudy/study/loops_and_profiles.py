@@ -171,7 +171,7 @@ def profile_from(
         return trace_from(folder / table.file, name, table, labels)
     else:
         kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
-        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels).T
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels)[0].T
     return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 

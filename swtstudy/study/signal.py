@@ -28,7 +28,7 @@ from swtstudy.study.cycles import (
     uneven_ends,
 )
 from swtstudy.study.keys import SignalTable, sound_keys, with_keys
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.wording import number_of
 
@@ -262,32 +262,32 @@ def signal_from(
     if given.frequency is not None and given.time is None:
         allowed = "time = the header of the time, in whose unit a cycle takes 1/frequency; or recorded_cycles"
         raise StudyError([Mistake("frequency", literal(given.frequency), allowed)])
-    time, values = _table(path, given, labels, kinds)
+    time, values, rows = _table(path, given, labels, kinds)
     if len(values) < 2:
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
-    return _whole(name, time, values, given)
+    return _whole(name, time, values, rows, given)
 
 
 def _table(
     path: Path, given: SignalTable, labels: Mapping[str, Any] | None, kinds: Mapping[str, str]
-) -> tuple[FloatArray, FloatArray]:
-    """Time and loads."""
+) -> tuple[FloatArray, FloatArray, IndexArray]:
+    """Time, loads, and their lines in the file."""
     form = given.model_copy(
         update={"columns": {**given.columns, **({TIME: given.time} if given.time else {})}}
     )
     names = (*([TIME] if given.time else []), *COLUMNS, *([BULK] if BULK in given.columns else []))
     optional = () if BULK in given.columns else (BULK,)
-    values = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
+    values, rows = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
     if not given.time:
-        return np.arange(len(values), dtype=np.float64), values
+        return np.arange(len(values), dtype=np.float64), values, rows
     wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
     if wrong.size:
         found = f"{values[wrong[0] + 1, 0]:g} after {values[wrong[0], 0]:g}"
-        raise StudyError([Mistake(f"time, sample {wrong[0] + 2}", found, "times that ascend", str(path))])
-    return values[:, 0], values[:, 1:]
+        raise StudyError([Mistake(f"line {rows[wrong[0] + 1]}, time", found, "times that ascend", str(path))])
+    return values[:, 0], values[:, 1:], rows
 
 
-def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) -> Signal:
+def _whole(name: str, time: FloatArray, values: FloatArray, rows: IndexArray, given: SignalTable) -> Signal:
     """The signal with its period and number of cycles."""
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
@@ -306,7 +306,7 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         raise StudyError([Mistake(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
-    values = _without_spikes(name, time, values, period, count, given)
+    values = _without_spikes(name, time, values, rows, period, count, given)
     signal = Signal(name, time, values, period, count, given.absolute, highest)
     if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
@@ -356,19 +356,29 @@ def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
 
 
 def _without_spikes(
-    name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: SignalTable
+    name: str,
+    time: FloatArray,
+    values: FloatArray,
+    lines: IndexArray,
+    period: float,
+    count: int,
+    given: SignalTable,
 ) -> FloatArray:
-    """The values; with ``despike`` a spike takes the value that other samples suggest, else it is named."""
+    """The values; spikes are told, and with ``despike`` they take the values that other samples suggest."""
     out, usual = spikes(time, values, period, count)
-    if given.despike:
-        return np.where(out, usual, values)
     rows, columns = np.nonzero(out)
-    if rows.size:
-        row, column = int(rows[0]), int(columns[0])
-        cycle = int((time[row] - time[0]) / period) + 1
-        more = f", and {rows.size - 1} more" if rows.size > 1 else ""
-        place = f"in cycle {cycle}, row {row + 1} below the header"
-        found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} {place}"
-        suggested = f"where the other samples suggest {usual[row, column]:.4g}{more}"
-        warnings.warn(f"{name}: {found}, {suggested}: a spike? despike = true takes it out", stacklevel=4)
-    return values
+    if not rows.size:
+        return values
+    row, column = int(rows[0]), int(columns[0])
+    cycle = int((time[row] - time[0]) / period) + 1
+    found = (
+        f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in cycle {cycle}, line {lines[row]} of the file"
+    )
+    more = f", and {rows.size - 1} more" if rows.size > 1 else ""
+    if given.despike:
+        told = f"{number_of(rows.size, 'spike')} replaced, {found}, by {usual[row, column]:.4g}{more}"
+    else:
+        told = f"{found}, where the other samples suggest {usual[row, column]:.4g}{more}: a spike? "
+        told += "despike = true takes it out"
+    warnings.warn(f"{name}: {told}", stacklevel=4)
+    return np.where(out, usual, values) if given.despike else values

@@ -227,6 +227,21 @@ def test_units_of_depths_and_displacements_are_lengths(tmp_path: Path) -> None:
     Study.from_text(text, "s", tmp_path)
 
 
+def test_samples_are_named_by_the_lines_of_the_file(tmp_path: Path) -> None:
+    """Also below settings, a row of units, an empty line and rows that are left out."""
+    wave = 60.0 * np.sin(2.0 * np.pi * np.arange(40) / 40)
+    wave[20] = 300.0
+    rows = [f"{k},{200 + k % 2},{load:.4f}" for k, load in enumerate(wave)]
+    rows[3] += "\n3.2,,1\n"
+    (tmp_path / "rig.csv").write_text("\n".join(["Rig 7", "", "t,normal,tangential", "s,N,N", *rows]))
+    line = (tmp_path / "rig.csv").read_text().splitlines().index("20,200,300.0000") + 1
+    assert line == 27
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        read_signal(tmp_path / "rig.csv", time="t")
+    assert str(told[-1].message).startswith(f"rig: tangential 300 in cycle 1, line {line} of the file, where")
+
+
 def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
