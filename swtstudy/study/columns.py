@@ -267,7 +267,8 @@ def read_table(
         raise _refused(source, reason_of(error), _READABLE) from None
     report = Report()
     if data.startswith(b"PK\x03\x04"):
-        content: str | list[Row] = _sheet(data, form, source)
+        content: str | list[Row]
+        source, content = _sheet(data, form, source)
     else:
         content = _text(data, form, source, report)
     separator, above = _found_header(content, names, known, form, source, report)
@@ -353,8 +354,8 @@ def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
-    """The rows of a sheet of a workbook."""
+def _sheet(data: bytes, form: FileTable, source: str) -> tuple[str, list[Row]]:
+    """The file, with the names of its sheets if none is given, and the rows of the sheet that is read."""
     if b"xl/" not in data:
         raise _refused(source, "a zip archive", "a table in a text file, or an Excel workbook")
     try:
@@ -367,6 +368,9 @@ def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
             if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
                 raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
             cells = book[sheet if isinstance(sheet, str) else names[sheet - 1]]
+            if form.sheet is None and len(names) > 1:
+                others = ", ".join(map(literal, names[1:]))
+                source += f", sheet {literal(names[0])} (others: {others})"
             cells.reset_dimensions()  # some programs write wrong ones
             rows = [*cells.values]
     except ImportError:
@@ -376,7 +380,9 @@ def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
         raise
     except Exception as error:  # a damaged workbook fails anywhere in openpyxl
         raise _refused(source, f"a workbook that cannot be read ({error})", _AS_CSV) from None
-    return [(line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)]
+    return source, [
+        (line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)
+    ]
 
 
 def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
