@@ -18,12 +18,12 @@ import xarray as xr
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
+from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.points.values import as_number
 from swtstudy.solving import solve_grid
-from swtstudy.study.columns import number
+from swtstudy.study.columns import number, read_table
 from swtstudy.study.definition import Study, study_from, tables_of
 from swtstudy.study.keys import FileTable
-from swtstudy.study.sample import read_points
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
@@ -301,9 +301,9 @@ def _read(
     study: str | PathLike[str], tests: object, parameters: int
 ) -> tuple[PhysicalGrid, FloatArray, BoolArray]:
     """The tests as a sample of the study's contacts, their lives, and which are lower bounds, shape (n,)."""
-    columns = _columns(tests)
+    columns, lines = _columns(tests)
     report = Report()
-    lives, runout = _observed(columns, parameters, report)
+    lives, runout = _observed(columns, parameters, report, str(tests) if lines else "", lines)
     columns = _of_parameters(columns)
     if not columns and not report:
         report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
@@ -321,9 +321,20 @@ def _read(
 
 
 def _observed(
-    columns: Mapping[str, Sequence[object]], parameters: int, report: Report
+    columns: Mapping[str, Sequence[object]],
+    parameters: int,
+    report: Report,
+    source: str,
+    lines: Sequence[int],
 ) -> tuple[list[float], list[bool]]:
-    """The lives, and whether each is a run-out; mistakes in both columns are reported."""
+    """The lives, and whether each is a run-out; mistakes in both columns are reported, by their lines."""
+
+    def told(test: int, found: str, more: str, allowed: str) -> None:
+        if lines:
+            report.append(Mistake(f"line {lines[test]}", f"{found}{more}", allowed, source))
+        else:
+            report("tests", f"{found} of test {test + 1}{more}", allowed)
+
     given = list(columns.get(LIFE, []))
     if not given:
         names = ", ".join(columns)
@@ -336,15 +347,16 @@ def _observed(
     marks = [str(mark).strip().lower() for mark in columns.get(RUNOUT, [""] * len(given))]
     for k, mark in enumerate(marks):
         if mark not in (*YES, *NO):
-            report("tests", f"{RUNOUT} {literal(mark)} of test {k + 1}", "1 or 0, true or false, yes or no")
+            told(k, f"{RUNOUT} {literal(mark)}", "", "1 or 0, true or false, yes or no")
     wrong = [k for k, life in enumerate(numbers) if not 0.0 < life < math.inf]
     if wrong:
-        found = f"{LIFE} {literal(given[wrong[0]])} of test {wrong[0] + 1}{more_like_it(len(wrong))}"
-        report("tests", found, "positive numbers; of a run-out the cycles that it survived, as >1e7")
+        allowed = "positive numbers; of a run-out the cycles that it survived, as >1e7"
+        told(wrong[0], f"{LIFE} {literal(given[wrong[0]])}", more_like_it(len(wrong)), allowed)
     runout = [bool(text and text[1]) or mark in YES for text, mark in zip(texts, marks, strict=False)]
     cracked = len(given) - sum(runout)
     if given and cracked <= parameters:
-        report("tests", f"{cracked} tests{' with a crack' * any(runout)}", f"{parameters + 1} at least")
+        found = f"{cracked} tests{' with a crack' * any(runout)}"
+        report.append(Mistake("" if source else "tests", found, f"{parameters + 1} at least", source))
     return numbers, runout
 
 
@@ -379,18 +391,24 @@ def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study
         ) from None
 
 
-def _columns(tests: object) -> dict[str, list[Any]]:
-    """The columns of a table of tests by name."""
+def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
+    """The columns of a table of tests by name, and the lines of a file's rows."""
     if isinstance(tests, Mapping):
         lone = [name for name, values in tests.items() if isinstance(values, str) or np.ndim(values) != 1]
         if lone:
             allowed = "a list, with a value for each test"
             raise StudyError([Mistake(f"tests.{name}", literal(tests[name]), allowed) for name in lone])
-        return {str(name): list(values) for name, values in tests.items()}
+        return {str(name): list(values) for name, values in tests.items()}, []
     if not isinstance(tests, str | PathLike):
         raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])
-    report = Report()
-    found = read_points(Path(tests), report, FileTable(), AXES, (LIFE,))
-    if found is None:
-        raise StudyError(replace(mistake, key="tests") for mistake in report)
-    return found
+    try:
+        table = read_table(Path(tests), (LIFE,), AXES, FileTable(), LONGEST_AXIS)
+    except StudyError as error:
+        # A table of tests has no keys such as encoding: the other way out is left.
+        keys = r"^encoding = .*; or |, or columns = .*"
+        cut = (replace(each, allowed=re.sub(keys, "", each.allowed)) for each in error.mistakes)
+        raise StudyError(cut) from None
+    if not table.cells:
+        raise StudyError([Mistake("", "no tests", "a row for each test", str(tests))])
+    columns = {name: table.values(name) for name in table.headers if name}
+    return columns, [line for line, _ in table.cells]

@@ -17,7 +17,7 @@ import numpy as np
 
 from swtstudy.study.keys import SEPARATORS, FileTable
 from swtstudy.units.rows import KNOWN
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
 
@@ -114,12 +114,26 @@ class UserTable(NamedTuple):
 
     def unit(self, name: str, kind: str) -> str | None:
         """The unit of a column that its header or the row of units says; None without a known one."""
-        column = self.headers.index(self.form.header(name))
-        for text in (self.units[column : column + 1] or [""])[0], self.headers[column]:
+        for text in self._with_units(name):
             words = re.findall(r"[A-Za-zµμ]+", text)
             if words and words[-1] in KNOWN[kind] and (words[-1] != "in" or "[" in text or "(" in text):
                 return words[-1]
         return None
+
+    def other_unit(self, name: str, kind: str) -> tuple[str, str] | None:
+        """The unit of a column, alone or in brackets, and its kind, if that is another one."""
+        units, header = self._with_units(name)
+        bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
+        for text in (units.strip("[]() "), bracket[1].strip() if bracket else ""):
+            kinds = [each for each, known in KNOWN.items() if text in known]
+            if kinds:
+                return None if kind in kinds else (text, kinds[0])
+        return None
+
+    def _with_units(self, name: str) -> tuple[str, str]:
+        """The cell of a column in the row of units, and its header."""
+        column = self.headers.index(self.form.header(name))
+        return (self.units[column : column + 1] or [""])[0], self.headers[column]
 
 
 def number(cell: str, decimal: str | None) -> float:
@@ -140,8 +154,8 @@ def read_columns(
     kinds: Mapping[str, str] | None = None,
     labels: Mapping[str, Any] | None = None,
     gaps: bool = False,
-) -> FloatArray:
-    """Columns of numbers of a table, shape (rows, k), in the order of the names.
+) -> tuple[FloatArray, IndexArray]:
+    """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
 
     Parameters
     ----------
@@ -154,8 +168,8 @@ def read_columns(
     form
         How it is written.
     kinds, labels
-        "length", "force" or "stress" by column, and the study's label by kind: a header with another unit,
-        and without `scale`, is a mistake.
+        "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
+        mistake, and so is another unit without `scale`, or with the inverse of its factor.
     gaps
         Whether rows with an empty cell are left out, and told: others say where they are.
 
@@ -180,7 +194,7 @@ def read_columns(
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
         for name, kind in (kinds or {}).items():
-            if labels and name in names and name not in form.scale:
+            if labels and name in names:
                 report += _wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [table.headers.index(form.header(name)) for name in names]
         empty = [line for line, cells in table.cells if not all(cells[k] for k in columns)] if gaps else []
@@ -191,16 +205,27 @@ def read_columns(
             table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
         values = table.numbers(names)
     report.refuse()
-    return values
+    return values, np.array([line for line, _ in table.cells])
 
 
 def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
-    """The mistake of a column in another unit than the study's, without a factor."""
+    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
+    column = literal(table.form.header(name))
+    if other := table.other_unit(name, kind):
+        found = f"{column} in {other[0]} as {name}, which is a {kind}"
+        return [
+            Mistake("", found, f"a column with a {kind}, not a {other[1]}, whatever its scale", table.source)
+        ]
     unit, units = table.unit(name, kind), KNOWN[kind]
     if not unit or label not in units or units[unit] == units[label]:
         return []
-    found = f"{literal(table.form.header(name))} in {unit} as {name}, while [units] has {kind} in {label}"
-    allowed = f"scale = {{ {name} = {units[unit] / units[label]:g} }}"
+    factor, own = units[unit] / units[label], table.form.scale.get(name)
+    if own is not None and not math.isclose(abs(own) * factor, 1.0):
+        return []
+    found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
+    if own is not None:
+        found += f", and scale has {name} = {own:g}"
+    allowed = f"scale = {{ {name} = {factor:g} }}"
     return [Mistake("", found, f"{allowed}; {name} = 1 if the unit in the file is wrong", table.source)]
 
 
@@ -242,7 +267,8 @@ def read_table(
         raise _refused(source, reason_of(error), _READABLE) from None
     report = Report()
     if data.startswith(b"PK\x03\x04"):
-        content: str | list[Row] = _sheet(data, form, source)
+        content: str | list[Row]
+        source, content = _sheet(data, form, source)
     else:
         content = _text(data, form, source, report)
     separator, above = _found_header(content, names, known, form, source, report)
@@ -328,8 +354,8 @@ def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
-    """The rows of a sheet of a workbook."""
+def _sheet(data: bytes, form: FileTable, source: str) -> tuple[str, list[Row]]:
+    """The file, with the names of its sheets if none is given, and the rows of the sheet that is read."""
     if b"xl/" not in data:
         raise _refused(source, "a zip archive", "a table in a text file, or an Excel workbook")
     try:
@@ -342,6 +368,9 @@ def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
             if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
                 raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
             cells = book[sheet if isinstance(sheet, str) else names[sheet - 1]]
+            if form.sheet is None and len(names) > 1:
+                others = ", ".join(map(literal, names[1:]))
+                source += f", sheet {literal(names[0])} (others: {others})"
             cells.reset_dimensions()  # some programs write wrong ones
             rows = [*cells.values]
     except ImportError:
@@ -351,7 +380,9 @@ def _sheet(data: bytes, form: FileTable, source: str) -> list[Row]:
         raise
     except Exception as error:  # a damaged workbook fails anywhere in openpyxl
         raise _refused(source, f"a workbook that cannot be read ({error})", _AS_CSV) from None
-    return [(line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)]
+    return source, [
+        (line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)
+    ]
 
 
 def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
@@ -394,6 +425,8 @@ def _found_header(
         ]
         rows_of[separator], score[separator] = rows, max(scores)
         header[separator] = scores.index(max(scores))
+    if any(_parts(rows_of[each], rows_of[" "][header[" "]][0]) for each in SEPARATORS if each != " "):
+        del score[" "]  # blanks within names
     likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
     own: str = form.separator or likely
     line, headers = rows_of[own][header[own]]
@@ -407,6 +440,12 @@ def _found_header(
     elif above := rows_of[own][: header[own]]:
         found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
     raise _refused(source, found, allowed, f"line {line}")
+
+
+def _parts(rows: Sequence[Row], line: int) -> bool:
+    """Return whether a separator gives a line, and the next one, the same number of cells, two at least."""
+    own, *below = [len(cells) for place, cells in rows if place >= line][:2] or [0]
+    return own > 1 and own in below
 
 
 def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.special import stdtrit
 
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 
@@ -21,6 +22,13 @@ FEWEST_SAMPLES, FEWEST_IN_CYCLE = 16, 4
 REPEATS, NOISE = 0.9, 0.5
 #: Quantiles to which samples are cut before.
 TRIMMED = (0.005, 0.995)
+
+#: The first and the last cycles are a tenth and a quarter of all. They differ by a share of the amplitude, or
+#: of a tenth of the largest load, and by more than amplitudes scatter but for a chance of Student's t.
+ENDS, UNEVEN, LEAST_LOAD, CHANCE = (10, 4), 0.05, 0.1, 1e-5
+#: Share of a cycle's standard deviation, and standard deviations of its noise, by which parts of a cycle that
+#: repeats may differ.
+SAME, NOISE_OF_MEAN = 0.02, 3.0
 
 
 def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
@@ -69,6 +77,48 @@ def drift(cycles: FloatArray) -> float:
     mean, step = (np.fft.rfft(v, axis=0)[1:4] for v in means)
     slope = 2j * np.pi * np.arange(1, len(mean) + 1)[:, None] * mean
     return float(-(slope.conj() * step).sum().real / max((np.abs(slope) ** 2).sum(), 1e-300))
+
+
+def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float]] | None:
+    """The column in which amplitudes of the first or last cycles, (c, m, d), differ from all others.
+
+    Returns
+    -------
+    tuple or None
+        The column, the number of cycles at an end, and the amplitudes of the first of them, the last of them,
+        and of the mean cycle; None if amplitudes only scatter. The scatter is that of the steps from cycle to
+        cycle of all others: a slow drift has no share in it.
+    """
+    mean = cycles.mean(axis=0)
+    wave, count, size = mean - mean.mean(axis=0), len(cycles), 0.5 * np.ptp(mean, axis=0)
+    least = UNEVEN * np.maximum(size, LEAST_LOAD * np.abs(cycles).max(axis=(0, 1)))
+    columns = np.flatnonzero(wave.std(axis=0) > 0.5 * scatter(cycles)) if count > FEWEST_CYCLES else ()
+    for column in columns:
+        own = size[column] * (cycles[..., column] @ wave[:, column]) / (wave[:, column] @ wave[:, column])
+        for ends in dict.fromkeys(max(1, count // part) for part in ENDS):
+            likely = stdtrit(count - ends - 2, 1.0 - CHANCE) * np.sqrt(0.5 / ends + 0.5 / (count - ends))
+            for each in (own, own[::-1]):
+                off = abs(each[:ends].mean() - each[ends:].mean())
+                if off > max(least[column], likely * np.diff(each[ends:]).std(ddof=1)):
+                    return int(column), ends, [own[:ends].mean(), own[-ends:].mean(), size[column]]
+    return None
+
+
+def repetitions(cycles: FloatArray) -> int:
+    """Number of times that the mean of cycles, (c, m, d), repeats itself; 1 if it does not."""
+    mean = cycles.mean(axis=0)
+    wave, length = mean - mean.mean(axis=0), len(mean)
+    size, noise = wave.std(axis=0), np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
+    squares = 2.0 * np.abs(np.fft.rfft(wave, axis=0) / length) ** 2
+    is_load = size > noise
+    if not is_load.any():
+        return 1
+    order = int((squares[:, is_load] / size[is_load] ** 2).sum(axis=1).argmax())
+    most = np.maximum(noise, SAME * size) ** 2
+    for times in range(min(order, length // FEWEST_IN_CYCLE), 1, -1):
+        if order % times == 0 and np.all(squares.sum(axis=0) - squares[::times].sum(axis=0) <= most):
+            return times
+    return 1
 
 
 def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> tuple[BoolArray, FloatArray]:

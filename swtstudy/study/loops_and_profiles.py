@@ -16,7 +16,7 @@ from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import FileTable, LoadTable, Parts, ProfileTable, SignalTable, sound_keys, under
-from swtstudy.study.signal import BULK, COLUMNS, Signal, signal_from
+from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.units.life import Block, wrong_rounds
 from swtstudy.units.reading import ANY, ANY_MEASURED
@@ -88,11 +88,20 @@ def _read_load(
     if table.keep_cycles and table.harmonics is not None:
         allowed = "one of the two: kept cycles are as they were recorded"
         raise refused("", "keep_cycles and harmonics", allowed)
-    signal = signal_from(folder / table.file, name, table, parts.units)
+    signal = signal_from(folder / table.file, name, table, parts.units, _kinds(parts))
     kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
     for each in (each for each in kept if each in parts.loads):
         report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
     return {name: signal.loop, **kept}
+
+
+def _kinds(parts: Parts) -> dict[str, str]:
+    """The kinds of the columns of a record: a depth and a displacement beside amplitudes of these."""
+    sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
+    given = {*parts.fixed, *parts.axes, *sampled}
+    depth = "normal_amplitude" in given
+    moved = "tangential_amplitude" in given or (depth and "tangential_force_amplitude" not in given)
+    return {**KINDS, **({"normal": "length"} if depth else {}), **({"tangential": "length"} if moved else {})}
 
 
 def _given(table: FileTable) -> list[str]:
@@ -162,7 +171,7 @@ def profile_from(
         return trace_from(folder / table.file, name, table, labels)
     else:
         kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
-        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels).T
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels)[0].T
     return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 

@@ -8,7 +8,7 @@ further points: each draw of theirs has a life at every point.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -241,7 +241,7 @@ def read_sample(
 
 
 def read_points(
-    path: Path, report: Report, form: FileTable, names: Collection[str], needed: Sequence[str] = ()
+    path: Path, report: Report, form: FileTable, names: Collection[str]
 ) -> dict[str, list[object]] | None:
     """The columns of a file by name; numbers are read, other texts are left. None if there are mistakes.
 
@@ -255,12 +255,10 @@ def read_points(
         How it is written.
     names
         Parameters: names of columns.
-    needed
-        Names of columns that there must be.
     """
     with under(report, "sample", "file"):
-        table = read_table(path, needed, names, form, LONGEST_AXIS)
-        names_of = {form.header(name): name for name in (*needed, *names)}
+        table = read_table(path, (), names, form, LONGEST_AXIS)
+        names_of = {form.header(name): name for name in names}
         if table.cells:
             return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
         allowed = "a CSV file: a row with names of parameters, then a row with their values for each point"

@@ -15,9 +15,20 @@ import numpy as np
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.study.columns import read_columns
-from swtstudy.study.cycles import determined, drift, folded, harmonics, mean_over, repeats, scatter, spikes
+from swtstudy.study.cycles import (
+    determined,
+    drift,
+    folded,
+    harmonics,
+    mean_over,
+    repeats,
+    repetitions,
+    scatter,
+    spikes,
+    uneven_ends,
+)
 from swtstudy.study.keys import SignalTable, sound_keys, with_keys
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
 from swtstudy.vocabulary.wording import number_of
 
@@ -235,8 +246,14 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
     return signal_from(Path(path), checked_name(own), sound_keys(SignalTable, given))
 
 
-def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, Any] | None = None) -> Signal:
-    """The signal in a file; see `read_signal`, and `read_columns` for the labels of a study's units."""
+def signal_from(
+    path: Path,
+    name: str,
+    given: SignalTable,
+    labels: Mapping[str, Any] | None = None,
+    kinds: Mapping[str, str] = KINDS,
+) -> Signal:
+    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units."""
     lengths = [
         each for each in ("recorded_cycles", "period", "frequency") if getattr(given, each) is not None
     ]
@@ -245,30 +262,32 @@ def signal_from(path: Path, name: str, given: SignalTable, labels: Mapping[str, 
     if given.frequency is not None and given.time is None:
         allowed = "time = the header of the time, in whose unit a cycle takes 1/frequency; or recorded_cycles"
         raise StudyError([Mistake("frequency", literal(given.frequency), allowed)])
-    time, values = _table(path, given, labels)
+    time, values, rows = _table(path, given, labels, kinds)
     if len(values) < 2:
         raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
-    return _whole(name, time, values, given)
+    return _whole(name, time, values, rows, given)
 
 
-def _table(path: Path, given: SignalTable, labels: Mapping[str, Any] | None) -> tuple[FloatArray, FloatArray]:
-    """Time and loads."""
+def _table(
+    path: Path, given: SignalTable, labels: Mapping[str, Any] | None, kinds: Mapping[str, str]
+) -> tuple[FloatArray, FloatArray, IndexArray]:
+    """Time, loads, and their lines in the file."""
     form = given.model_copy(
         update={"columns": {**given.columns, **({TIME: given.time} if given.time else {})}}
     )
     names = (*([TIME] if given.time else []), *COLUMNS, *([BULK] if BULK in given.columns else []))
     optional = () if BULK in given.columns else (BULK,)
-    values = read_columns(path, names, optional, form, KINDS, labels, gaps=given.time is not None)
+    values, rows = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
     if not given.time:
-        return np.arange(len(values), dtype=np.float64), values
+        return np.arange(len(values), dtype=np.float64), values, rows
     wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
     if wrong.size:
         found = f"{values[wrong[0] + 1, 0]:g} after {values[wrong[0], 0]:g}"
-        raise StudyError([Mistake(f"time, sample {wrong[0] + 2}", found, "times that ascend", str(path))])
-    return values[:, 0], values[:, 1:]
+        raise StudyError([Mistake(f"line {rows[wrong[0] + 1]}, time", found, "times that ascend", str(path))])
+    return values[:, 0], values[:, 1:], rows
 
 
-def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) -> Signal:
+def _whole(name: str, time: FloatArray, values: FloatArray, rows: IndexArray, given: SignalTable) -> Signal:
     """The signal with its period and number of cycles."""
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
@@ -283,10 +302,11 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         period = float(length * len(time) / (len(time) - 1) / count)
     samples, highest = period / step, given.harmonics or 0
     if count < 1:
-        raise StudyError([Mistake(key, f"{period:g}, and a record of {length:g}", "a whole cycle at least")])
+        own = given.frequency or period
+        raise StudyError([Mistake(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")])
     if samples < 2.0 - 1e-9:
         raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
-    values = _without_spikes(name, time, values, period, count, given)
+    values = _without_spikes(name, time, values, rows, period, count, given)
     signal = Signal(name, time, values, period, count, given.absolute, highest)
     if highest and not determined(signal.phase, highest):
         found = f"{highest} with {samples * count:.0f} samples"
@@ -294,13 +314,14 @@ def _whole(name: str, time: FloatArray, values: FloatArray, given: SignalTable) 
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise StudyError([Mistake("harmonics", found, allowed)])
-    for line in _doubts(signal, key, given.recorded_cycles is None):
+    for line in _doubts(signal, key, given):
         warnings.warn(f"{name}: {line}", stacklevel=3)
     return signal
 
 
-def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
+def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
     """Lines on a gap in the time, a closed record, one that repeats, and cycles that are none or drift."""
+    unsaid, kept = given.recorded_cycles is None, getattr(given, "keep_cycles", False)
     values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
     gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
     if gap > max(0.25 * period, 3.0 * most):
@@ -313,28 +334,51 @@ def _doubts(signal: Signal, key: str, unsaid: bool) -> Iterator[str]:
             yield f"the record repeats {times:.0f} times: recorded_cycles = {times:.0f}?"
         else:
             yield f"the record repeats {times:.1f} times: period = {period / times:.4g}?"
+    elif (parts := repetitions(signal.cycles)) > 1:
+        right = {"recorded_cycles": count * parts, "period": period / parts, "frequency": parts / period}
+        each = "each cycle" if count > 1 else "the cycle"
+        yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
+        return
     if signal.is_folded_apart:
         yield f"its {count} cycles differ by more than their mean moves; is {key} right?"
     elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
         found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
         late = "late" if shift > 0.0 else "early"
         yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"
+    elif not kept and (uneven := uneven_ends(signal.cycles)):
+        column, ends, (first, last, mean) = uneven
+        each = f"{ends} cycles have" if ends > 1 else "cycle has"
+        found = (
+            f"the first {each} a {(*COLUMNS, BULK)[column]} amplitude of {first:.4g}, the last of {last:.4g}"
+        )
+        out = "cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true"
+        yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
 
 
 def _without_spikes(
-    name: str, time: FloatArray, values: FloatArray, period: float, count: int, given: SignalTable
+    name: str,
+    time: FloatArray,
+    values: FloatArray,
+    lines: IndexArray,
+    period: float,
+    count: int,
+    given: SignalTable,
 ) -> FloatArray:
-    """The values; with ``despike`` a spike takes the value that other samples suggest, else it is named."""
+    """The values; spikes are told, and with ``despike`` they take the values that other samples suggest."""
     out, usual = spikes(time, values, period, count)
-    if given.despike:
-        return np.where(out, usual, values)
     rows, columns = np.nonzero(out)
-    if rows.size:
-        row, column = int(rows[0]), int(columns[0])
-        cycle = int((time[row] - time[0]) / period) + 1
-        more = f", and {rows.size - 1} more" if rows.size > 1 else ""
-        place = f"in cycle {cycle}, row {row + 1} below the header"
-        found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} {place}"
-        suggested = f"where the other samples suggest {usual[row, column]:.4g}{more}"
-        warnings.warn(f"{name}: {found}, {suggested}: a spike? despike = true takes it out", stacklevel=4)
-    return values
+    if not rows.size:
+        return values
+    row, column = int(rows[0]), int(columns[0])
+    cycle = int((time[row] - time[0]) / period) + 1
+    found = (
+        f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in cycle {cycle}, line {lines[row]} of the file"
+    )
+    more = f", and {rows.size - 1} more" if rows.size > 1 else ""
+    if given.despike:
+        told = f"{number_of(rows.size, 'spike')} replaced, {found}, by {usual[row, column]:.4g}{more}"
+    else:
+        told = f"{found}, where the other samples suggest {usual[row, column]:.4g}{more}: a spike? "
+        told += "despike = true takes it out"
+    warnings.warn(f"{name}: {told}", stacklevel=4)
+    return np.where(out, usual, values) if given.despike else values

@@ -95,9 +95,9 @@ def trace_from(
     own: Path, name: str, form: TraceTable, labels: Mapping[str, Any] | None = None
 ) -> TabulatedProfile:
     """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
-    position, height = read_columns(
-        own, COLUMNS, (), form, dict.fromkeys(COLUMNS, "length"), labels, gaps=True
-    ).T
+    kinds = dict.fromkeys(COLUMNS, "length")
+    values, rows = read_columns(own, COLUMNS, (), form, kinds, labels, gaps=True)
+    position, height = values.T
     if len(position) < 4 * FEWEST:
         raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
     if not np.ptp(position) > 0.0:
@@ -112,7 +112,7 @@ def trace_from(
         found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
         allowed = "heights that grow away from the other body: scale = { height = -1 }"
         raise StudyError([Mistake("", found, allowed, str(own))])
-    for line in _doubts(position, fold):
+    for line in _doubts(position, fold, rows):
         warnings.warn(f"{name}: {line}", stacklevel=2)
     given = fold.noise if form.smoothing is None else form.smoothing
     profile = TabulatedProfile(name, fold.radius, fold.height, given, form.geometry)
@@ -136,13 +136,13 @@ def _one_sided(position: FloatArray, height: FloatArray) -> bool:
     return bool(min(ends) - height.min() < LEAST_RISE * span and not is_cap)
 
 
-def _doubts(position: FloatArray, fold: Fold) -> list[str]:
+def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> list[str]:
     """Lines on the samples that were set aside, on gaps, and on a trace of which much is unused."""
-    lines, aside = [], np.flatnonzero(~fold.kept)
+    lines, aside = [], rows[~fold.kept]
     if aside.size:
         plural = "s" * (aside.size > 1)
-        rows = f"row{plural} {_runs(aside + 1)} below the header"
-        lines.append(f"{aside.size} sample{plural} set aside that the other side does not have: {rows}")
+        places = f"line{plural} {_runs(aside)} of the file"
+        lines.append(f"{aside.size} sample{plural} set aside that the other side does not have: {places}")
     at = np.sort(position)
     steps = np.diff(at)
     middle_step = float(np.median(steps[steps > 0.0]))

@@ -1,6 +1,7 @@
 """The critical distance from properties, and fitted to tests."""
 
 import logging
+import re
 import warnings
 
 import numpy as np
@@ -234,7 +235,7 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),
         ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
-        ("nowhere.csv", r"tests: found no such file in the folder .*nowhere.csv."),
+        ("nowhere.csv", r"nowhere.csv: found no such file in the folder"),
         (3, "tests: found 3; allowed: a CSV file"),
         (
             {"friction": 0.3, "life": [1e5, 1e6]},
@@ -245,6 +246,29 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
 def test_wrong_tables_are_named(rig, tests, words):
     with pytest.raises(StudyError, match=words):
         swtstudy.fit(rig[0], tests)
+
+
+def test_mistakes_in_a_file_of_tests_are_named_by_file_and_line(rig, tmp_path):
+    path = tmp_path / "tests.csv"
+    for rows, words in (
+        ("30,0,\n60,1e5,\n70,-1,", "line 3: found life 0.*; 1 more like it; allowed: positive"),
+        ("30,1e5,\n60,1e5,\n70,1e6,perhaps", "line 5: found runout 'perhaps'; allowed: 1 or 0"),
+        ("30,1e5,", "found 1 tests; allowed: 2 at least"),
+        ("", "found no tests; allowed: a row for each"),
+    ):
+        path.write_text(f"tangential_force_amplitude,life,runout\n\n{rows}\n")
+        with pytest.raises(StudyError, match=f"^{re.escape(str(path))}: {words}"):
+            swtstudy.fit(rig[0], path)
+
+
+def test_a_table_of_tests_is_told_no_keys_that_it_has_not(rig, tmp_path):
+    path = tmp_path / "tests.csv"
+    path.write_bytes("tangential_force_amplitude;life;by\n30;1e5;Müller\n60;1e6;Müller\n".encode("latin-1"))
+    with pytest.raises(StudyError, match=r"that are not UTF-8; allowed: the file saved as UTF-8$"):
+        swtstudy.fit(rig[0], path)
+    path.write_text("tangential_force_amplitude;Nf\n30;1e5\n")
+    with pytest.raises(StudyError, match=r"line 1: found the columns .*; allowed: a header with life$"):
+        swtstudy.fit(rig[0], path)
 
 
 def test_all_mistakes_of_a_table_are_named_as_its_own(rig):

@@ -121,6 +121,21 @@ REFUSED = {
         "units_row = true",
         "file: found 'normal' in kN as normal",
     ),
+    "the inverse of a factor": (
+        table("time,normal [kN],tangential [N]").encode(),
+        'columns = { normal = "normal [kN]", tangential = "tangential [N]" }\nscale = { normal = -1e-3 }',
+        r"file: found 'normal \[kN\]' in kN .*, and scale has normal = -0.001 \(.*: scale = .* = 1000 }",
+    ),
+    "a displacement": (
+        table("time,normal,u [µm]").encode(),
+        'columns = { tangential = "u [µm]" }\nscale = { tangential = 1e-3 }',
+        r"file: found 'u \[µm\]' in µm as tangential, which is a force \(.*; allowed: a column with a force",
+    ),
+    "a displacement in a row of units": (
+        table("time,normal,tangential\ns,N,mm").encode(),
+        "scale = { tangential = 1e-3 }\nunits_row = true",
+        "file: found 'tangential' in mm as tangential, which is a force",
+    ),
     "the other sign": (
         table("time,normal,tangential", rows=[(t, -n, q) for t, n, q in ROWS]).encode(),
         "",
@@ -140,6 +155,11 @@ REFUSED = {
         table("time,normal,tangential").encode(),
         "frequency = 1",
         "frequency: found 1",
+    ),
+    "a frequency below that of the record": (
+        table("time,normal,tangential").encode(),
+        "time = 'time'\nfrequency = 0.02",
+        "frequency: found 0.02, and a record of 0.75; allowed: a whole cycle",
     ),
     "frequency beside a period": (b"", "frequency = 1\nperiod = 1", "period, frequency: found both"),
     "a missing value": (
@@ -177,6 +197,52 @@ def test_other_files_are_refused_with_the_way_out(
     assert re.match(f"s: loads.rig.{words}", line), line
 
 
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|"])
+def test_blanks_within_headers_part_no_names(tmp_path: Path, separator: str) -> None:
+    (tmp_path / "trace.csv").write_text(
+        f"position [mm]{separator}height [µm]\n0{separator}1\n1{separator}2\n"
+    )
+    with pytest.raises(StudyError, match=r"found the columns position \[mm\], height \[µm\];"):
+        swtstudy.read_trace(tmp_path / "trace.csv")
+    # A sign within a name is no separator, if the rows have none.
+    (tmp_path / "rig.txt").write_text(f"normal tangential |F|{separator}N\n1 2 3\n2 3 4\n3 3 4\n")
+    if separator in ",;":
+        assert read_signal(tmp_path / "rig.txt").values.tolist() == [[1, 2], [2, 3], [3, 3]]
+
+
+def test_units_of_depths_and_displacements_are_lengths(tmp_path: Path) -> None:
+    """Beside their amplitudes; a stress written as a quotient, and a name in brackets, are no lengths."""
+    rows = [(t, n / 1e4, q / 10) for t, n, q in ROWS]
+    (tmp_path / "rig.csv").write_text(table("time,normal [mm],tangential [µm]", rows=rows), encoding="utf-8")
+    own = 'columns = { normal = "normal [mm]", tangential = "tangential [µm]" }\n'
+    text = RIG.replace("[fixed]", "[fixed]\nnormal_amplitude = 1\n") + own
+    with pytest.raises(
+        StudyError, match=r"in µm as tangential, while \[units\] has length in mm .* = 0.001 }"
+    ):
+        Study.from_text(text, "s", tmp_path)
+    Study.from_text(text + "scale = { tangential = 1e-3 }", "s", tmp_path)
+    header = "normal (mean),tangential,bulk\nN,N,N/mm²"
+    (tmp_path / "rig.csv").write_text(table(header, rows=[(200 + n / 10, q, t) for t, n, q in ROWS]))
+    text = RIG + 'columns = { normal = "normal (mean)", bulk = "bulk" }\nunits_row = true\n'
+    Study.from_text(text, "s", tmp_path)
+
+
+def test_samples_are_named_by_the_lines_of_the_file(tmp_path: Path) -> None:
+    """Also below settings, a row of units, an empty line and rows that are left out."""
+    wave = 60.0 * np.sin(2.0 * np.pi * np.arange(40) / 40)
+    wave[20] = 300.0
+    rows = [f"{k},200,{load:.4f}" for k, load in enumerate(wave)]
+    rows[3] += "\n3.2,,1\n"
+    (tmp_path / "rig.csv").write_text("\n".join(["Rig 7", "", "t,normal,tangential", "s,N,N", *rows]))
+    line = (tmp_path / "rig.csv").read_text().splitlines().index("20,200,300.0000") + 1
+    assert line == 27
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        read_signal(tmp_path / "rig.csv", time="t")
+    words = f"rig: tangential 300 in cycle 1, line {line} of the file, where"
+    assert any(str(each.message).startswith(words) for each in told)
+
+
 def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()
@@ -193,6 +259,22 @@ def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
         np.testing.assert_allclose(signal.values, LOADS, rtol=1e-12)
     with pytest.raises(StudyError, match="sheet: found 'run 3'; allowed: did you mean run 2"):
         read_signal(tmp_path / "rig.xlsx", sheet="run 3", **given)
+
+
+def test_messages_name_the_sheets_of_a_workbook(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    book.active.title = "Info"
+    book.active.append(["rig", 4])
+    for name in ("run 1", "run 2"):
+        sheet = book.create_sheet(name)
+        for row in (["normal", "tangential"], [200, 0], [210, 60], [200, -60]):
+            sheet.append(row)
+    book.save(tmp_path / "rig.xlsx")
+    words = r"rig\.xlsx, sheet 'Info' \(others: 'run 1', 'run 2'\): line 1: found the columns rig, 4; "
+    with pytest.raises(StudyError, match=words):
+        read_signal(tmp_path / "rig.xlsx")
+    assert read_signal(tmp_path / "rig.xlsx", sheet="run 1").values.shape == (3, 2)
 
 
 def test_a_workbook_without_openpyxl_says_what_it_needs(

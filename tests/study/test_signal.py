@@ -144,7 +144,7 @@ def test_a_period_in_time_folds_a_record_that_ends_within_a_cycle(tmp_path: Path
     assert fit.mean_normal == pytest.approx(200.0, abs=1e-9)
 
 
-@pytest.mark.parametrize(("recorded_cycles", "is_told"), [(20, False), (10, False), (7, True), (21, True)])
+@pytest.mark.parametrize(("recorded_cycles", "is_told"), [(20, False), (7, True), (21, True)])
 def test_cycles_that_are_no_cycles_are_told(tmp_path: Path, recorded_cycles: int, is_told: bool) -> None:
     """Folded at a wrong period loads vanish from the mean; a constant one leaves noise at the right one."""
     noise = np.random.default_rng(1).normal(size=(8000, 3)) * [2.0, 0.6, 0.3]
@@ -155,6 +155,81 @@ def test_cycles_that_are_no_cycles_are_told(tmp_path: Path, recorded_cycles: int
         read_signal(tmp_path / "rig.csv", recorded_cycles=recorded_cycles)
     words = f"its {recorded_cycles} cycles differ by more than their mean moves; is recorded_cycles right?"
     assert [str(each.message) for each in told] == [f"rig: {words}"] * is_told
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"recorded_cycles": 10}, "each cycle repeats 2 times: recorded_cycles = 20?"),
+        ({"recorded_cycles": 4}, "each cycle repeats 5 times: recorded_cycles = 20?"),
+        ({"period": 800}, "each cycle repeats 2 times: period = 400?"),
+        ({"time": "time", "frequency": 5e-4}, "each cycle repeats 5 times: frequency = 0.0025?"),
+    ],
+)
+def test_cycles_that_repeat_are_told_with_their_number(tmp_path: Path, given: dict, words: str) -> None:
+    noise = np.random.default_rng(1).normal(size=(8000, 3)) * [2.0, 0.6, 0.3]
+    values = smooth(2.0 * np.pi * np.arange(8000) / 400) * [0.0, 1.0, 1.0] + noise
+    table = np.column_stack([np.arange(8000), values])
+    write(tmp_path / "rig.csv", table, "time,normal,tangential,bulk")
+    assert told_of(tmp_path / "rig.csv", **given) == [f"rig: {words}"]
+    # Every fifth cycle is another one: they do not repeat.
+    table[:, 2] += 12.0 * np.sin(2.0 * np.pi * np.arange(8000) / (800 if "2 times" in words else 2000))
+    write(tmp_path / "rig.csv", table, "time,normal,tangential,bulk")
+    assert told_of(tmp_path / "rig.csv", **given) == []
+
+
+def recorded(path: Path, shares: np.ndarray, seed: int = 1) -> Path:
+    """A record of cycles of 50 samples, each with its share of a tangential amplitude of 160 N."""
+    wave = 160.0 * np.outer(shares, np.sin(2.0 * np.pi * np.arange(50) / 50)).ravel()
+    values = np.stack([np.full(len(wave), 350.0), wave], axis=1)
+    write(
+        path, values + np.random.default_rng(seed).normal(scale=1.2, size=values.shape), "normal,tangential"
+    )
+    return path
+
+
+def told_of(path: Path, **given: object) -> list[str]:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        read_signal(path, **given)
+    return [str(each.message) for each in told]
+
+
+@pytest.mark.parametrize(
+    ("shares", "ends", "words"),
+    [
+        (np.minimum(1.0, np.arange(0.5, 40.0) / 10.0), 4, "4 cycles have"),
+        (1.0 - 0.3 * np.arange(40) / 39, 4, "4 cycles have"),
+        (np.array([0.2, 0.6, *np.ones(8)]), 2, "2 cycles have"),
+        (np.array([*np.ones(9), 0.5]), 1, "cycle has"),
+    ],
+    ids=["start-up", "drift", "short start-up", "stop"],
+)
+def test_first_or_last_cycles_of_another_amplitude_are_told(
+    tmp_path: Path, shares: np.ndarray, ends: int, words: str
+) -> None:
+    path = recorded(tmp_path / "rig.csv", shares)
+    (line,) = told_of(path, recorded_cycles=len(shares), absolute=True)
+    found = re.fullmatch(
+        f"rig: the first {words} a tangential amplitude of (.*), the last of (.*), and their mean, (.*), "
+        "is the load: cut the rows of a start-up from the file, or run all cycles .* keep_cycles = true",
+        line,
+    )
+    amplitudes = [160.0 * each.mean() for each in (shares[:ends], shares[-ends:], shares)]
+    np.testing.assert_allclose([float(each) for each in found.groups()], amplitudes, rtol=0.02)
+    # Kept cycles are no mean.
+    text = RIG + f'[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = {len(shares)}\n'
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Study.from_text(f"{text}keep_cycles = true\n", "s", tmp_path)
+
+
+def test_amplitudes_that_only_scatter_are_not_told(tmp_path: Path) -> None:
+    random = np.random.default_rng(5)
+    for seed, count in enumerate([1, 2, 3, 4, 5, 6, 10, 20, 40] * 8):
+        spread = (0.0, 0.03, 0.1, 0.3)[seed % 4]
+        path = recorded(tmp_path / "rig.csv", 1.0 + spread * random.uniform(-1.0, 1.0, count), seed)
+        assert not told_of(path, recorded_cycles=count, absolute=True)
 
 
 @pytest.mark.parametrize(("period", "shift"), [(400, 0.0), (402, 0.0), (416, -16 / 416), (388, 12 / 388)])
@@ -252,7 +327,7 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
         ),
         ('time = "normal"', "loads.rig.file: found the column 'normal' as time and normal"),
         ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
-        ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*time, sample 3\); allowed: times that asc"),
+        ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*line 4, time\); allowed: times that asc"),
         (
             'absolute = true\ncolumns = { normal = "tangential", tangential = "normal" }',
             "loads.rig.absolute: found a mean normal load of -10; allowed: a mean above 0",
@@ -357,12 +432,14 @@ def test_a_spike_is_named_and_taken_out_if_asked(tmp_path: Path) -> None:
     with_a_spike(tmp_path)
     given = {"recorded_cycles": 25, "absolute": True}
     with pytest.warns(
-        UserWarning, match=r"spike: tangential 900 in cycle 11, row 513 below .* despike = true"
+        UserWarning, match=r"spike: tangential 900 in cycle 11, line 514 of the file, .* despike = true"
     ):
         spoilt = read_signal(tmp_path / "spike.csv", **given)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        clean = read_signal(tmp_path / "clean.csv", **given)
+        clean = read_signal(tmp_path / "clean.csv", despike=True, **given)
+    words = r"^spike: 1 spike replaced, tangential 900 in cycle 11, line 514 of the file, by [-\d.]+$"
+    with pytest.warns(UserWarning, match=words):
         found = read_signal(tmp_path / "spike.csv", despike=True, **given)
     assert np.abs(spoilt.mean_cycle - clean.mean_cycle).max() > 30.0
     np.testing.assert_allclose(found.mean_cycle, clean.mean_cycle, atol=0.1)
@@ -379,12 +456,13 @@ def test_a_single_spike_is_told_in_any_number_of_cycles(cycles: int, height: flo
     given = {"recorded_cycles": cycles, "absolute": True}
     write(tmp_path / "spoilt.csv", spoilt, "normal,tangential")
     write(tmp_path / "clean.csv", clean, "normal,tangential")
-    message = f"spoilt: tangential {spoilt[129, 1]:g} in cycle 1, row 130 below the header, .* despike = true"
+    message = f"spoilt: tangential {spoilt[129, 1]:g} in cycle 1, line 131 of the file, .* despike = true"
     with pytest.warns(UserWarning, match=message):
         read_signal(tmp_path / "spoilt.csv", **given)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         expected = read_signal(tmp_path / "clean.csv", **given)
+    with pytest.warns(UserWarning, match="spoilt: 1 spike replaced, tangential .* line 131 of the file, by"):
         found = read_signal(tmp_path / "spoilt.csv", despike=True, **given)
     # A phase of 2π/200 changes the load by 2 N, the noise by three times 0.5 N.
     np.testing.assert_allclose(found.values, expected.values, atol=3.5)

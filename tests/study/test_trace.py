@@ -215,10 +215,10 @@ def test_dust_pits_and_dropouts_anywhere_are_set_aside(
     off = np.interp(clean.radius, profile.radius, profile.height) - clean.height
     assert np.abs(off[clean.radius < 0.8]).max() < 1e-6
     if (kind, place) != ("zero", 0.2):  # there the heights are 0
-        rows = f"rows {first + 1} to {first + samples}" if samples > 1 else f"row {first + 1}"
+        lines = f"lines {first + 2} to {first + samples + 1}" if samples > 1 else f"line {first + 2}"
         plural = "s" * (samples > 1)
-        words = f"{samples} sample{plural} set aside that the other side does not have: {rows}"
-        assert told[0] == f"pad: {words} below the header"
+        words = f"{samples} sample{plural} set aside that the other side does not have: {lines}"
+        assert told[0] == f"pad: {words} of the file"
 
 
 def test_dust_far_outside_of_the_contact_does_not_change_swt(tmp_path: Path) -> None:
