@@ -16,7 +16,7 @@ from swtstudy.units.reading import read_contact
 from swtstudy.units.results import measures, sequence_words
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
-from swtstudy.vocabulary.derived import LIVES, PERCENTS
+from swtstudy.vocabulary.derived import FAILED, LIFE, LIVES, PERCENTS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words, unit_words
@@ -109,7 +109,7 @@ def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
         words = (f"N{p} = {each}" for p, each in zip(PERCENTS, numbers_words(shortest, 2), strict=True))
         which = f" ({life})" * (life not in ("cycles", "FS_cycles"))
         yield f"scatter of the constants, shortest lives{which}: {', '.join(words)}"
-    if (name := f"failure_probability{life.removeprefix('cycles')}") in dataset:
+    if (name := life.replace(LIFE, FAILED)) in dataset:
         yield f"{dataset[name].long_name}: up to {number_words(float(dataset[name].max()), 2)}"
 
 

@@ -19,7 +19,7 @@ from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
 from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.choices import FIGURES
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import require
 from swtstudy.vocabulary.wording import axis_words
@@ -64,6 +64,8 @@ def draw(
     """
     check_width(width)
     layout = layout or layout_of(dataset)
+    if layout.kind != "heatmap" and not _axes_of_numbers(dataset):
+        raise refused("figure", "results with no axis of numbers", NO_AXIS)
     require_points(dataset)
     mistakes = list(dict.fromkeys(_mistakes(dataset, layout)))
     if mistakes:
@@ -88,12 +90,18 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
         If the results come from no study, or from one without a figure.
     """
     if "figure" not in dataset.attrs:
-        known = ", ".join(str(dim) for dim in dataset.dims if dim in (*AXES, SAMPLE))
+        known = ", ".join(_axes_of_numbers(dataset))
         allowed = f"a layout of your own, with x one of {known}" if known else NO_AXIS
         raise ValueError(f"these results have no figure of a study; allowed: {allowed}")
     layout = FigureLayout.from_json(dataset.attrs["figure"])
     hue, panels = (None if name not in dataset.dims else name for name in (layout.hue, layout.panels))
     return replace(layout, hue=hue, panels=panels)
+
+
+def _axes_of_numbers(dataset: xr.Dataset) -> list[str]:
+    """Names of the dimensions that a line can go along."""
+    numbers = (SAMPLE, *(name for name, row in AXES.items() if row.kind != "name"))
+    return [str(dim) for dim in dataset.dims if dim in numbers]
 
 
 def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
@@ -111,7 +119,7 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
             found.append(Mistake("figure.y", f"{y!r} with {what}", "numbers over parameters"))
         found += [Mistake(*each) for each in wrong_axes(layout, sizes, "these results")]
     if layout.regimes and not ("regime" in dataset and flag_words(dataset.regime)):
-        found.append(Mistake("figure.regimes", "True", "False for results without regime"))
+        found.append(Mistake("figure.regimes", "true", "false for results without regime"))
     return found
 
 

@@ -130,7 +130,9 @@ def check_loops(grid: Grid, report: Report) -> None:
     smooth = [literal(load.name) for load in loops if control.mixed and not hasattr(load, "vertices")]
     if names:
         found = f"{', '.join(names)} with a normal load that is not constant, and {control.name}"
-        report.of("load", found, "two displacements or two forces")
+        held = "scale = { normal = 0 } under [loads.NAME]"
+        allowed = f"a normal load at rest ({control.given_for('normal_amplitude')} = 0, or {held})"
+        report.of("load", found, f"two displacements or two forces; or {allowed}")
     elif smooth:
         found = f"harmonics, {', '.join(smooth)}, and {control.name}"
         report.of("load", found, "two displacements or two forces; or vertices")

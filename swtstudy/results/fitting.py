@@ -61,6 +61,10 @@ DISTANCES = np.geomspace(0.004, 1.2, 17)
 RTOL = 1e-3
 #: Step of logarithms in second differences, well above what means are off by; upper bound of friction.
 STEP, MOST_FRICTION = 0.02, 3.0
+#: A cubic spline takes so many lives.
+_LEAST_OF_SPLINE = 4
+#: Misfit where a test has no finite life: finite, since searches subtract misfits.
+_IMPOSSIBLE = 1e12
 #: Nonlocal lives; the strictly local one knows no distance.
 NONLOCAL_LIVES = tuple(name for name in LIVES if not name.endswith("cycles"))
 
@@ -122,6 +126,7 @@ def fit(
     if friction and not 0.0 < own < MOST_FRICTION:
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
+    _refuse_sliding(grid)
     with Progress(None, "fit"):
         tests_of = _Tests.of(grid, np.log10(observed), runout, y)
         best = _likeliest(tests_of, own if friction else None)
@@ -149,7 +154,8 @@ class _Tests(NamedTuple):
     distances
         Critical distances at which lives are computed.
     known
-        log10 of the lives over the logarithm of the distance, by friction; None is the study's.
+        log10 of the lives over the logarithm of the distance, by friction; None is the study's. Of a trial
+        friction as far as all lives are finite, and None if they are so at fewer than four distances.
     """
 
     grid: PhysicalGrid
@@ -157,7 +163,7 @@ class _Tests(NamedTuple):
     runout: BoolArray
     y: str
     distances: FloatArray
-    known: dict[float | None, CubicSpline]
+    known: dict[float | None, CubicSpline | None]
 
     @classmethod
     def of(cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> _Tests:
@@ -168,8 +174,7 @@ class _Tests(NamedTuple):
         distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
         found = cls(grid, observed, runout, y, distances, {})
         lives = found.lives(None)
-        # A spline takes four.
-        many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), 4)
+        many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), _LEAST_OF_SPLINE)
         found = found._replace(distances=distances[:many])
         found.known[None] = found.spline(lives[:, :many])
         return found
@@ -191,17 +196,28 @@ class _Tests(NamedTuple):
         return CubicSpline(np.log(self.distances), lives, axis=1)
 
     def residuals(self, logarithms: Any) -> FloatArray:
-        """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction."""
+        """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction.
+
+        They are inf where a trial friction leaves a test without a finite life.
+        """
         own = math.exp(logarithms[1]) if len(logarithms) > 1 else None
         if own not in self.known:
-            self.known[own] = self.spline(self.lives(own))
-        return np.asarray(self.known[own](logarithms[0])) - self.observed
+            lives = self.lives(own)
+            many = int(np.append(np.isfinite(lives).all(axis=0), False).argmin())
+            near = self._replace(distances=self.distances[:many])
+            self.known[own] = near.spline(lives[:, :many]) if many >= _LEAST_OF_SPLINE else None
+        known = self.known[own]
+        if known is None or logarithms[0] > known.x[-1]:  # unlike any test
+            return np.full(len(self.observed), np.inf)
+        return np.asarray(known(logarithms[0])) - self.observed
 
     def misfit(self, x: Any) -> float:
         """−ln of the likelihood at logarithms of distance, friction if it is fitted, and scatter."""
         from scipy.stats import norm
 
         z = self.residuals(x[:-1]) / math.exp(x[-1])
+        if np.isinf(z).all():
+            return _IMPOSSIBLE
         return float(np.where(self.runout, -norm.logcdf(z), 0.5 * z * z + x[-1]).sum())
 
 
@@ -213,9 +229,10 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
 
     def at(own: list[float]) -> Any:
         """The best distance and scatter at a friction."""
+        residuals = [(each, tests.residuals([each, *own])) for each in np.log(tests.distances)]
         starts = [
-            (each, math.log(max(float(np.std(tests.residuals([each, *own]))), LEAST_SCATTER)))
-            for each in np.log(tests.distances)
+            (each, math.log(max(float(np.std(off)) if np.isfinite(off).all() else 0.0, LEAST_SCATTER)))
+            for each, off in residuals
         ]
         return minimize(
             lambda x: tests.misfit([x[0], *own, x[1]]),
@@ -228,8 +245,7 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
     own: list[float] = []
     if friction is not None:
         # The least friction that bears the tangential forces.
-        ratios = margins(Distinct.of(tests.grid), tests.grid).get("prescribed_force_ratio", np.zeros(1))
-        least = max(1.001 * float(np.max(ratios)) * friction, 1e-3)
+        least = max(1.001 * float(np.max(_force_ratios(tests.grid))) * friction, 1e-3)
         if not least < MOST_FRICTION:
             found = f"tangential forces that need {least:.3g} at least"
             raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
@@ -239,6 +255,24 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
         ]
     distance, scatter = at(own).x
     return np.array([distance, *own, scatter])
+
+
+def _force_ratios(grid: PhysicalGrid) -> FloatArray:
+    """Largest tangential force of each test over the friction limit; one 0 where no force is prescribed."""
+    found = margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1))
+    return np.asarray(found, float)
+
+
+def _refuse_sliding(grid: PhysicalGrid) -> None:
+    """Refuse tests whose tangential force exceeds the friction limit, before anything is solved."""
+    ratios = _force_ratios(grid)
+    if (wrong := np.flatnonzero(ratios > 1.0 + 1e-9)).size:
+        k = int(wrong[0])
+        friction = grid.values("friction")
+        least = ratios[k] * plain_number(friction[k if len(friction) > 1 else 0])
+        found = f"test {k + 1}, whose tangential force is {ratios[k]:.3g} times the friction limit: it slides"
+        allowed = f"a friction of {least:.3g} at least for this test, or less force"
+        raise StudyError([Mistake("tests", found + more_like_it(len(wrong)), allowed)])
 
 
 def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) -> FloatArray:

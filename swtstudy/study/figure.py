@@ -153,7 +153,8 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield "figure.vertical", "nothing", f"the name of an axis ({named} needs it)"
     for part, why in kind.lacks.items():
         if given := getattr(layout, part):
-            yield f"figure.{part}", literal(given), f"{False if given is True else 'none'} for {named}{why}"
+            found, allowed = ("true", "false") if given is True else (literal(given), "none")
+            yield f"figure.{part}", found, f"{allowed} for {named}{why}"
     of_samples = " or ".join(name for name, each in FIGURES.items() if each.of == "sample")
     for role, name in layout.roles():
         is_name = name in AXES and AXES[name].kind == "name"
@@ -166,7 +167,7 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 
 
 #: Words for allowed values where there is no axis to name.
-NO_AXIS = "no figure of a single point: a parameter with several values is an axis"
+NO_AXIS = "a figure needs an axis of numbers; swtstudy show STUDY draws one point"
 
 
 def wrong_axes(

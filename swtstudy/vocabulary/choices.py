@@ -102,12 +102,15 @@ class Drawing(NamedTuple):
 
 
 _UPRIGHT = {"vertical": ", whose vertical axis is y"}
+_CONTOUR = '; kind = "contour" draws borders of regimes, and y = "regime" the regimes themselves'
 #: The kinds of figures.
 FIGURES = {
     "lines": Drawing("lines", "lines over x", _UPRIGHT),
     "life": Drawing("lines", "lines with x upright over a life, as S–N curves", {**_UPRIGHT, "regimes": ""}),
     "contour": Drawing("surface", "contours over x and vertical", {"hue": ""}),
-    "heatmap": Drawing("surface", "a cell for each point over x and vertical", {"hue": "", "regimes": ""}),
+    "heatmap": Drawing(
+        "surface", "a cell for each point over x and vertical", {"hue": "", "regimes": _CONTOUR}
+    ),
     "scatter": Drawing(
         "sample",
         "the points of a sample, with a panel for each of its parameters",

@@ -92,7 +92,8 @@ def _of_scatter(row: Criterion, end: str) -> Iterator[Derived]:
         meaning = f"rounds to a crack{end.replace('_', ' ')}, before which {percent} % fail"
         symbol = _indexed("N", place, percent)
         yield Derived(f"{life}_{percent}", symbol, meaning, of=life, needs=("scatter",), kind=percent)
-    symbol, meaning = _indexed("P", place), "probability of a crack before {target} load cycles"
+    symbol, of = _indexed("P", place), f"by the life of a {place}" if place else "at the worst point"
+    meaning = f"probability of a crack before {{target}} load cycles, {of}"
     yield Derived(f"{FAILED}{end}", symbol, meaning, of=life, needs=("target_life",), kind=FAILED)
 
 

@@ -101,7 +101,7 @@ def test_a_scatter_has_them_and_a_histogram_has_not(results):
     axes = draw(some, keys("sample", kind="scatter", validity=True)).axes[0]
     (dots,) = marks(axes, "outside: first yield")
     assert len(dots.get_xdata()) == BEYOND.sum()
-    with pytest.raises(ValueError, match=r"figure\.validity: found True; allowed: False for kind = \"hist"):
+    with pytest.raises(ValueError, match=r"figure\.validity: found true; allowed: false for kind = \"hist"):
         draw(some, keys("sample", kind="histogram", validity=True))
 
 

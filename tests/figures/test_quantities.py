@@ -275,8 +275,13 @@ def test_contours_of_a_single_value_are_refused_and_cells_are_not(dataset):
 def test_a_single_point_has_no_figure(dataset):
     point = dataset.isel({dim: 0 for dim in dataset.s.dims}).drop_attrs(deep=False)
     for draw in (point.swt.figure, lambda: point.swt.panels("phase")):
-        with pytest.raises(ValueError, match="no figure of a single point"):
+        with pytest.raises(
+            ValueError, match="a figure needs an axis of numbers; swtstudy show STUDY draws one point"
+        ):
             draw()
+    names = point.assign_coords(load="two").expand_dims("load")
+    with pytest.raises(ValueError, match="found results with no axis of numbers; allowed: a figure needs"):
+        names.swt.panels("load")
 
 
 def test_all_mistakes_of_a_layout_come_at_once(dataset):

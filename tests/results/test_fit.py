@@ -136,6 +136,35 @@ def test_friction_is_fitted_beside_it(rig, monkeypatch):
     assert min(filter(None, tried)) > 0.4
 
 
+def test_a_trial_friction_without_a_life_is_no_candidate(rig, monkeypatch):
+    """A large friction leaves a test without tension, or with tension at small distances only."""
+    forces = np.linspace(30.0, 80.0, 8)
+    law = Law(forces)
+
+    def lives(grid, y, distances, friction):
+        found = law(grid, y, distances, friction)
+        found[3, distances > 0.2 / (friction or 0.5) ** 6] = np.inf
+        return found
+
+    monkeypatch.setattr(fitting, "_lives", lives)
+    observed = 10.0 ** law(None, "", np.array([0.05]), 0.7)[:, 0]
+    tests = {"tangential_force_amplitude": forces, "life": observed}
+    found = swtstudy.fit(rig[0], tests, friction=True)
+    assert float(found.friction) == pytest.approx(0.7, rel=1e-2)
+
+
+def test_a_test_that_slides_is_refused_before_anything_is_solved(rig, monkeypatch):
+    monkeypatch.setattr(fitting, "_lives", None)
+    tests = {"tangential_force_amplitude": [30.0, 106.0, 120.0], "life": [1e6, 1e5, 1e4]}
+    words = (
+        "tests: found test 2, whose tangential force is 1.06 times the friction limit: it slides; 1 more like"
+    )
+    for friction in (False, True):
+        with pytest.raises(StudyError, match=words) as caught:
+            swtstudy.fit(rig[0], tests, friction=friction)
+        assert "allowed: a friction of 0.53 at least for this test, or less force" in str(caught.value)
+
+
 def likelihood(law, distance, scatter, bounds, runout):
     """Logarithm of the likelihood of tests, by the distributions of scipy."""
     from scipy.stats import norm

@@ -279,7 +279,7 @@ def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
         (
             FIGURE.replace("hue", "vertical") + 'kind = "heatmap"\nregimes = true',
             "figure.regimes",
-            'False for kind = "heatmap"',
+            'false for kind = "heatmap"; kind = "contour" draws borders',
         ),
         (FIGURE + 'y = "s/s(friction=0.2)"', "figure.y", "not on that axis"),
         (FIGURE + 'y = "s/s(normal_amplitude=0)"', "figure.y", "not an axis"),

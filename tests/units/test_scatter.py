@@ -12,7 +12,9 @@ from real import ALUMINIUM, CONTACT
 import swtstudy
 from swtstudy import FatigueConstants, Study
 from swtstudy.archive.describe import describe
+from swtstudy.archive.outcome import outcome
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.wording import number_words
 
 LOADS = "normal_force = 200\nfrequency_ratio = 3\nnormal_amplitude = 5e-4\n"
 AXES = "[axes]\ntangential_amplitude = [1e-3, 2e-3, 3e-3]\n"
@@ -99,14 +101,38 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
     told = "\n".join(describe(found))
     assert re.search(r"scatter        64 draws: strength 9\d\d(\.\d)? ± 30", told)
     assert "scatter of the constants, shortest lives: N10 = " in told
-    assert "probability of a crack before 200000 load cycles: up to 1." in told
+    assert "probability of a crack before 200000 load cycles, at the worst point: up to 1." in told
     assert "cycles_10 extrapolated" not in told
     upper, lower = found.swt.figure().axes
     (band,) = upper.collections
     ends = band.get_paths()[0].vertices[:, 1]
     assert float(found.cycles_10.min()) == pytest.approx(ends.min())
     assert float(found.cycles_90.max()) == pytest.approx(ends.max())
-    assert lower.get_ylabel().replace("\n", " ") == "probability of a crack before 200000 load cycles, $P$"
+    assert (
+        lower.get_ylabel().replace("\n", " ")
+        == "probability of a crack before 200000 load cycles, at the worst point, $P$"
+    )
+
+
+def test_a_probability_is_told_of_the_life_that_is_named(tmp_path: Path) -> None:
+    more = f'{SAMPLE}{RANGE}[figure]\nx = "tangential_amplitude"\ny = ["cycles_volume"]\n'
+    text = f"{CONTACT}critical_distance = 0.05\n{LOADS}{AXES}{more}"
+    found = swtstudy.run(Study.from_text(text), tmp_path / "mean.nc")
+    mean = found.failure_probability_volume
+    assert float(mean.max()) < float(found.failure_probability.max())
+    (line, *_) = outcome(found)
+    words = "probability of a crack before 200000 load cycles, by the life of a volume"
+    assert f"{words}: up to {number_words(float(mean.max()), 2)}." in line
+    assert mean.attrs["long_name"] == words
+
+
+def test_draws_without_a_life_by_tension_are_refused() -> None:
+    shear = 'criterion = "fatemi_socie"\nnormal_sensitivity = 0.3\n'
+    text = f"{CONTACT}{shear}{LOADS}{AXES}{SAMPLE}{RANGE}"
+    both = text.replace(shear, "normal_sensitivity = 0.3\n")
+    with pytest.raises(swtstudy.StudyError, match="sample: found constants that scatter, with the criterion"):
+        Study.from_text(text)
+    Study.from_text(both.replace("[axes]", '[axes]\ncriterion = ["swt", "fatemi_socie"]'))
 
 
 @pytest.mark.parametrize(
