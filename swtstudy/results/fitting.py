@@ -378,7 +378,11 @@ def _observed(
     runout = [bool(text and text[1]) or mark in YES for text, mark in zip(texts, marks, strict=False)]
     cracked = len(given) - sum(runout)
     if given and cracked <= parameters:
-        report("tests", f"{cracked} tests{' with a crack' * any(runout)}", f"{parameters + 1} at least")
+        report(
+            "tests",
+            f"{cracked} test{'s' * (cracked != 1)}{' with a crack' * any(runout)}",
+            f"{parameters + 1} at least",
+        )
     return numbers, runout
 
 

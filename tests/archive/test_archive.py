@@ -235,3 +235,10 @@ def test_coordinates_have_no_fill_value(small, tmp_path):
             assert "_FillValue" not in file[name].ncattrs()
         assert file["s"].filters()["zlib"]
         assert file["s"].filters()["fletcher32"]
+
+
+def test_a_chain_of_folders_is_not_made(tmp_path):
+    with pytest.raises(OSError, match="cannot write into the folder"):
+        check_writable(tmp_path / "nodir" / "deeper" / "x.png")
+    assert not (tmp_path / "nodir").exists()
+    check_writable(tmp_path / "results" / "x.png")
