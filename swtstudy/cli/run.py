@@ -178,7 +178,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
-    click.echo(f"{target}: {dataset.s.size} points {effort}, {worst}")
+    click.echo(f"{target}: {dataset.s.size} point{'s' * (dataset.s.size != 1)} {effort}, {worst}")
     for line in outcome(dataset):
         say(line, 2)
     failed = [*failures(dataset)]

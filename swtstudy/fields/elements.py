@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from os import PathLike
 from pathlib import Path
@@ -27,6 +28,8 @@ OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S
 #: Places of our components in the order of Abaqus.
 _PLACES = [0, 1, 2, 5, 4, 3]
 ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
+#: Components of plane elements, in the order of each.
+IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
 
 
@@ -80,10 +83,12 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
 
 def _components(table: UserTable, order: str | None) -> FloatArray:
     """The stress components in our order, shape (rows, 6)."""
-    found = next((own for own, names in ORDERS.items() if all(map(table.has, names))), None)
+    has = {own: [name for name in names if table.has(name)] for own, names in ORDERS.items()}
+    found = next((own for own, names in ORDERS.items() if has[own] in ([*names], IN_PLANE[own])), None)
     if found is None and order is None:
-        names = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
-        allowed = f'columns {names}; columns = {{ xx = "…" }} with other headers; or an order of the last six'
+        every = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
+        allowed = f"columns {every}; of plane elements without those across; "
+        allowed += "with other headers an order of the last six columns (--order abaqus or swtstudy)"
         raise StudyError([Mistake(f"line {table.line}", ", ".join(table.headers), allowed, table.source)])
     if found is not None and order not in (None, found):
         allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
@@ -91,7 +96,11 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
     if found is None:
         values, found = table.numbers(table.headers[-len(OURS) :]), order
     else:
-        values = table.numbers(ORDERS[str(found)])
+        values = np.zeros((len(table.numbers([STEP])), len(OURS)))
+        names, own = ORDERS[str(found)], has[str(found)]
+        values[:, [names.index(name) for name in own]] = table.numbers(own)
+        if lacking := [name for name in names if name not in own]:
+            warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
     return values[:, _PLACES] if found == "abaqus" else values
 
 

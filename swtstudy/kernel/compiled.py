@@ -1,4 +1,4 @@
-"""How functions of the kernel are compiled: each is optimised once, with the function that Python calls.
+"""Compiling of the functions of the kernel: each is optimised once, with the function that Python calls.
 
 Numba optimises a function anew in each function above it, and makes machine code of it each time. Here a
 function has two compiled forms: a part, intermediate code that becomes machine code in the functions above

@@ -389,7 +389,7 @@ def _observed(
     runout = [bool(text and text[1]) or mark in YES for text, mark in zip(texts, marks, strict=False)]
     cracked = len(given) - sum(runout)
     if given and cracked <= parameters:
-        found = f"{cracked} tests{' with a crack' * any(runout)}"
+        found = f"{cracked} test{'s' * (cracked != 1)}{' with a crack' * any(runout)}"
         report.append(Mistake("" if source else "tests", found, f"{parameters + 1} at least", source))
     return numbers, runout
 

@@ -22,6 +22,7 @@ from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_
 from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
 from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.units.life import SCATTERED, Scatter
+from swtstudy.units.material import KEYS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
@@ -276,6 +277,9 @@ def _designed(
         report("sample.ranges", "nothing", "at least one parameter with its range")
     for name in (name for name in ranges if name not in numeric):
         found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
+        if name in KEYS:
+            found = f"{name}, a constant that cannot scatter"
+            allowed = f"constants that can: {', '.join(SCATTERED)}; or a parameter"
         if name in rows:
             found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
         report(f"sample.ranges.{name}", found, allowed)

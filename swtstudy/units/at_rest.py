@@ -254,7 +254,7 @@ def refuse_beyond(table: TabulatedProfile, depth: float) -> None:
     """Raise if the contact of a table in lengths is no full disc up to a depth, or larger than the table."""
     wrong = table.refused_at(depth)
     if wrong is not None:
-        raise StudyError([Mistake("profile", str(table), wrong)])
+        raise StudyError([Mistake("profile", str(table), f"a lower load, or another table: {wrong}")])
 
 
 def _refuse_at_any_depth(contact: Contact) -> None:

@@ -59,7 +59,7 @@ def reason_of(error: Exception) -> str:
     folder = path.parent.resolve()
     if not folder.is_dir():
         return f"no folder {folder}"
-    close = difflib.get_close_matches(path.name, [each.name for each in folder.iterdir()], n=1)
+    close = difflib.get_close_matches(path.name, [each.name for each in folder.iterdir()], n=1, cutoff=0.75)
     return f"no such file in the folder {folder}" + "".join(f": did you mean {name!r}?" for name in close)
 
 

@@ -324,7 +324,7 @@ CONTACT_AXES: dict[str, Parameter] = {
             ("depth", r"\delta_0", "δ0", "mean indentation depth"),
             ("normal_force", "F_0", "F0", "normal force at the mean depth"),
             ("contact_length", "L", "L", "length of a plane contact, across its section"),
-            ("bulk_stress_ratio", r"R_\sigma", "Rσ", "least over largest bulk stress"),
+            ("bulk_stress_ratio", r"R_\sigma", "Rσ", "minimum divided by maximum bulk stress"),
             ("body", r"\mathrm{body}", "body", "body, 1 or 2"),
         )
     )

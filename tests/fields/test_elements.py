@@ -117,7 +117,10 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ("id,step,xx\n1,0,0\n", r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*columns = "),
+        (
+            "id,step,xx\n1,0,0\n",
+            r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*--order abaqus",
+        ),
         ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
         (
             "id,step,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0,0\n1,1,0,0,0,0,0,0\n2,0,0,0,0,0,0,0\n",
@@ -149,3 +152,15 @@ def test_what_a_study_lacks_is_named(tmp_path: Path) -> None:
         read_history(tmp_path / "ours.csv", order="abaqus")
     with pytest.raises(StudyError, match="body: found 3"):
         evaluate_history(tmp_path / "stress.csv", study(tmp_path), 3)
+
+
+@pytest.mark.parametrize("names", ["S11,S22,S33,S12", "xx,yy,zz,xy"])
+def test_plane_elements_have_no_shear_across(tmp_path: Path, names: str) -> None:
+    file = tmp_path / "plane.csv"
+    file.write_text(f"id,step,{names}\na,0,1,2,3,4\na,1,5,6,7,8\n")
+    with pytest.warns(UserWarning, match=r"(S13 = S23|yz = xz) = 0, of plane elements"):
+        found = read_history(file)
+    assert found.stress.values.tolist() == [[[1, 2, 3, 0, 0, 4], [5, 6, 7, 0, 0, 8]]]
+    file.write_text(f"id,step,{names.rpartition(',')[0]}\na,0,1,2,3\n")
+    with pytest.raises(StudyError, match="missing in plane elements"):
+        read_history(file)

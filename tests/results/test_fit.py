@@ -244,7 +244,7 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     [
         (
             {"tangential_force_amplitude": [30, 60], "life": [">1e7", 1e6]},
-            "found 1 tests with a crack; allowed: 2",
+            "found 1 test with a crack; allowed: 2",
         ),
         (
             {"tangential_force_amplitude": [30, 60], "life": ["", 1e6]},
@@ -259,7 +259,7 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
             "tests: found runout 'perhaps' of test 3; allowed: 1 or 0, true or false",
         ),
         ({"tangential_force_amplitude": [30.0, 60.0]}, "tests: found the columns tangential_"),
-        ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 tests; allowed: 2 at least"),
+        ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 test; allowed: 2 at least"),
         ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),

@@ -333,7 +333,7 @@ def test_a_histogram_counts_and_has_percentiles(results):
         ({"x": "sample", "hue": "profile"}, "figure.x: found 'sample'; allowed: an axis"),
         ({"x": "sample", "kind": "scatter", "panels": "profile"}, "figure.panels: found 'profile'"),
         ({"x": "sample", "kind": "histogram", "vertical": "profile"}, "figure.vertical: found 'profile'"),
-        ({"x": "sample", "kind": "scatter", "hue": "profile", "regimes": True}, "figure.regimes: found True"),
+        ({"x": "sample", "kind": "scatter", "hue": "profile", "regimes": True}, "figure.regimes: found true"),
         ({"x": "sample", "kind": "scatter"}, "no place for the axis profile"),
         ({"x": "profile", "kind": "heatmap", "vertical": "sample"}, "figure.vertical: found 'sample'"),
     ],

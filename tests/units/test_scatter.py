@@ -138,6 +138,10 @@ def test_draws_without_a_life_by_tension_are_refused() -> None:
 @pytest.mark.parametrize(
     ("more", "words"),
     [
+        (
+            SAMPLE + "[sample.ranges]\nshear_strength = [1, 2]\n",
+            "constants that can: strength, strength_exponent, d",
+        ),
         (SAMPLE + "[sample.ranges]\nstrength = 3\n", "sample.ranges.strength: found 3"),
         (SAMPLE.replace("sobol", "saltelli") + RANGE, "a design other than saltelli"),
         (RANGE, "sample: found nothing; allowed: one of: design, size and ranges"),
