@@ -100,7 +100,7 @@ class Compiled:
 
 @typeof_impl.register(Compiled)
 def _type_of_part(function, context):
-    """What compiled functions see of another one."""
+    """Numba's type of a function within compiled functions."""
     return numba.types.Dispatcher(function.part)
 
 

@@ -282,7 +282,7 @@ def test_mistakes_in_a_file_of_tests_are_named_by_file_and_line(rig, tmp_path):
     for rows, words in (
         ("30,0,\n60,1e5,\n70,-1,", "line 3: found life 0.*; 1 more like it; allowed: positive"),
         ("30,1e5,\n60,1e5,\n70,1e6,perhaps", "line 5: found runout 'perhaps'; allowed: 1 or 0"),
-        ("30,1e5,", "found 1 tests; allowed: 2 at least"),
+        ("30,1e5,", "found 1 test; allowed: 2 at least"),
         ("", "found no tests; allowed: a row for each"),
     ):
         path.write_text(f"tangential_force_amplitude,life,runout\n\n{rows}\n")
