@@ -26,6 +26,8 @@ GROWTH = np.dtype(
         ("density", "f8", (MAX_GROWN, ORDER)),  # do/ds
     ]
 )
+#: A panel of no more of its place than this is none: within it places are rounding.
+ROUNDED = 1e-13
 
 
 @jit
@@ -60,8 +62,9 @@ def tabulate_growth(R, C, P, L, i, tolerance):
     m = 0
     # The profile is smooth within its panels only.
     for p in range(panel_of(P.begin, 0, P.panels, highest), panel_of(P.begin, 0, P.panels, lowest) - 1, -1):
-        waiting[m, 0], waiting[m, 1] = max(lowest, P.begin[p]), min(highest, P.end[p])
-        if waiting[m, 1] > waiting[m, 0]:
+        a, b = max(lowest, P.begin[p]), min(highest, P.end[p])
+        if b - a > ROUNDED * b:
+            waiting[m, 0], waiting[m, 1] = a, b
             m += 1
     while m > 0:
         m -= 1

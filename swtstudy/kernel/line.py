@@ -20,7 +20,7 @@ from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
-from swtstudy.kernel.criterion import CRITERION, SWT, lift, set_criterion, value_of
+from swtstudy.kernel.criterion import CRITERION, FINDLEY, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
 from swtstudy.kernel.load import distinct, has_bulk
 from swtstudy.kernel.planes import (
@@ -279,6 +279,8 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
             S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
             if Q.criterion == SWT:
                 S.tension = min(S.tension, W.top[STRESS])
+            elif Q.criterion == FINDLEY:
+                S.tension = max(S.tension, Q.sensitivity * W.top[STRESS])
 
 
 @jit

@@ -194,7 +194,7 @@ def _rule(even: int, halvings: int) -> tuple[FloatArray, FloatArray]:
 
 def largest_depth(profile: AnyProfile, shape: Shape, largest_force: FloatArray) -> FloatArray:
     """Largest depth of n profiles at the largest normal force over that at δ0, both of shape (n,)."""
-    if is_plane(profile):
+    if is_plane(profile) or not len(largest_force):
         return largest_force
     at_rest = AtRest(profile, shape)
     force = np.broadcast_to(largest_force, (len(largest_force),)).reshape(len(at_rest.flat_radius), -1)

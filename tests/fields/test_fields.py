@@ -394,3 +394,20 @@ def test_at_a_turn_of_the_load_the_slip_that_ends_there_is_shown(amplitude):
     slip = swtstudy.slip_map([0.0, 0.99], time=turns, normal_amplitude=0, tangential_amplitude=amplitude)
     np.testing.assert_allclose(slip.slip_radius, np.sqrt(1.0 - amplitude), rtol=1e-9)
     assert slip.state.values.tolist() == [[1, 2], [1, 3]]
+
+
+@pytest.mark.parametrize("beside", [3e-8, 6.477761838041829e-8, 1e-7])
+def test_both_loads_turn_at_nearly_one_instant(beside: float) -> None:
+    """Growth within a rounding of its place is none."""
+    given = {"friction": 0.5, "normal_amplitude": 0.0549375816778321, "frequency_ratio": "4"}
+    given |= {"tangential_amplitude": 0.0001600303623207556, "phase": 0.375 * np.pi + beside}
+    for rtol in (1e-4, 1e-6):
+        assert float(swtstudy.solve(**given, rtol=rtol).s) == pytest.approx(0.0047156791, rel=1e-7)
+    field = swtstudy.stress_field(np.linspace(0.05, 1.5, 30), 0.0, 0.1, time=[0.0, 1.0, 2.0], **given)
+    assert np.isfinite(field.sigma_xx).all()
+    x = np.linspace(0.9, 1.1, 81)
+    found, at_once = (
+        swtstudy.swt_field(x, 0.0, 0.0, **given | {"phase": phase}).s_local.values
+        for phase in (given["phase"], 0.375 * np.pi)
+    )
+    np.testing.assert_allclose(found, at_once, rtol=1e-3, atol=1e-8)

@@ -109,3 +109,12 @@ def test_a_climb_does_not_walk_off_on_rounding() -> None:
         phase=6.0 * np.pi / 72.0,
     )
     assert float(found.s_error) < 1e-3 * float(found.s)
+
+
+def test_a_shear_criterion_that_tension_makes_alone_has_an_error() -> None:
+    """Where nothing is sheared the tension is what rounding counts against."""
+    given = {"criterion": "findley", "normal_sensitivity": 0.0237, "friction": 0.06, "phase": 1.0}
+    given |= {"normal_force_amplitude": 1e-3, "tangential_force_amplitude": 0.0}
+    rough, close = (swtstudy.solve(**given, rtol=rtol) for rtol in (1e-2, 1e-5))
+    assert rough.s_error <= 0.01 * rough.s
+    assert abs(rough.s - close.s) <= rough.s_error + close.s_error

@@ -196,8 +196,9 @@ def test_a_shape_parameter_that_no_profile_has_is_a_mistake():
 
 def test_waviness_that_breaks_the_contact_up_is_refused():
     fixed = '[fixed]\nprofile = "wavy_paraboloid"\nwaviness_amplitude = 0.02\nwavelength = 3'
-    mistakes = mistakes_of(MINIMAL + fixed)
-    assert list(mistakes) == ["fixed.waviness_amplitude, fixed.wavelength"]
+    for load in ("normal_amplitude", "normal_force_amplitude"):
+        mistakes = mistakes_of(f"{MINIMAL}{fixed}\n{load} = 0.1")
+        assert list(mistakes) == ["fixed.waviness_amplitude, fixed.wavelength"]
 
 
 WAVY = 'title = "t"\n[fixed]\nprofile = "wavy_paraboloid"\n[axes]\n'
