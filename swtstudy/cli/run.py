@@ -17,7 +17,7 @@ from swtstudy.archive.paths import archive_paths
 from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
 from swtstudy.cli.terminal import say, say_next
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.wording import number_words
+from swtstudy.vocabulary.wording import number_of, number_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -178,7 +178,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"
     worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
-    click.echo(f"{target}: {dataset.s.size} point{'s' * (dataset.s.size != 1)} {effort}, {worst}")
+    click.echo(f"{target}: {number_of(dataset.s.size, 'point')} {effort}, {worst}")
     for line in outcome(dataset):
         say(line, 2)
     failed = [*failures(dataset)]

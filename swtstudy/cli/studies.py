@@ -81,7 +81,7 @@ def validate(studies: tuple[str, ...]) -> None:
     for source, study in defined.items():
         grid = study.grid
         sizes = " × ".join(f"{n} {name}" for name, n in zip(grid.dims, grid.shape, strict=True))
-        words = f"{source}: valid, {grid.size} point{'s' * (grid.size != 1)}{f' = {sizes}' * bool(sizes)}"
+        words = f"{source}: valid, {number_of(grid.size, 'point')}" + (f" = {sizes}" if sizes else "")
         with report:
             archive_paths([source], "")
             say(words, 2)

@@ -96,9 +96,10 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
     if found is None:
         values, found = table.numbers(table.headers[-len(OURS) :]), order
     else:
-        values = np.zeros((len(table.numbers([STEP])), len(OURS)))
         names, own = ORDERS[str(found)], has[str(found)]
-        values[:, [names.index(name) for name in own]] = table.numbers(own)
+        given = table.numbers(own)
+        values = np.zeros((len(given), len(names)))
+        values[:, [names.index(name) for name in own]] = given
         if lacking := [name for name in names if name not in own]:
             warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
     return values[:, _PLACES] if found == "abaqus" else values

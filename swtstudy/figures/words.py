@@ -136,10 +136,11 @@ def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) ->
             low, high = sorted(end * scale for end in axis.get_view_interval())
             for most in (5, 3):
                 ticks = MaxNLocator(most, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-                words = [f"{tick:.6g}" for tick in ticks if low <= tick <= high]
+                inside = [tick for tick in ticks if low <= tick <= high]
+                words = [f"{tick:.6g}" for tick in inside]
                 if axis is axes.yaxis or sum(map(len, words)) <= MOST_ACROSS:
                     break
-            axis.set_ticks([float(each) / scale for each in words], labels=words)
+            axis.set_ticks([tick / scale for tick in inside], labels=words)
             axis.set_label_text(f"${symbol}$" + (f" ({label.unit.strip()})" if label.unit else ""))
 
 

@@ -142,8 +142,7 @@ def tabulate_cell(B, k, plane, exponent, density, begin, end, low, high, b, tota
     u0, u1 = variable(B, kind, low), variable(B, kind, high)
     half, width = 0.5 * (u1 - u0), 2.0 / (end - begin)
     f, S = B.work[0], B.series[k]
-    # What grew may do so within a rounding: its cell has no length.
-    B.begin[k], B.kind[k], B.scale[k, 0], B.scale[k, 1] = low, kind, u0, 1.0 / max(half, 1e-300)
+    B.begin[k], B.kind[k], B.scale[k, 0], B.scale[k, 1] = low, kind, u0, 1.0 / half
     for c in range(ORDER + 1):
         for j in range(FUNCTIONS):
             S[c, j] = 0.0

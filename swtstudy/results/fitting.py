@@ -40,6 +40,7 @@ from swtstudy.vocabulary.mistakes import (
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.wording import number_of
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline
@@ -389,7 +390,7 @@ def _observed(
     runout = [bool(text and text[1]) or mark in YES for text, mark in zip(texts, marks, strict=False)]
     cracked = len(given) - sum(runout)
     if given and cracked <= parameters:
-        found = f"{cracked} test{'s' * (cracked != 1)}{' with a crack' * any(runout)}"
+        found = number_of(cracked, "test") + " with a crack" * any(runout)
         report.append(Mistake("" if source else "tests", found, f"{parameters + 1} at least", source))
     return numbers, runout
 

@@ -216,10 +216,8 @@ class Fold:
 def _face(height: FloatArray, noise: float) -> int:
     """Number of heights from the middle on that are a flat face, but for their noise."""
     some = max(LEAST, len(height) // AVERAGED)
-    means, limit = (
-        np.convolve(height, np.full(some, 1.0 / some), "same"),
-        BEYOND_NOISE * noise / np.sqrt(some),
-    )
+    means = np.convolve(height, np.full(some, 1.0 / some), "same")
+    limit = BEYOND_NOISE * noise / np.sqrt(some)
     up_to = np.cumsum(height) / np.arange(1, len(height) + 1)
     hidden = int(np.argmax(np.abs(means - up_to)[some:] > limit))
     # A parabola is within its noise at first, too: behind a face heights grow faster.
@@ -298,8 +296,9 @@ class _Folded(NamedTuple):
         # Between samples noise is lower: radii have all places between them, whatever the middle.
         radius = np.arange(0.5, MOST_RADII) * max(GOLDEN * step, end / MOST_RADII)
         radius = radius[radius <= end]
-        radius = radius[_reached(x, middle + radius) & _reached(x, middle - radius)]
-        right, left = (np.interp(middle + sign * radius, x, z) for sign in (1.0, -1.0))
+        both = middle + np.outer([1.0, -1.0], radius)
+        known = _reached(x, both).all(axis=0)
+        radius, (right, left) = radius[known], np.interp(both[:, known], x, z)
         odd, even, tilt = 0.5 * (right - left), 0.5 * (right + left), 0.0
         if level:  # the line through 0 of the least absolute deviations
             order = np.argsort(odd / radius)
@@ -386,5 +385,5 @@ def _merged(distance: FloatArray, height: FloatArray) -> tuple[FloatArray, Float
 
 def _reached(distance: FloatArray, radius: FloatArray) -> BoolArray:
     """Which radii are within reach of a sample on each side of them."""
-    after = np.clip(np.searchsorted(distance, radius), 1, len(distance) - 1)
-    return np.asarray(np.diff(distance)[after - 1] <= (1.0 + REACH) * np.median(np.diff(distance)))
+    after, steps = np.clip(np.searchsorted(distance, radius), 1, len(distance) - 1), np.diff(distance)
+    return np.asarray(steps[after - 1] <= (1.0 + REACH) * np.median(steps))
