@@ -31,7 +31,7 @@ HARD = (
     "power law 213",
 )
 #: Scenes of which every point is a case of its own.
-NAMED = ("turns within growth", "coincident phases")
+NAMED = ("turns within growth", "coincident phases", "bulk stress turns within growth", "steep powers")
 SCENES = [scene for scene in truth.points() if scene not in NAMED]
 
 
@@ -64,7 +64,7 @@ SINGLE = {
 }
 
 
-@pytest.mark.parametrize("rtol", [RTOL, 1e-6])
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, RTOL, 1e-6])
 @pytest.mark.parametrize("name", SINGLE)
 def test_hard_points(name: str, rtol: float) -> None:
     assert verdict(SINGLE[name], rtol) == "right"
@@ -135,16 +135,14 @@ def test_means_over_a_critical_distance(point: truth.Point) -> None:
     assert truth.off_means(point) == {}
 
 
-#: Contacts of which the present solver does not look at the place with most damage.
-LONG_LIVED = (50,)
+#: Of the contacts' lives the one that hangs on where the bulk stress turns.
+TURNING = 50
 
 
-@pytest.mark.parametrize("number", sorted({*range(0, 60, 6), *LONG_LIVED}))
-def test_counted_cycles(number: int, request: pytest.FixtureRequest) -> None:
+@pytest.mark.parametrize("number", [*range(0, 60, 6), TURNING])
+def test_counted_cycles(number: int) -> None:
     known = truth.contacts()[number]
     found = known.found()
     np.testing.assert_allclose(found.shares, known.shares, rtol=5e-3)
-    if number in LONG_LIVED:
-        request.applymarker(pytest.mark.xfail(strict=True, reason="a place with more damage is missed"))
     # With more damage the solver has found a worse place.
     assert 0.9 * known.cycles <= found.cycles <= 1.01 * known.cycles

@@ -4,8 +4,8 @@ python studies/checks/mutants.py --size 300 --seed 2
 
 The changes are those of mutmut, which would make every change there is, for days; here each room of the
 package has its share of a sample. A copy of the project is changed at one place, and the tests that cover the
-place run, quickest first, until one fails; what they cover is found out before. Reasons why some changes may
-live stand in mutants_that_may_live.toml.
+place run, quickest first, until one fails; what they cover is found out before. Slow tests and tests of pages
+do not run. Reasons why some changes may live stand in mutants_that_may_live.toml.
 Needs the extra ``mutation``. Writes results/mutants.md.
 """
 
@@ -32,7 +32,8 @@ from mutations import Mutant, sample
 
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parents[1]
-OPTIONS = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0"]
+#: The quick suite.
+OPTIONS = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", "-m", "not slow and not pages"]
 
 #: To collect many files of tests takes longer than most tests: those of so few are tried before all others.
 FIRST_FILES = 3

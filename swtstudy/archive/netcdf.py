@@ -84,7 +84,9 @@ def load_file(path: Path) -> xr.Dataset:
     ArchiveError
         If it cannot be read or is damaged.
     """
-    if path.exists() and not (path.is_file() or path.is_dir()):
+    if path.is_dir():
+        raise ArchiveError(f"{path}: a folder; give an archive in it, {path}/NAME.nc")
+    if path.exists() and not path.is_file():
         raise ArchiveError(f"{path}: not a regular file")
     if is_locked(path):
         raise LockedError(f"{path} is locked: another program has it open for writing")

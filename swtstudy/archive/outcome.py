@@ -145,9 +145,9 @@ def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _ends(lives: FloatArray) -> str:
-    """The shortest and the longest of lives."""
+    """The longest life and the shortest: those of the least and of the greatest value of the criterion."""
     known = lives[~np.isnan(lives)]
     if not known.size:
         return "unknown"
-    ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
+    ends = dict.fromkeys(numbers_words((known.max(), known.min()), 2))
     return " to ".join("∞" if each == "inf" else each for each in ends)

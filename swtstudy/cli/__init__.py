@@ -21,7 +21,7 @@ from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
 from swtstudy.cli.studies import list_studies, new, plan, schema, validate
-from swtstudy.cli.terminal import printable
+from swtstudy.vocabulary.wording import printable
 
 #: Exit code for input that cannot be used, the same as click's for wrong options.
 BAD_INPUT = 2

@@ -13,6 +13,7 @@ from swtstudy.cli.options import study_completion, with_results, with_studies, w
 from swtstudy.cli.terminal import line_length, of_markdown, say, table
 from swtstudy.study.shipped import shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
+from swtstudy.vocabulary.wording import number_words, unit_words
 
 
 @click.command()
@@ -225,8 +226,9 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
     for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
         if name in found:
             at = found.isel(point=int(found[name].values.argmax()))
-            words = f"largest {name} = {float(at[name]):.4g} {at[name].attrs.get('units', '')}".rstrip()
-            words += f", {lives} = {float(at[lives]):.3g}" if lives in found else ""
+            unit = unit_words(at[name].attrs.get("units", ""))
+            words = f"largest {name} = {number_words(float(at[name]))}{unit}"
+            words += f", {lives} = {number_words(float(at[lives]), 3)}" if lives in found else ""
             places = [f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords]
             say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

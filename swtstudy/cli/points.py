@@ -20,6 +20,9 @@ from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANT
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
 
+#: An inch and the text of a page, in cm.
+INCH, OF_PAGE = 2.54, 25.0
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -155,6 +158,9 @@ def show(
     else:
         figure = _of_study(study, values, smoothing, body, style, width)
     save_figure(figure, output, style)
+    height = INCH * figure.get_figheight()
+    if width == "column" and height > OF_PAGE:
+        say(f"{output} is {height:.0f} cm high, more than a page: --width page draws it lower", err=True)
     if words:
         click.echo(words)
     click.echo(output)

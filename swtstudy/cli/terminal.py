@@ -12,6 +12,8 @@ from typing import Any
 
 import click
 
+from swtstudy.vocabulary.wording import printable
+
 _NUMBER = re.compile(r"[-−+]?[\d.,·%e+⁻⁰¹²³⁴⁵⁶⁷⁸⁹-]+|nan|inf|–|")
 
 
@@ -21,17 +23,6 @@ def line_length() -> int | None:
         return get_terminal_size().columns if sys.stdout is not None and sys.stdout.isatty() else None
     except ValueError:
         return None  # a closed stream
-
-
-def printable(text: str) -> str:
-    """A text without control characters, which a terminal would obey; lines and tabs stay.
-
-    Examples
-    --------
-    >>> printable("a\x1b[31m title")
-    'a�[31m title'
-    """
-    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "\N{REPLACEMENT CHARACTER}", text)
 
 
 def wrapped(line: str, width: int | None, indent: int = 0) -> str:

@@ -83,8 +83,10 @@ def is_constant(L, which):
 @jit
 def is_steady(L, which):
     """True if a function has no events: it is constant."""
-    if which in (CONTACT, BULK_RATE):
+    if which == CONTACT:
         return False
+    if which == BULK_RATE:
+        return L.bulk_moves == 0
     if L.map != UNMAPPED and which in (DIFFERENCE, SUM):  # no sum of harmonics
         return is_constant(L, NORMAL) and is_constant(L, TANGENTIAL)
     return is_constant(L, which)
@@ -156,7 +158,7 @@ def turning_points(L, out):
     m = 2
     contacts = 2  # beyond the instants at which contact is made or lost
     for which in (CONTACT, NORMAL, TANGENTIAL, DIFFERENCE, SUM, BULK_RATE):
-        if is_steady(L, which) or (which == BULK_RATE and L.bulk_turns == 0):
+        if is_steady(L, which):
             continue
         before = event_function(L, which, 0.0)
         for j in range(1, cells + 1):

@@ -264,9 +264,8 @@ def may_be_refined(H, C, z):
     """True if part z can be sampled more closely: it is not yet as short as rounding."""
     if H.cusps[z] == MONOTONE:
         return False
-    return H.intervals[z] < FINEST or (
-        H.parts + 1 < MAX_PARTS and H.time[z, 1] - H.time[z, 0] > 1e-6 * (H.time[z, 1] - C.time[0, 0])
-    )
+    shortest = max(1e-6 * (H.time[z, 1] - C.time[0, 0]), SHORTEST)
+    return H.intervals[z] < FINEST or (H.parts + 1 < MAX_PARTS and H.time[z, 1] - H.time[z, 0] > shortest)
 
 
 @jit

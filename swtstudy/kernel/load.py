@@ -33,7 +33,6 @@ LOAD = np.dtype(
         ("fastest", "i8"),  # largest order of the harmonics
         ("mirrored", "i8"),  # 1: n(t + π) = n(t), v(t + π) = -v(t), and B is constant
         ("bulk_moves", "i8"),  # 1: B changes
-        ("bulk_turns", "i8"),  # 1: so much faster than n and v that its turning points are events
         ("bulk_range", "f8", (2,)),  # smallest and largest B
         ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v; else 0
         ("normal_range", "f8", (2,)),  # and n

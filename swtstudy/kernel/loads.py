@@ -102,7 +102,6 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     orders = [[row[0] // common for row in rows] for rows in components]
     fastest = max([0, *orders[0], *orders[1]])
     load["bulk_moves"] = len(orders[2]) > 0
-    load["bulk_turns"] = max(orders[2], default=0) > fastest
     load["fastest"] = max([1, fastest, *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
@@ -141,7 +140,7 @@ def polygon(normal, tangential, bulk=None, every=False):
 
 def leave_bulk_out(load):
     """Take the bulk stress of the other body out of a load: it moves the stick zone, no more."""
-    load["bulk_moves"], load["bulk_turns"], load["bulk_range"] = 0, 0, 0.0
+    load["bulk_moves"], load["bulk_range"] = 0, 0.0
     for name in ("rest", "cosine", "sine", "vertex"):
         load[name][BULK] = 0.0
 

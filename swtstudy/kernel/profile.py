@@ -44,6 +44,9 @@ PROFILE = np.dtype(
         ("guess", "f8", (MAX_PANELS, GUESSES + 1)),  # share of the panel at even shares of the coordinate
     ]
 )
+#: Least density of a panel over its largest one, at most which counts: the stress at the edge of a contact
+#: is made where the density may be that much lower than elsewhere in the panel.
+STEEPEST = 0.03
 #: Values between which guesses are interpolated.
 SAMPLES = 4 * GUESSES
 #: What `assemble` returns.
@@ -59,7 +62,8 @@ def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, ro
     values
         Shape (m, ORDER): the density at the Gauss points of the panels from lower to upper.
     tolerance, floor
-        Last coefficients over the largest one, or over the floor if that is more.
+        Last coefficients over the least density, over the floor, or over `STEEPEST` of the largest density,
+        whichever is most.
     narrowest
         Panels of this width are settled whatever they miss.
     settled
@@ -70,10 +74,10 @@ def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, ro
     series = np.empty(ORDER)
     for i in range(lower.shape[0]):
         fit(values[i], series)
-        size = floor
+        least, most = abs(values[i, 0]), 0.0
         for k in range(ORDER):
-            size = max(size, abs(series[k]))
-        missed = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) / size
+            least, most = min(least, abs(values[i, k])), max(most, abs(values[i, k]))
+        missed = max(abs(series[ORDER - 1]), abs(series[ORDER - 2])) / max(least, STEEPEST * most, floor)
         rough[i] = missed > tolerance and upper[i] - lower[i] > narrowest
         if rough[i]:
             continue
@@ -303,7 +307,7 @@ def tabulate_profile(
     largest
         Largest coordinate of the diagram that is needed.
     tolerance, floor
-        Last coefficients of a panel's series over the largest one, or over the floor if that is more.
+        Of the series of panels, see `settle`.
     narrowest
         Least width of a panel.
     span

@@ -130,7 +130,8 @@ def check_loops(grid: Grid, report: Report) -> None:
     smooth = [literal(load.name) for load in loops if control.mixed and not hasattr(load, "vertices")]
     if names:
         found = f"{', '.join(names)} with a normal load that is not constant, and {control.name}"
-        held = "scale = { normal = 0 } under [loads.NAME]"
+        absolute = any(load.mean_normal is not None for load in loops)
+        held = f"scale = {{ normal = 0 }}{' without absolute' * absolute} under [loads.NAME]"
         allowed = f"a normal load at rest ({control.given_for('normal_amplitude')} = 0, or {held})"
         report.of("load", found, f"two displacements or two forces; or {allowed}")
     elif smooth:

@@ -23,7 +23,7 @@ from swtstudy.figures.words import flag_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import dims_beside, to_table
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import coordinate_words, number_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words, printable
 
 _TOKEN = re.compile(r"\\(?:mathrm|text)\{([^{}]*)\}|\\([a-zA-Z]+)|(&#?\w+;)|([A-Za-z])|\\?\s+|\\.")
 _RAISED = re.compile(r"([_^])(?:\{((?:[^{}]|\{[^{}]*\})*)\}|(<i>.</i>|&#?\w+;|.))")
@@ -215,7 +215,7 @@ def _labels(values: xr.DataArray) -> dict[str, Any]:
 
 def rendered(template: str, **content: Any) -> str:
     """A page that needs no other file, from a template of this folder, which may call our functions."""
-    return _templates().get_template(template).render(**content)
+    return printable(_templates().get_template(template).render(**content))
 
 
 @cache

@@ -45,11 +45,15 @@ ENDS = ("", "_error", "_x")
 #: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
 #: tolerance of what grew in stick.
 RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
-#: A parabola has found a place if it foretells the mean there so closely, relative; most means on the way.
-FORETOLD, MOST_STEPS = 1e-3, 12
+#: A parabola has found a place if it foretells the mean there so closely, relative; means on the way that
+#: differ by less than the second number may be equal; most means on the way.
+FORETOLD, TOLD_APART, MOST_STEPS = 1e-3, 2e-3, 12
 #: Columns of at least this share of the highest are looked at, and means at these of this share of the
 #: largest one are climbed from: they lie within ℓ/4 of their maxima.
 WORTH_A_LOOK, WORTH_A_CLIMB = 0.7, 0.94
+#: Sine of an angle by which the critical plane turns at once, or nearly; places among which that is looked
+#: for, and how closely.
+JUMP, LOOKS, HALVINGS = 0.05, 17, 20
 #: Straight down, to the right and down.
 DOWN = (0.0, 1.0)
 #: Gauss's nodes t of a column, at depths 2ℓt², and their weights in the mean over the depths.
@@ -69,7 +73,7 @@ def _of_disc() -> FloatArray:
     return (share / share.sum()) @ np.vander(t, 3, increasing=True) @ series
 
 
-OF_DISC = _of_disc()
+OF_DISC, OF_POINT = _of_disc(), np.array([0.0, 1.0, 0.0])
 
 
 #: swt over k critical distances at n points, over E* δ0/R as s, NaN without s. ``volume``, shape (n, k), are
@@ -124,7 +128,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
     beside = sum(np.interp(x + side, x, columns @ OF_DISC) for side in (-0.5 * distance, 0.5 * distance))
     # At ℓ/2 from its middle a sphere has 3/4 of the section there.
     volume = (columns @ OF_DISC + 0.75 * beside) / 2.5
-    estimates = {"volume": volume, "point": columns[:, 1], "line": columns @ OF_LINE}
+    estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
     far, found = far_field_of(opened), {}
     for kind, estimate in estimates.items():
         rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
@@ -134,6 +138,9 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
             close = partial(mean, kind, way, most, CLOSE, FIRST)
             place, known = _climb_all(rough, close, starts, 0.25 * distance)
+            if way == 1:
+                places = [place, *_beside_jumps(opened, place, 0.5 * distance)]
+                known, place = max((close(x)[0] if x != place else known, x) for x in places)
             value, error = mean(kind, way, known, RTOL, FIRST, place)
             rows.append((far, 0.0, np.nan) if far > value else (value, error + FORETOLD * value, place))
         found[kind] = np.array(rows)
@@ -154,9 +161,23 @@ def _columns(
     x = np.unique(np.concatenate([*(step * each for each in near), outside, [critical]]))
     if opened.load["mirrored"]:
         x = x[x >= -distance]
+    columns = _columns_at(opened, x, distance, limit)
+    while True:  # columns beside the highest ones, until these are as near as the distance asks for
+        tops = {k for weights in (OF_DISC, OF_LINE, OF_POINT) for k in _tops(columns @ weights)}
+        wide = [k for k in range(len(x) - 1) if x[k + 1] - x[k] > distance and tops & {k, k + 1}]
+        if not wide:
+            return x, columns
+        new = np.array([0.5 * (x[k] + x[k + 1]) for k in wide])
+        after = np.array(wide) + 1
+        columns = np.insert(columns, after, _columns_at(opened, new, distance, limit), axis=0)
+        x = np.insert(x, after, new)
+
+
+def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) -> FloatArray:
+    """Values at `NODE` beneath places of the line, (n, 3); below the limit they may be low."""
     at = np.zeros((len(x), len(NODE), 3))
     at[..., 0], at[..., 2] = x[:, None], 2.0 * distance * NODE**2
-    return x, criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)
+    return criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)
 
 
 def _tops(estimate: FloatArray) -> list[int]:
@@ -180,16 +201,49 @@ def _climb_all(rough: Mean, close: Mean, starts: list[float], step: float) -> tu
     return best, largest
 
 
+def _beside_jumps(opened: Opened, place: float, reach: float) -> list[float]:
+    """Places next to a place at which the critical plane jumps, on both sides of each jump.
+
+    There two planes are equally high, and the mean along the critical plane jumps, too.
+    """
+    x = place + reach * np.linspace(-1.0, 1.0, LOOKS)
+    ways = [direction_at(opened, each) for each in x]
+    found = []
+    for k in range(LOOKS - 1):
+        (a, b), (of_a, of_b) = x[k : k + 2], ways[k : k + 2]
+        for _ in range(HALVINGS):
+            if not _turned(of_a, of_b):
+                break
+            middle = 0.5 * (a + b)
+            way = direction_at(opened, middle)
+            a, b, of_a, of_b = (middle, b, way, of_b) if _turned(way, of_b) else (a, middle, of_a, way)
+        else:
+            found += [float(a), float(b)]
+    return found
+
+
+def _turned(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """True if two directions, of lines without an end, are apart."""
+    return abs(one[0] * other[1] - one[1] * other[0]) > JUMP
+
+
 def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
-    """From a place to a maximum by parabolas through three places, until one foretells the mean there."""
+    """From a place to a maximum by parabolas through three places, until one foretells the mean there.
+
+    The outer two are the next ones whose means are lower than the highest by more than these miss.
+    """
     at, of, foretold = [x], [mean(x)[0]], np.inf
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
-        if k in (0, len(at) - 1):  # the top of what is known so far is at its end
-            new, foretold = at[k] + (step if k > 0 or len(at) == 1 else -step), np.inf
-            step *= 2.0 if len(at) > 2 else 1.0
+        lower = np.flatnonzero(np.array(of) < (1.0 - TOLD_APART) * of[k])
+        before, after = lower[lower < k], lower[lower > k]
+        if before.size and after.size:
+            three = [int(before[-1]), k, int(after[0])]
+            new, foretold = _top_of_parabola([at[j] for j in three], [of[j] for j in three])
         else:
-            new, foretold = _top_of_parabola(at[k - 1 : k + 2], of[k - 1 : k + 2])
+            right = before.size > 0 or (after.size == 0 and 2 * k >= len(at) - 1)
+            new, foretold = (at[-1] + step if right else at[0] - step), np.inf
+            step *= 2.0 if len(at) > 2 else 1.0
         value = mean(new)[0]
         j = int(np.searchsorted(at, new))
         at.insert(j, new)

@@ -132,6 +132,19 @@ def plain_words(value: Any) -> str:
     return number_words(value, _EXACT) if isinstance(value, float) else str(value)
 
 
+def printable(text: str) -> str:
+    """A text without control characters, which a terminal would obey and a page may not hold.
+
+    Lines and tabs stay.
+
+    Examples
+    --------
+    >>> printable("a\x1b[31m title")
+    'a�[31m title'
+    """
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "\N{REPLACEMENT CHARACTER}", text)
+
+
 def raised(text: str) -> str:
     """A number as computers write it with a power of ten as people do; other words as they are.
 

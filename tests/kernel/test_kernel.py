@@ -14,6 +14,10 @@ from folders import ROOT
 
 import swtstudy
 from swtstudy.kernel.batch import solve_batch
+from swtstudy.kernel.chebyshev import FINEST
+from swtstudy.kernel.compiled import new_record
+from swtstudy.kernel.contact import CYCLE
+from swtstudy.kernel.history import HISTORY, may_be_refined
 
 pytestmark = pytest.mark.xdist_group("kernel")
 TABLE_1 = {
@@ -46,6 +50,15 @@ def test_next_to_nothing_slips(rtol: float) -> None:
         poisson_ratio=[nu], friction=[mu], normal_amplitude=[0.0], tangential_amplitude=[U], rtol=rtol
     )
     assert found["s"] == pytest.approx(cattaneo_mindlin(nu, mu, U), rel=1e-6)
+
+
+def test_no_part_of_a_cycle_is_cut_without_end() -> None:
+    """Next to the begin of the cycle, where times are exact, a part may be short, but not without a limit."""
+    history, cycle = new_record(HISTORY), new_record(CYCLE)
+    history["intervals"][0] = FINEST
+    for end, refined in ((1e-3, True), (1e-12, True), (1e-14, False)):
+        history["time"][0] = 0.0, end
+        assert may_be_refined(history, cycle, np.int64(0)) == refined
 
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-6])
@@ -136,6 +149,10 @@ def test_a_tighter_tolerance_is_kept() -> None:
 
 CODE = """
 from swtstudy.kernel.batch import solve_batch
+from swtstudy.kernel.chebyshev import FINEST
+from swtstudy.kernel.compiled import new_record
+from swtstudy.kernel.contact import CYCLE
+from swtstudy.kernel.history import HISTORY, may_be_refined
 found = solve_batch("rounded_punch", [0.3], [0.4], [0.5], [0.3], [1], [2.0], shape={"flat_radius": [0.5]})[0]
 print(*(float(found[name]) for name in ("s", "critical_x", "critical_angle")))
 """

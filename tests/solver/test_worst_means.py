@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -11,7 +12,7 @@ import pytest
 from asking import study
 from body import DOWN, opened, worst_means
 from numpy.testing import assert_allclose
-from scenes import plane_points, points
+from scenes import FORCES, plane_points, points
 from solved import solve_points
 
 import swtstudy
@@ -70,6 +71,49 @@ def test_no_mean_about_another_place_is_larger(name: str) -> None:
             )
             assert point < 1.002 * found["point"][0, 0, way]
             assert line < 1.005 * found["line"][0, 0, way]
+
+
+#: Lines along critical planes whose largest means a climb from the highest columns misses: a point under
+#: forces, distance, and |x| of a larger mean. At the first x the plane jumps by 9°, and the mean by 9 %; the
+#: second x is 12 distances away from the largest swt.
+FAR_UP = {
+    "a jump of the plane": (
+        {
+            "poisson_ratio": 0.24284715473846144,
+            "friction": 0.9611761727360726,
+            "normal_amplitude": 0.04798008223827599,
+            "tangential_amplitude": 0.011610114371583085,
+            "phase": 5.097211208027318,
+        },
+        0.1,
+        1.0047,
+    ),
+    "a short distance": (
+        {
+            "profile": "wavy_cylinder",
+            "poisson_ratio": 0.031747101407745004,
+            "friction": 0.12279971581768893,
+            "normal_amplitude": 0.009168158397763616,
+            "tangential_amplitude": 0.00021097958983853495,
+            "phase": 4.978690902693223,
+            "waviness_amplitude": 1.490739356207924,
+            "wavelength": 25.29467524878663,
+        },
+        1e-4,
+        0.96983,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", FAR_UP)
+def test_the_largest_line_mean_is_found_where_no_climb_leads(name: str) -> None:
+    point, distance, x = FAR_UP[name]
+    forces = {re.sub("(normal|tangential)_a", r"\1_force_a", key): value for key, value in point.items()}
+    found = swtstudy.solve(critical_distance=distance, **forces).s_line.sel(direction="critical_plane")
+    cycle = opened(replace(points(**point), control=FORCES))
+    for place in (-x, x):
+        way = direction_at(cycle, place)
+        assert mean_about(cycle, LINE, place, way, distance, 0.0, 1e-2)[0] < 1.003 * found
 
 
 @pytest.mark.parametrize("friction", [0.01, 0.3])
