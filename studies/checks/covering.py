@@ -76,13 +76,14 @@ class Covered:
     def tests(self, file: str, line: int, limit: float) -> tuple[list[str], float]:
         """The tests of a line, quickest first, as many as the time allows, and how long they take.
 
-        A line that no test runs by itself has the tests of its file, or of its folder.
+        A line that no test runs by itself has the tests of its file, or of its folder. A line of compiled
+        code, of which nobody knows when it runs, has those of its folder.
         """
-        span, inside = _statement((self.project / file).read_text(encoding="utf-8"), line)
+        span, inside, compiled = _statement((self.project / file).read_text(encoding="utf-8"), line)
         lines = self.lines[file]
         found = _together(lines.get(line, set()) for line in span) if inside else set()
         found = found or _together(lines.values())
-        if not found:
+        if compiled or not found:
             beside = [source for source in self.lines if Path(source).parent == Path(file).parent]
             found = _together(tests for source in beside for tests in self.lines[source].values())
         # What a fixture runs may be for all tests of the file.
@@ -101,17 +102,20 @@ def _together(sets: Iterable[set[str]]) -> set[str]:
     return set().union(*sets)
 
 
-def _statement(text: str, line: int) -> tuple[range, bool]:
+def _statement(text: str, line: int) -> tuple[range, bool, bool]:
     """Lines of the statement (of its head, if it has a body) at a line, and whether it runs in a function.
 
-    What a cached function does, or a module as it is loaded, only the first test runs.
+    What a cached function does, or a module as it is loaded, only the first test runs. The third value says
+    whether the function is compiled.
     """
-    span, inside = range(line, line + 1), False
+    span, inside, compiled = range(line, line + 1), False, False
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.stmt) and node.lineno <= line <= (node.end_lineno or node.lineno):
             body = getattr(node, "body", None)
             if not body or line < body[0].lineno:
                 span = range(node.lineno, body[0].lineno if body else (node.end_lineno or line) + 1)
             elif isinstance(node, ast.FunctionDef):
-                inside = not any("cache" in ast.unparse(each) for each in node.decorator_list)
-    return span, inside
+                decorators = [ast.unparse(each) for each in node.decorator_list]
+                inside = not any("cache" in each for each in decorators)
+                compiled = any(each.startswith("jit") for each in decorators)
+    return span, inside and not compiled, compiled

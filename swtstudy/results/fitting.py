@@ -127,10 +127,11 @@ def fit(
     if friction and not 0.0 < own < MOST_FRICTION:
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
         raise StudyError([Mistake("friction", f"{own:g}", allowed)])
-    _refuse_sliding(grid)
+    ratio = _force_ratio(grid)
     with Progress(None, "fit"):
         tests_of = _Tests.of(grid, np.log10(observed), runout, y)
-        best = _likeliest(tests_of, own if friction else None)
+        # The least friction that bears the tangential forces.
+        best = _likeliest(tests_of, max(1.001 * ratio * own, 1e-3) if friction else None)
     low, high = np.log(tests_of.distances[[0, -1]])
     if not low + STEP < best[0] < high - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low, high))
@@ -222,8 +223,8 @@ class _Tests(NamedTuple):
         return float(np.where(self.runout, -norm.logcdf(z), 0.5 * z * z + x[-1]).sum())
 
 
-def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
-    """Arguments of the least misfit; ``friction`` is the study's, None if it is not fitted."""
+def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
+    """Arguments of the least misfit; ``least`` is the least friction, None if it is not fitted."""
     from scipy.optimize import minimize, minimize_scalar
 
     ends = np.log(tests.distances[[0, -1]])
@@ -244,9 +245,7 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
         )
 
     own: list[float] = []
-    if friction is not None:
-        # The least friction that bears the tangential forces.
-        least = max(1.001 * float(np.max(_force_ratios(tests.grid))) * friction, 1e-3)
+    if least is not None:
         if not least < MOST_FRICTION:
             found = f"tangential forces that need {least:.3g} at least"
             raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
@@ -258,15 +257,12 @@ def _likeliest(tests: _Tests, friction: float | None) -> FloatArray:
     return np.array([distance, *own, scatter])
 
 
-def _force_ratios(grid: PhysicalGrid) -> FloatArray:
-    """Largest tangential force of each test over the friction limit; one 0 where no force is prescribed."""
-    found = margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1))
-    return np.asarray(found, float)
+def _force_ratio(grid: PhysicalGrid) -> float:
+    """Largest tangential force of the tests over the friction limit; 0 where no force is prescribed.
 
-
-def _refuse_sliding(grid: PhysicalGrid) -> None:
-    """Refuse tests whose tangential force exceeds the friction limit, before anything is solved."""
-    ratios = _force_ratios(grid)
+    Tests whose force exceeds the limit are refused before anything is solved.
+    """
+    ratios = np.asarray(margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1)), float)
     if (wrong := np.flatnonzero(ratios > 1.0 + 1e-9)).size:
         k = int(wrong[0])
         friction = grid.values("friction")
@@ -274,6 +270,7 @@ def _refuse_sliding(grid: PhysicalGrid) -> None:
         found = f"test {k + 1}, whose tangential force is {ratios[k]:.3g} times the friction limit: it slides"
         allowed = f"a friction of {least:.3g} at least for this test, or less force"
         raise StudyError([Mistake("tests", found + more_like_it(len(wrong)), allowed)])
+    return float(ratios.max())
 
 
 def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) -> FloatArray:

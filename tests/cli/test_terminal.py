@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 import xarray as xr
@@ -58,6 +59,16 @@ def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch
     assert re.fullmatch(r"\d\.\de-0\d", error)
     assert raised(error) in shown.stdout
     assert error not in shown.stdout
+
+
+def test_lines_of_info_are_broken_behind_their_names(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    study = 'title = "A title of many words, which needs more than one line of a narrow terminal"\n'
+    swtstudy.run(swtstudy.Study.from_text(study + "rtol = 1e-2\n"), tmp_path / "a.nc")
+    monkeypatch.setattr(import_module("swtstudy.cli.terminal"), "line_length", lambda: 50)
+    found = lines_of("info", str(tmp_path / "a.nc"))
+    first = next(k for k, line in enumerate(found) if "A title" in line)
+    assert len(found[first]) <= 50
+    assert found[first + 1].startswith(" " * found[first].index("A title"))
 
 
 WIDE = [

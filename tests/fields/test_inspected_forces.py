@@ -71,6 +71,13 @@ def test_what_is_prescribed_is_what_is_run(points):
     )
 
 
+def test_springs_are_compressed_by_the_depth_beyond_their_own(points):
+    point = points["displacements"]
+    r, depth = point.r.values, np.interp(point.instant_time, point.time, point.depth)
+    expected = np.maximum(depth[:, None] - r**2, 0.0)
+    np.testing.assert_allclose(point.compression, expected, atol=1e-4)
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_springs_moved_like_that_give_these_forces(points, name):
     """Springs clipped step by step, from rest at u = 0: forces are their sums, F = ∫ w dr and ∫ τ dr."""

@@ -11,6 +11,8 @@ import swtstudy
 from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
+from swtstudy.points.canonical import Distinct
+from swtstudy.points.labelled import margins
 from swtstudy.points.validity import outside, validity_lines
 from swtstudy.solving import solve_grid
 
@@ -360,3 +362,16 @@ def test_a_softer_specimen_shifts_the_stick_zone_further(profile, young, poisson
         bends = [np.pi * (4.0 - 3.0 * ν) * (1.0 + ν) / (8.0 * e) for e, ν in zip(young, poisson, strict=True)]
         shift = 10.0 / young[0] / (0.5 * p0 * sum(bends)) * a
     assert found.bulk_shift.values == pytest.approx([shift, shift], rel=1e-6)
+
+
+@pytest.mark.parametrize("control", ["amplitude", "force_amplitude"])
+def test_margins_without_a_compiler_are_known_to_their_accuracy(control: str) -> None:
+    axes = f"normal_{control} = [0.3]\ntangential_{control} = [0.25]\nphase = [0.1, 1.3, 2.0, 4.4]"
+    grid = Study.from_text(
+        f'title = "t"\n[axes]\n{axes}\nfrequency_ratio = [1, "3/2"]\nbulk_stress_amplitude = [0.1]\n'
+    ).grid
+    points = Distinct.of(grid)
+    seen, exact = margins(points, grid, without_compiler=True), margins(points, grid)
+    assert seen.keys() == exact.keys() >= {"bulk_shift_ratio"}
+    for name in seen:
+        np.testing.assert_allclose(seen[name], exact[name], rtol=0.0, atol=1e-5)

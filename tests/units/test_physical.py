@@ -256,6 +256,17 @@ def test_another_profile_leaves_the_lengths_of_the_old_one_behind():
     assert punch.with_parameters(profile="truncated_paraboloid").shape == pytest.approx(punch.shape)
     with pytest.raises(ValueError, match="wavelength: found 7, which no profile here has"):
         punch.with_parameters(wavelength=7)
+    with pytest.raises(ValueError, match="profile: found 'parabola'"):
+        punch.with_parameters(profile="parabola")
+
+
+def test_waves_are_judged_at_the_largest_depth():
+    """With h = 0.05 δ0 a contact is compact up to 1.75 δ0 if λ is at least 3.52 √(hR)."""
+    own = {**ALUMINIUM, "depth": 0.02, "tangential_amplitude": 0.001, "normal_amplitude": 0.75 * 0.02}
+    waves = {"profile": "wavy_paraboloid", "waviness_amplitude": 0.001}
+    assert physical(**own, **waves, wavelength=3.55 * np.sqrt(0.001 * 50.0)).shape
+    with pytest.raises(ValueError, match=r"wavelength 3\.4 is below 3\.52"):
+        physical(**own, **waves, wavelength=3.4 * np.sqrt(0.001 * 50.0))
 
 
 def test_pressures_of_other_profiles():
