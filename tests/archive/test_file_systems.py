@@ -152,10 +152,6 @@ def test_a_title_cannot_command_the_terminal(tmp_path):
         assert found.exit_code == 0
         assert "red" in found.stdout
         assert "\x1b" not in found.stdout
-    assert CliRunner().invoke(main, ["report", str(tmp_path / "t.nc")]).exit_code == 0
-    page = (tmp_path / "t.html").read_text(encoding="utf-8")
-    assert "red" in page
-    assert "\x1b" not in page
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell")

@@ -258,6 +258,14 @@ def test_two_routes_to_nothing_do_not_differ():
     assert "two routes" not in report(both.isel(sample=[0]))
 
 
+def test_another_plane_at_the_same_place_is_no_other_route_to_one_value():
+    both = audit_of([made_up_point(s_all_planes=1.3), made_up_point(s_all_planes=1.0 + 2e-5)])
+    text = report(both)
+    assert "a plane that is not through y is higher at 1 points, by up to 30.00%." in text
+    assert "of the other points the solver and the field beneath the contact, two routes" in text
+    assert "differ by 2e-05 (median), 2e-05 (99 %), 2e-05 (largest)." in text
+
+
 def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
     off = {"s_body": 1.08, "s_surface": 1.05, **OFF_LINE}
     audited = [made_up_point(), made_up_point(regime="gross_slip"), *[made_up_point(**off)] * 3]

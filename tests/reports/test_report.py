@@ -303,12 +303,13 @@ def test_scripts_are_given_the_words_of_few_values(small: xr.Dataset, count: int
 
 @pytest.mark.slow
 def test_hostile_names_and_titles_are_words(tmp_path: Path) -> None:
-    title = '</title><script>alert("x")</script> & <img src=x onerror=alert(1)> "quoted" \'it\''
+    title = '</title><script>alert("x")</script> & <img src=x onerror=alert(1)> "quoted" \'it\' \x1b[31m'
     text = page(study(tmp_path, title, axes="phase = [0, 1]"), '"><script>alert(2)</script>')
     found = checked(text)
     assert found.tags.count("script") == 2  # the values, and what shows them
     assert "x" not in found.links
-    assert " ".join(title.split()) in found.text
+    assert " ".join(title.replace("\x1b", "\N{REPLACEMENT CHARACTER}").split()) in found.text
+    assert "\x1b" not in text
 
 
 @pytest.mark.slow

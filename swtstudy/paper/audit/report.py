@@ -47,6 +47,7 @@ def report(dataset: xr.Dataset) -> str:
     finite = points[np.isfinite(points["excess"])]
     # Nothing, by either route, has no relative difference.
     some = finite[finite["s"] > 0.0]
+    higher = some["s_all_planes"] / some["s"] - 1.0  # at the line's maximum
     beyond = finite[finite["beyond"]].sort_values("remainder", ascending=False)
     rows, known = canonical_rows(dataset), defined_in(dataset.attrs)
     definitions = {each.code: each for own in known.values() for each in own.values()}
@@ -66,7 +67,8 @@ def report(dataset: xr.Dataset) -> str:
             f"{share:.2%} ({VERDICTS[verdict]}): {describe_point(rows[number], definitions)}"
             for number, share, verdict in beyond[["remainder", "verdict"]][:_LISTED].itertuples()
         ],
-        away=(some["s_all_planes"] / some["s"] - 1.0).abs(),
+        higher=higher[higher > TOLERANCE],
+        away=higher[higher <= TOLERANCE].abs(),
         short=points["shortfall"].dropna(),
         percent=_percent,
     )
