@@ -32,6 +32,10 @@ _RUN = ("swtstudy ", "python studies/", "pip install", "sphinx-build", "eval ")
 _PLACEHOLDER = re.compile(r"\b[A-Z]{2,}\b|host:")
 
 
+#: Parts that are made by running, see docs/build_steps/generate.py.
+_MADE = re.compile(r"<!-- (\w+) -->.*<!-- end of \1 -->", re.DOTALL)
+
+
 class Block(NamedTuple):
     """A block of code: its page, its place there, its language, what it says, and the lines before it."""
 
@@ -45,9 +49,14 @@ class Block(NamedTuple):
         return f"{self.page.relative_to(ROOT)}:{self.line}"
 
 
+def text_of(page: Path) -> str:
+    """What is written on a page, with empty lines for what is made by running."""
+    return _MADE.sub(lambda made: "\n" * made[0].count("\n"), page.read_text(encoding="utf-8"))
+
+
 def blocks_of(page: Path) -> list[Block]:
     """The blocks of a page, in its order."""
-    text = page.read_text(encoding="utf-8")
+    text = text_of(page)
     return [
         Block(page, 1 + text[: found.start()].count("\n"), found[1], found[2], _lead(text[: found.start()]))
         for found in _FENCE.finditer(text)
@@ -60,7 +69,7 @@ def _lead(text: str) -> str:
 
 def code_in_prose(page: Path) -> list[str]:
     """The code between the words of a page."""
-    prose = _FENCE.sub("", page.read_text(encoding="utf-8"))
+    prose = _FENCE.sub("", text_of(page))
     return [" ".join(found[1].split()) for found in _CODE.finditer(prose)]
 
 

@@ -1,5 +1,9 @@
-"""The pages and parts of pages that are made from the package and the studies."""
+"""The pages and parts of pages that are made from the package and the studies.
 
+Parts that are to be read as text in a clone stand in their pages, between two comments with their name.
+"""
+
+import re
 import shutil
 from pathlib import Path
 
@@ -18,6 +22,9 @@ from swtstudy.reports.site import write_reports
 ROOT = Path(__file__).parent.parent.parent
 #: The study whose report is always made.
 EXAMPLE = "figure3"
+#: Pages whose parts stand in them, and these parts.
+READABLE = ROOT / "docs" / "commands.md", ROOT / "docs" / "study_reference.md"
+PARTS = {"commands": commands, "study_file": study_file, "three_mistakes": three_mistakes}
 
 
 def generate(folder: Path, reports: bool = False) -> None:
@@ -27,16 +34,15 @@ def generate(folder: Path, reports: bool = False) -> None:
     reported = [*archives] if reports else [EXAMPLE]
     texts = {
         "citation": citation(ROOT / "CITATION.cff"),
-        "commands": commands(),
         "figure_kinds": figure_kinds(),
         "gallery": gallery(ROOT, reported),
         "parameters": parameters(),
         "rooms_whole": rooms(WHOLE),
-        "study_file": study_file(),
-        "three_mistakes": three_mistakes(),
     }
     for name, text in texts.items():
         write_if_new(folder / f"{name}.md", text)
+    for page in READABLE:
+        write_if_new(page, filled(page))
     draw_house(WHOLE, folder / "house.svg")
     draw_profiles(folder)
     shutil.rmtree(folder / "pages", ignore_errors=True)
@@ -44,6 +50,19 @@ def generate(folder: Path, reports: bool = False) -> None:
         if problem:
             raise ValueError(problem)
     shutil.copy2(ROOT / "studies" / "explore.ipynb", folder / "explore.ipynb")
+
+
+def filled(page: Path) -> str:
+    """A page with its parts as they are made now."""
+    text = page.read_text(encoding="utf-8")
+    for name, made in PARTS.items():
+        ends = f"<!-- {name} -->\n", f"<!-- end of {name} -->"
+        text = re.sub(
+            f"(?s)({ends[0]}).*({ends[1]})",
+            lambda found, made=made: f"{found[1]}\n{made()}\n{found[2]}",
+            text,
+        )
+    return text
 
 
 def write_if_new(path: Path, text: str) -> None:

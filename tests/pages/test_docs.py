@@ -47,3 +47,9 @@ def test_types_are_told_to_those_who_import_the_package():
     with (ROOT / "pyproject.toml").open("rb") as file:
         assert "Typing :: Typed" in tomllib.load(file)["project"]["classifiers"]
     assert (importlib.resources.files("swtstudy") / "py.typed").is_file()
+
+
+def test_pages_to_be_read_in_a_clone_are_as_they_are_made_now():
+    made = pytest.importorskip("build_steps.generate")
+    for page in made.READABLE:
+        assert page.read_text(encoding="utf-8") == made.filled(page), "build the documentation anew"
