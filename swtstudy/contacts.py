@@ -44,7 +44,7 @@ from swtstudy.units.rows import (
     wrong_size,
 )
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, is_profile, without_life
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import DERIVED, LIFE
 from swtstudy.vocabulary.mistakes import (
@@ -183,7 +183,7 @@ class PhysicalContact:
             raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
         rest, grid = self._one, self.grid
         profile = parameters.get("profile", rest.profile)
-        kept = family_of(profile).shape if isinstance(profile, Definition) or is_profile(profile) else ()
+        kept = family_of(profile).shape
         every = self.parameters(grid.bulk_stress_body + 1)
         own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
