@@ -129,7 +129,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
     # At ℓ/2 from its middle a sphere has 3/4 of the section there.
     volume = (columns @ OF_DISC + 0.75 * beside) / 2.5
     estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
-    far, found = far_field_of(opened), {}
+    far, near, found = far_field_of(opened), _spacing(opened, 0.0), {}
     for kind, estimate in estimates.items():
         rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
         if min(abs(start - critical) for start in starts) > 0.5 * distance:
@@ -137,7 +137,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
         for way in range(1 if kind == "volume" else len(DIRECTIONS)):
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
             close = partial(mean, kind, way, most, CLOSE, FIRST)
-            place, known = _climb_all(rough, close, starts, 0.25 * distance)
+            place, known = _climb_all(rough, close, starts, 0.25 * distance, near)
             if way == 1:
                 places = [place, *_beside_jumps(opened, place, 0.5 * distance)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
@@ -155,7 +155,7 @@ def _columns(
     high = (value[:-1] > limit) | (value[1:] > limit) | (limit < LOWEST * s)
     end = largest_radius(opened) + distance
     left, right = (np.clip(each[high], -end, end) for each in (place[:-1] - distance, place[1:] + distance))
-    step = max(0.5 * distance, 2.0 * end / MOST_COLUMNS)
+    step = _spacing(opened, distance)
     near = [np.arange(np.floor(a / step), np.ceil(b / step) + 1) for a, b in zip(left, right, strict=True)]
     outside = place[(value > limit) & (np.abs(place) > end)]
     x = np.unique(np.concatenate([*(step * each for each in near), outside, [critical]]))
@@ -171,6 +171,11 @@ def _columns(
         after = np.array(wide) + 1
         columns = np.insert(columns, after, _columns_at(opened, new, distance, limit), axis=0)
         x = np.insert(x, after, new)
+
+
+def _spacing(opened: Opened, distance: float) -> float:
+    """Distance of columns from one another at first."""
+    return max(0.5 * distance, 2.0 * (largest_radius(opened) + distance) / MOST_COLUMNS)
 
 
 def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) -> FloatArray:
@@ -189,12 +194,17 @@ def _tops(estimate: FloatArray) -> list[int]:
     return [int(k) for k in order if is_top[k]]
 
 
-def _climb_all(rough: Mean, close: Mean, starts: list[float], step: float) -> tuple[float, float]:
-    """The place of the largest mean that is reached from places, and the mean: roughly the highest first."""
+def _climb_all(
+    rough: Mean, close: Mean, starts: list[float], step: float, near: float
+) -> tuple[float, float]:
+    """The place of the largest mean that is reached from places, and the mean: roughly the highest first.
+
+    From a start near the place that is the best so far nothing else is reached unless its own mean is higher.
+    """
     best, largest = starts[0], 0.0
     for value, x in sorted(((rough(x)[0] if len(starts) > 1 else 1.0, x) for x in starts), reverse=True):
-        if value < WORTH_A_CLIMB * largest:
-            break
+        if value < largest * (1.0 if abs(x - best) < near else WORTH_A_CLIMB):
+            continue
         place, value = _climb(close, x, step)
         if value > largest:
             best, largest = place, value
@@ -230,13 +240,15 @@ def _turned(one: tuple[float, float], other: tuple[float, float]) -> bool:
 def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
     """From a place to a maximum by parabolas through three places, until one foretells the mean there.
 
-    The outer two are the next ones whose means are lower than the highest by more than these miss.
+    The outer two are the next ones whose means are lower than the highest by more than these miss, or that
+    are so far away that next to nothing is to be gained.
     """
-    at, of, foretold = [x], [mean(x)[0]], np.inf
+    at, of, foretold, far = [x], [mean(x)[0]], np.inf, 3.0 * step
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
-        lower = np.flatnonzero(np.array(of) < (1.0 - TOLD_APART) * of[k])
-        before, after = lower[lower < k], lower[lower > k]
+        is_outer = (np.array(of) < (1.0 - TOLD_APART) * of[k]) | (np.abs(np.array(at) - at[k]) >= far)
+        outer = np.flatnonzero(is_outer)
+        before, after = outer[outer < k], outer[outer > k]
         if before.size and after.size:
             three = [int(before[-1]), k, int(after[0])]
             new, foretold = _top_of_parabola([at[j] for j in three], [of[j] for j in three])
