@@ -30,8 +30,6 @@ _INSTALLERS = ("python3 -m venv", "pip install", "python -m pytest", "sphinx-bui
 #: Commands in prose that are run; a placeholder in capitals stands for something that is not there.
 _RUN = ("swtstudy ", "python studies/", "pip install", "sphinx-build", "eval ")
 _PLACEHOLDER = re.compile(r"\b[A-Z]{2,}\b|host:")
-
-
 #: Parts that are made by running, see docs/build_steps/generate.py.
 _MADE = re.compile(r"<!-- (\w+) -->.*<!-- end of \1 -->", re.DOTALL)
 

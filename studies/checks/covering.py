@@ -118,4 +118,4 @@ def _statement(text: str, line: int) -> tuple[range, bool, bool]:
                 decorators = [ast.unparse(each) for each in node.decorator_list]
                 inside = not any("cache" in each for each in decorators)
                 compiled = any(each.startswith("jit") for each in decorators)
-    return span, inside and not compiled, compiled
+    return span, inside, compiled

@@ -20,8 +20,8 @@ from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANT
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
 
-#: An inch and the text of a page, in cm.
-INCH, OF_PAGE = 2.54, 25.0
+#: Height of the text of a page in cm.
+OF_PAGE = 25.0
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -147,6 +147,7 @@ def show(
       swtstudy show --load square loops
     """
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    from swtstudy.figures.sheet import INCH
     from swtstudy.figures.style import save_figure
 
     check_writable(output)

@@ -48,10 +48,11 @@ class Figure(matplotlib.figure.Figure):
 #: Uses of a figure in print; on a screen a figure grows with its panels.
 Width = Literal["column", "page"]
 
-_INCH = 2.54
+#: In cm.
+INCH = 2.54
 #: Widths of a journal's column and page, inches, and the height that a page has for figures.
-WIDTHS: dict[str, float] = {"column": 8.5 / _INCH, "page": 17.5 / _INCH}
-_TALLEST = 23.0 / _INCH
+WIDTHS: dict[str, float] = {"column": 8.5 / INCH, "page": 17.5 / INCH}
+_TALLEST = 23.0 / INCH
 #: Panels side by side in print, where they are no more than fit.
 _ACROSS = {"column": 1, "page": 3}
 #: Size of a panel on a screen, and the width that panels side by side have there at most, inches.
@@ -109,7 +110,7 @@ class Sheet:
 
     def _height(self, across: int) -> float:
         """Height in print with so many panels side by side: flatter where they are wide, 8 cm at most."""
-        each = min(0.85 + 0.45 * WIDTHS[self.width or "page"] / across, 8.0 / _INCH)
+        each = min(0.85 + 0.45 * WIDTHS[self.width or "page"] / across, 8.0 / INCH)
         return max(each, self.least_height) * self.rows * -(-self.count // across)
 
     def figure(self, beside: float = 0.0) -> Figure:

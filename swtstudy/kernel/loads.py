@@ -100,9 +100,8 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
                 load["cosine"][component, i] += amplitude * np.sin(phase)
                 load["sine"][component, i] += amplitude * np.cos(phase)
     orders = [[row[0] // common for row in rows] for rows in components]
-    fastest = max([0, *orders[0], *orders[1]])
     load["bulk_moves"] = len(orders[2]) > 0
-    load["fastest"] = max([1, fastest, *orders[2]])
+    load["fastest"] = max([1, *orders[0], *orders[1], *orders[2]])
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
     if orders[2] and not orders[0]:

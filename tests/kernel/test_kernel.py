@@ -149,10 +149,6 @@ def test_a_tighter_tolerance_is_kept() -> None:
 
 CODE = """
 from swtstudy.kernel.batch import solve_batch
-from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import new_record
-from swtstudy.kernel.contact import CYCLE
-from swtstudy.kernel.history import HISTORY, may_be_refined
 found = solve_batch("rounded_punch", [0.3], [0.4], [0.5], [0.3], [1], [2.0], shape={"flat_radius": [0.5]})[0]
 print(*(float(found[name]) for name in ("s", "critical_x", "critical_angle")))
 """
