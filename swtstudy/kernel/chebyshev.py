@@ -1,4 +1,4 @@
-"""Chebyshev series: at Gauss points for panels over radius, at Lobatto points over time."""
+"""Chebyshev series: at Gauss points for panels over radius, at Lobatto points over time; Gauss quadrature."""
 
 import numpy as np
 
@@ -17,9 +17,24 @@ _RUN = np.polynomial.chebyshev.chebint(np.eye(ORDER), lbnd=-1, axis=0)
 RUN = np.ascontiguousarray((_RUN @ FIT).T)
 
 
+def gauss_legendre(count):
+    """Ascending nodes and weights of Gauss's quadrature on [-1, 1], by Newton's method on Legendre's polynomial.
+
+    NumPy's own one asks LAPACK, whose threads take longer to begin than all of these sums.
+    """
+    node = np.cos(np.pi * (np.arange(count, 0, -1) - 0.25) / (count + 0.5))
+    for _ in range(5):
+        before, value = np.ones(count), node
+        for k in range(2, count + 1):
+            before, value = value, ((2 * k - 1) * node * value - (k - 1) * before) / k
+        slope = count * (before - node * value) / (1.0 - node * node)
+        node = node - value / slope
+    return node, 2.0 / ((1.0 - node * node) * slope * slope)
+
+
 def _means():
     """Shape (3, ORDER, ORDER): values W at Gauss points → coefficients of ∫_0^1 tʲ W(ts) dt."""
-    t, weight = np.polynomial.legendre.leggauss(ORDER)
+    t, weight = gauss_legendre(ORDER)
     t, weight = 0.5 * (1.0 + t), 0.5 * weight
     series_at = np.polynomial.chebyshev.chebvander(t * (GAUSS[:, None] + 1.0) - 1.0, ORDER - 1)
     means = [FIT @ np.einsum("q,iqk->ik", weight * t**j, series_at) @ FIT for j in range(3)]

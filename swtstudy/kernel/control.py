@@ -7,7 +7,7 @@ increasing functions of the profile, through the place s of the edge.
 
 import numpy as np
 
-from swtstudy.kernel.chebyshev import panel_of
+from swtstudy.kernel.chebyshev import gauss_legendre, panel_of
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.load import BY_POWER, BY_SERIES, MAP_ORDER, MAX_MAP, UNMAPPED, mapped
 from swtstudy.kernel.profile import density_at, force_at, place_of
@@ -17,7 +17,7 @@ from swtstudy.kernel.profile import density_at, force_at, place_of
 TOLERANCE, ROUNDING, HALVINGS = 1e-12, 1e-13, 6
 #: The map is a power law below this share of the first panel of the profile.
 POWER_LAW = 1e-6
-NODE, WEIGHT = np.polynomial.legendre.leggauss(12)
+NODE, WEIGHT = gauss_legendre(12)
 _NODES = -np.cos(np.pi * np.arange(MAP_ORDER) / (MAP_ORDER - 1))
 _SERIES = np.linalg.inv(np.polynomial.chebyshev.chebvander(_NODES, MAP_ORDER - 1))
 

@@ -17,6 +17,7 @@ from math import acos, asin, cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.body import COARSEST, PROOF, largest_at
+from swtstudy.kernel.chebyshev import gauss_legendre
 from swtstudy.kernel.compiled import jit, new_record
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
@@ -52,7 +53,7 @@ MOST_VALUES = 3000
 
 def _nodes():
     """Gauss's nodes on [0, 1] of a cell, and the matrix that takes values there to Legendre coefficients."""
-    node, weight = np.polynomial.legendre.leggauss(NODES)
+    node, weight = gauss_legendre(NODES)
     legendre = np.polynomial.legendre.legvander(node, NODES - 1)
     to_series = (legendre * weight[:, None]).T * (np.arange(NODES) + 0.5)[:, None]
     return 0.5 + 0.5 * node, np.ascontiguousarray(to_series)
@@ -62,14 +63,14 @@ def _along():
     """For each number of values on half an arc their places over its length, and their weights."""
     places, weights = np.zeros((2, MAX_ALONG + 1, MAX_ALONG))
     for count in range(1, MAX_ALONG + 1):
-        node, weight = np.polynomial.legendre.leggauss(2 * count)
+        node, weight = gauss_legendre(2 * count)
         places[count, :count], weights[count, :count] = node[count:], weight[count:]
     return places, weights
 
 
 NODE, TO_SERIES = _nodes()
 ALONG, OF_ALONG = _along()
-GAUSS, WEIGHT = np.polynomial.legendre.leggauss(FINE)
+GAUSS, WEIGHT = gauss_legendre(FINE)
 GAUSS, WEIGHT = 0.5 + 0.5 * GAUSS, 0.5 * WEIGHT
 #: Values that a cell's polynomial is made of: the criterion, and what it may miss.
 WHAT = 2

@@ -20,7 +20,7 @@ from math import cos, log, nan, pi, sin
 
 import numpy as np
 
-from swtstudy.kernel.chebyshev import clenshaw, panel_of, vertex
+from swtstudy.kernel.chebyshev import clenshaw, gauss_legendre, panel_of, vertex
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, solve_cycle
 from swtstudy.kernel.control import NODE, WEIGHT, rise
@@ -82,7 +82,7 @@ def _rules():
     nodes, weights = np.zeros((2, 2 * MOST_POINTS))
     m = int(LEAST_POINTS)
     while m <= MOST_POINTS:
-        nodes[m : 2 * m], weights[m : 2 * m] = np.polynomial.legendre.leggauss(m)
+        nodes[m : 2 * m], weights[m : 2 * m] = gauss_legendre(m)
         m *= 2
     return nodes, weights
 

@@ -22,6 +22,7 @@ from functools import partial
 
 import numpy as np
 
+from swtstudy.kernel.chebyshev import gauss_legendre
 from swtstudy.kernel.field import (
     MANY,
     Opened,
@@ -57,7 +58,7 @@ JUMP, LOOKS, HALVINGS = 0.05, 17, 20
 #: Straight down, to the right and down.
 DOWN = (0.0, 1.0)
 #: Gauss's nodes t of a column, at depths 2ℓt², and their weights in the mean over the depths.
-_NODE, _WEIGHT = np.polynomial.legendre.leggauss(3)
+_NODE, _WEIGHT = gauss_legendre(3)
 NODE, OF_LINE = 0.5 + 0.5 * _NODE, 0.5 * (1.0 + _NODE) * _WEIGHT
 #: Most columns within the contact; over s, a limit below which all of them are looked at.
 MOST_COLUMNS, LOWEST = 400, 0.02
