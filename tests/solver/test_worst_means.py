@@ -64,13 +64,13 @@ def test_no_mean_about_another_place_is_larger(name: str) -> None:
     end = largest_radius(cycle) + distance
     for place in np.arange(-end, end, 0.8 * distance):
         volume = mean_about(cycle, SPHERE, place, DOWN, distance, 0.0, 1e-2)[0]
-        assert volume < 1.01 * found["volume"][0, 0]
+        assert volume < 1.01 * found["s_volume"][0, 0]
         for way, direction in enumerate((DOWN, direction_at(cycle, place))):
             point, line = (
                 mean_about(cycle, kind, place, direction, distance, 0.0, 1e-2)[0] for kind in (POINT, LINE)
             )
-            assert point < 1.002 * found["point"][0, 0, way]
-            assert line < 1.005 * found["line"][0, 0, way]
+            assert point < 1.002 * found["s_point"][0, 0, way]
+            assert line < 1.005 * found["s_line"][0, 0, way]
 
 
 #: Lines along critical planes whose largest means a climb from the highest columns misses: a point under
