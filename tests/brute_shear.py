@@ -38,7 +38,7 @@ def highest_at(
 
 def brute(points: Points, criterion: str, sensitivity: float, steps: int = STEPS) -> tuple[float, float]:
     """The largest value on the line y = 0 of a batch of one point, and x there."""
-    cycle, own = LoadCycle.of(points), (criterion, sensitivity)
+    cycle, own = LoadCycle(points), (criterion, sensitivity)
     ends = cycle.radius(cycle.cusps())
     share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps))
     r = np.append((ends[:-1, None] + np.diff(ends)[:, None] * share).ravel(), ends[-1])

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from swtstudy.vocabulary.tables import read_table
@@ -16,8 +15,7 @@ from swtstudy.vocabulary.tables import read_table
 AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(NamedTuple):
     """One family of indenters; its form is in `swtstudy.profiles.families.FORMS`.
 
     Attributes

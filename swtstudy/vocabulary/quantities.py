@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameters import DIRECTIONS
@@ -26,8 +26,7 @@ COUNTS = "strain_cycles"
 COUNTED_SIZES = {"counted_place": 5, "counted_cycle": 8}
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """One quantity.
 
     Attributes
