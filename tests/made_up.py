@@ -6,12 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
+from solved import REGIMES
 
 from swtstudy.archive.netcdf import save as save
 from swtstudy.paper.audit.dataset import AUDITED, audit_dataset
+from swtstudy.paper.audit.report import report as report
 from swtstudy.paper.statements.statement import STATEMENTS as STATEMENTS
 from swtstudy.points.canonical import ROW
-from swtstudy.vocabulary.choices import REGIMES
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
