@@ -49,6 +49,9 @@ class Control(NamedTuple):
     tangential_force: bool = False
 
 
+DISPLACEMENTS = Control()
+
+
 @dataclass(frozen=True)
 class Points:
     """n points of one profile and control, by the names of the parameters; ω2/ω1 = p/q.
@@ -65,7 +68,7 @@ class Points:
     tangential_amplitude: Array
     phase: Array
     shape: dict[str, Array] = field(default_factory=dict)
-    control: Control = Control()
+    control: Control = DISPLACEMENTS
     path: Any = None
     criterion: str = "swt"
     walker_exponent: Array = field(default_factory=_not_given)
@@ -137,7 +140,7 @@ def columns_of(batch: Points) -> dict[str, list[Any]]:
 def results_of(
     batch: Points, rtol: float = 1e-4, quantities: Sequence[str] = (), distance: float | None = None
 ) -> xr.Dataset:
-    """Results at the points of a batch, along the dimension sample; means over a critical distance, if given."""
+    """Results at the points of a batch, along the dimension sample, with means if a distance is given."""
     fixed: dict[str, Any] = {} if batch.criterion == "swt" else {"criterion": batch.criterion}
     if distance is not None:
         fixed["critical_distance"] = distance
