@@ -150,8 +150,8 @@ def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.
     def fails(*_: object, **__: object) -> None:
         raise OSError("not of a file")
 
-    monkeypatch.setattr("matplotlib.figure.Figure.savefig", fails)
-    assert "not of a file" in refused("plot", path)
+    monkeypatch.setattr(Path, "write_bytes", fails)
+    assert refused("plot", path) == "Error: not of a file\n"
     assert not [each for each in tmp_path.iterdir() if each.name.startswith(".")]
 
 
