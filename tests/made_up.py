@@ -59,11 +59,6 @@ def made_up_point(regime: str = "partial_slip", **changes: float) -> np.void:
     return np.array([tuple((found | changes).values())], AUDITED)[0]
 
 
-def made_up_audit_point(row: tuple[float, ...], **_: object) -> np.void:
-    """In the place of `audit_point`, at no cost."""
-    return made_up_point()
-
-
 def audit_of(points: list[np.void], **columns: object) -> xr.Dataset:
     """An audit of points that differ in their phases, and in these columns of their rows."""
     rows = np.zeros(len(points), ROW)
