@@ -72,12 +72,7 @@ class TomlError(ValueError):
         The line of the text, and beneath it a caret where reading it failed; empty if that is unknown.
     """
 
-    def __init__(self, reason: str, shown: str = "") -> None:
-        self.shown = shown
-        super().__init__(reason, shown)
-
-    def __str__(self) -> str:
-        return str(self.args[0])
+    shown: str = ""
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -111,7 +106,9 @@ def _toml_error(reason: str, text: str) -> TomlError:
         reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"
     start = max(0, column - 60)
     mark = " " * (min(column, len(line) + 1) - 1 - start) + "^"
-    return TomlError(f"a syntax error: {reason}", f"{row:>4} | {line[start : start + 100]}\n     | {mark}")
+    error = TomlError(f"a syntax error: {reason}")
+    error.shown = f"{row:>4} | {line[start : start + 100]}\n     | {mark}"
+    return error
 
 
 def plain_float(cell: str) -> float:
