@@ -278,7 +278,7 @@ def body(points: Points) -> Array:
 
 def mean(points: Points) -> Array:
     """The largest mean over a half sphere, or a half disc, about a local maximum."""
-    return np.asarray(worst_means(points, solve(points, RTOL), np.array([DISTANCE]))["volume"][:, 0])
+    return np.asarray(worst_means(points, solve(points, RTOL), np.array([DISTANCE]))["s_volume"][:, 0])
 
 
 def without_bulk(points: Points) -> Array:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
+from solved import REGIMES
 
 from swtstudy.archive.netcdf import save as save
 from swtstudy.paper.audit.dataset import AUDITED, audit_dataset
+from swtstudy.paper.audit.report import report as report
 from swtstudy.paper.statements.statement import STATEMENTS as STATEMENTS
 from swtstudy.points.canonical import ROW
-from swtstudy.vocabulary.choices import REGIMES
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)
@@ -56,11 +57,6 @@ def made_up_point(regime: str = "partial_slip", **changes: float) -> np.void:
     )
     found |= {"s_error": 1e-5, "s_dense": np.nan, "regime": REGIMES.index(regime)}
     return np.array([tuple((found | changes).values())], AUDITED)[0]
-
-
-def made_up_audit_point(row: tuple[float, ...], **_: object) -> np.void:
-    """In the place of `audit_point`, at no cost."""
-    return made_up_point()
 
 
 def audit_of(points: list[np.void], **columns: object) -> xr.Dataset:

@@ -9,14 +9,22 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from solved import Points
+from solved import Control, Points
 
-from swtstudy.vocabulary.choices import FAMILIES, family_of, is_plane
-from swtstudy.vocabulary.parameters import Control
-
-#: Those of discs, which all that is prescribed goes with, and those of strips.
-PROFILE_NAMES = tuple(name for name in FAMILIES if not is_plane(name))
-PLANE_NAMES = tuple(filter(is_plane, FAMILIES))
+#: The shape parameters of each profile.
+SHAPES: dict[str, tuple[str, ...]] = {
+    "paraboloid": (),
+    "rounded_punch": ("flat_radius",),
+    "truncated_paraboloid": ("flat_radius",),
+    "wavy_paraboloid": ("waviness_amplitude", "wavelength"),
+    "power_law": ("exponent",),
+    "cylinder": (),
+    "rounded_flat": ("flat_half_width",),
+    "wavy_cylinder": ("waviness_amplitude", "wavelength"),
+    "power_law_cylinder": ("exponent",),
+}
+#: Profiles of discs, which all that is prescribed goes with, and profiles of strips.
+PROFILE_NAMES, PLANE_NAMES = tuple(SHAPES)[:5], tuple(SHAPES)[5:]
 #: What is prescribed: both forces, or the tangential one beside the depth.
 FORCES, TANGENTIAL_FORCE = Control(True, True), Control(False, True)
 
@@ -52,7 +60,7 @@ def points(
 
 def shape_of(profile: str) -> tuple[str, ...]:
     """Names of the shape parameters of a profile."""
-    return family_of(profile).shape
+    return SHAPES[profile]
 
 
 def take(batch: Points, index: ArrayLike) -> Points:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 import xarray as xr
@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 import swtstudy
 from swtstudy import Study
 from swtstudy.solving import solve_grid
-from swtstudy.vocabulary.parameters import DISPLACEMENTS, Control
 
 Array = NDArray[np.float64]
 
@@ -41,6 +40,16 @@ _BULK = ("bulk_stress_amplitude", "bulk_stress_mean", "bulk_stress_phase")
 
 def _not_given() -> Array:
     return np.empty(0)
+
+
+class Control(NamedTuple):
+    """Whether a force is prescribed in either direction, instead of a displacement."""
+
+    normal_force: bool = False
+    tangential_force: bool = False
+
+
+DISPLACEMENTS = Control()
 
 
 @dataclass(frozen=True)
@@ -128,15 +137,19 @@ def columns_of(batch: Points) -> dict[str, list[Any]]:
     return columns
 
 
-def results_of(batch: Points, rtol: float = 1e-4, quantities: Sequence[str] = ()) -> xr.Dataset:
-    """Results at the points of a batch, along the dimension sample."""
-    fixed = {} if batch.criterion == "swt" else {"criterion": batch.criterion}
+def results_of(
+    batch: Points, rtol: float = 1e-4, quantities: Sequence[str] = (), distance: float | None = None
+) -> xr.Dataset:
+    """Results at the points of a batch, along the dimension sample, with means if a distance is given."""
+    fixed: dict[str, Any] = {} if batch.criterion == "swt" else {"criterion": batch.criterion}
+    if distance is not None:
+        fixed["critical_distance"] = distance
     if batch.bulk_stress_amplitude.any():
         fixed["stick_zone_shift"] = "none"
     columns = columns_of(batch)
     rtol = max(rtol, LEAST_RTOL)
     if batch.path is None and isinstance(batch.profile, str):
-        lines = [f'{name} = "{value}"' for name, value in {"profile": batch.profile, **fixed}.items()]
+        lines = [f"{name} = {value!r}" for name, value in {"profile": batch.profile, **fixed}.items()]
         sample = [f"{name} = {values}" for name, values in columns.items()]
         head = ['title = "t"', f"rtol = {rtol!r}", f"quantities = {list(quantities)}"]
         study = Study.from_text("\n".join([*head, "[fixed]", *lines, "[sample.points]", *sample]))

@@ -7,14 +7,30 @@ import signal
 import tempfile
 import time
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy import Study, run
-from swtstudy.solver.points import Points, Solution
 
 #: Where a stand-in goes when there is no argument for it: on the command line and in a search.
 SOLVER = "swtstudy.solver.points.solve_points"
+
+
+#: What a solver is asked for: arrays by the names of the parameters.
+Points = Any
+
+
+class Solution(NamedTuple):
+    """What a solver finds of n points, arrays of shape (n,)."""
+
+    s: NDArray[np.float64]
+    s_error: NDArray[np.float64]
+    critical_x: NDArray[np.float64]
+    critical_angle: NDArray[np.float64]
+    regime: NDArray[np.int8]
+    s_surface: NDArray[np.float64]
 
 
 def smooth(points: Points, rtol: float) -> Solution:

@@ -2,6 +2,7 @@
 
 import inspect
 import json
+import re
 import subprocess
 import sys
 
@@ -9,12 +10,12 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from command import call
 from folders import STUDIES
 from made_up import PANELS, made_up
 
 import swtstudy
 from swtstudy import Study, StudyError, run
-from swtstudy.results.evaluate import quantity_error
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -99,12 +100,18 @@ def test_normalised_is_s_over_s_there(dataset):
         dataset.swt.normalised("b")
 
 
-def test_errors_of_ratios_add_up(dataset):
-    dataset["s_error"] = 0.01 * dataset.s
-    error = quantity_error(dataset, "s/s(b=0)")
-    assert (error.isel(flat_radius=0) == 0).all()
-    expected = 0.02 * dataset.swt.normalised("b=0").isel(flat_radius=slice(1, None))
-    np.testing.assert_allclose(error.isel(flat_radius=slice(1, None)), expected)
+def test_errors_of_ratios_add_up(archive, dataset, tmp_path):
+    """As the report tells them behind its figure: the stand-in's s has the relative error rtol."""
+    assert call("report", archive, "-o", tmp_path / "page.html").exit_code == 0
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    ratio, error = (
+        np.array(json.loads(re.search(rf'"s/s\(flat_radius=0\){end}": ?(\[.*?\])', page)[1]))
+        for end in ("", "_error")
+    )
+    plain = np.broadcast_to(dataset.flat_radius == 0.0, dataset.s.shape).ravel()
+    assert dataset.s.dims[-1] == "flat_radius"
+    assert (error[plain] == 0.0).all()
+    np.testing.assert_allclose(error[~plain], 2.0 * dataset.attrs["rtol"] * ratio[~plain], rtol=1e-4)
 
 
 def test_extrema_and_where():

@@ -31,7 +31,7 @@ def _model(side: int, width: float, nu: float):
 
 def half_space_s(point: Points, side: int) -> float:
     """s on the line y = 0 of the grid; the time includes the contact solution, which is this package's."""
-    nu, cycle = point.poisson_ratio.item(), LoadCycle.of(point)
+    nu, cycle = point.poisson_ratio.item(), LoadCycle(point)
     largest = cycle.radii[2]
     width = 2.0 * WIDTH * largest
     radius = np.linspace(1e-3, 1.01, RADII) * largest

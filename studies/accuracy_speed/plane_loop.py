@@ -12,7 +12,7 @@ from swtstudy.solver.points import Points
 def plane_loop_s(point: Points, x: float, step: float) -> float:
     """Largest swt over planes every ``step`` degrees, at a given position."""
     nu = point.poisson_ratio.item()
-    xx, yy, zz, xz = stress_at(LoadCycle.of(point), np.array([x]))[:, 0]
+    xx, yy, zz, xz = stress_at(LoadCycle(point), np.array([x]))[:, 0]
     zero = np.zeros_like(xx)
     stress = np.moveaxis(np.array([[xx, zero, xz], [zero, yy, zero], [xz, zero, zz]]), 2, 0)
     trace = np.trace(stress, axis1=1, axis2=2)

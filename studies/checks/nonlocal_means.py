@@ -187,7 +187,7 @@ def excess(point: Points, distance: float) -> FloatArray:
     opened = open_cycle(GROWTH, **arguments_of(point))
     end = largest_radius(opened) + distance
     places = np.linspace(-end, end, min(int(2.0 * end * PLACES / distance), MOST))
-    known = np.concatenate([largest[kind].ravel() for kind in ("volume", "point", "line")])
+    known = np.concatenate([largest[name].ravel() for name in ("s_volume", "s_point", "s_line")])
     return np.max([about(opened, x, distance, OF_PLACES)[0] for x in places], axis=0) / known - 1.0
 
 
@@ -215,7 +215,7 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
             begin = time.process_time()
             for k in range(count):
                 found = worst_means(points[[k]], solve_points(points[[k]], 1e-6), distance)
-                claimed = max(claimed, float((found["volume_error"] / found["volume"]).max()))
+                claimed = max(claimed, float((found["s_volume_error"] / found["s_volume"]).max()))
             spent.append(time.process_time() - begin)
         cells.append(f"{1e3 * min(spent) / count:.1f} ms")
     name = f"{scene[0]}, δA/δ0 = {scene[2]:g}, ω2/ω1 = {scene[3][0]}/{scene[3][1]}"

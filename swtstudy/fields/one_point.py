@@ -46,7 +46,7 @@ def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
     StudyError
         A ValueError with every mistake in the parameters, or if there is no equilibrium.
     """
-    cycle = LoadCycle.of(read_point(parameters))
+    cycle = LoadCycle(read_point(parameters))
     if not cycle.equilibrium:
         raise StudyError([_no_equilibrium(cycle.points, parameters)])
     return cycle

@@ -12,14 +12,13 @@ equal tractions.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from swtstudy.profiles.at_rest import AtRest
-from swtstudy.solver.points import Points
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
+from swtstudy.solver.points import Points, arguments_of
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 
 #: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
@@ -53,7 +52,6 @@ def margins_of(points: Points) -> Margins:
     """
     # Compiled: whoever only reads a study does without.
     from swtstudy.kernel.batch import margins_batch
-    from swtstudy.solver.points import arguments_of
 
     found = margins_batch(**arguments_of(points))
     return {name: found[name].astype(float) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}
@@ -112,7 +110,9 @@ def _seen(points: Points, shift: FloatArray) -> Margins:
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
     largest = _largest(normal, smooth)
     control, plane = points.control, is_plane(points.profile)
-    for rows in _of_one_shape(points) if control.mixed and not plane else ():
+    shapes = np.stack([np.zeros(len(points)), *points.shape.values()], axis=1)
+    for shape in np.unique(shapes, axis=0) if control.mixed and not plane else ():
+        rows = np.flatnonzero((shapes == shape).all(axis=1))
         scale = _other_coordinate(points[rows[:1]], float(largest[rows].max()))
         for values in (normal, largest):
             own = np.interp(np.maximum(values[rows], 0.0), *scale)
@@ -150,14 +150,6 @@ def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArra
     own = coordinate.reshape(1, -1) if alike else coordinate
     found = at_rest.radius_at(own * at_rest.unit()) if in_force else at_rest.radius(own)
     return found.reshape(coordinate.shape)
-
-
-def _of_one_shape(points: Points) -> Iterator[IndexArray]:
-    """Rows of points whose profiles have one shape."""
-    shapes = np.stack([np.zeros(len(points)), *points.shape.values()], axis=1)
-    which = np.unique(shapes, axis=0, return_inverse=True)[1].reshape(-1)
-    for number in range(which.max() + 1):
-        yield np.flatnonzero(which == number)
 
 
 def _other_coordinate(point: Points, largest: float) -> tuple[FloatArray, FloatArray]:

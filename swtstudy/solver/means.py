@@ -41,8 +41,8 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Kinds of means, and the kernel's.
 KINDS = {"volume": SPHERE, "point": POINT, "line": LINE}
-#: Endings of the names of a kind: the mean, its error, and the place that it is about.
-ENDS = ("", "_error", "_x")
+#: Data variables of a kind: the mean, its error, and the place that it is about.
+VARIABLES = {kind: (f"s_{kind}", f"s_{kind}_error", f"{kind}_x") for kind in KINDS}
 #: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
 #: tolerance of what grew in stick.
 RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
@@ -77,14 +77,7 @@ def _of_disc() -> FloatArray:
 OF_DISC, OF_POINT = _of_disc(), np.array([0.0, 1.0, 0.0])
 
 
-#: swt over k critical distances at n points, over E* δ0/R as s, NaN without s. ``volume``, shape (n, k), are
-#: means over half spheres, or half discs in the plane; ``point`` and ``line``, shape (n, k, 2), values at ℓ/2
-#: and means over 0 … 2ℓ in both `DIRECTIONS`. Each has its absolute error, such as ``volume_error``, and the
-#: signed x of the place of the surface line that it is about, such as ``volume_x``: NaN far from the contact.
-Means = dict[str, FloatArray]
-
-
-def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Means:
+def worst_means(points: Points, solution: Solution, distance: FloatArray) -> dict[str, FloatArray]:
     """The largest means over places of the surface line.
 
     Each kind, distance and direction has its own place.
@@ -95,25 +88,35 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
         n points and their solution.
     distance
         Shape (k,): ℓ > 0 in a_H.
+
+    Returns
+    -------
+    dict
+        By data variable, over E* δ0/R as s, NaN without s. ``s_volume``, shape (n, k), are means over half
+        spheres, or half discs in the plane; ``s_point`` and ``s_line``, shape (n, k, 2), values at ℓ/2 and
+        means over 0 … 2ℓ in both `DIRECTIONS`. Each has its absolute error, such as ``s_volume_error``, and
+        the signed x of the place of the surface line that it is about, such as ``volume_x``: NaN far from
+        the contact.
     """
     shape = len(solution.s), len(distance), len(DIRECTIONS)
     found = {
-        f"{kind}{end}": np.full(shape[:2] if kind == "volume" else shape, np.nan)
-        for kind in KINDS
-        for end in ENDS
+        name: np.full(shape[:2] if kind == "volume" else shape, np.nan)
+        for kind, names in VARIABLES.items()
+        for name in names
     }
     for row in np.flatnonzero(np.isfinite(solution.critical_x)):
         opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
         critical, s = float(solution.critical_x[row]), float(solution.s[row])
         for k, each in enumerate(distance):
             for kind, means in _largest(opened, critical, s, float(each)).items():
-                for end, own in zip(ENDS, means.T, strict=True):
-                    found[f"{kind}{end}"][row, k] = own[0] if kind == "volume" else own
+                for name, own in zip(VARIABLES[kind], means.T, strict=True):
+                    found[name][row, k] = own[0] if kind == "volume" else own
     # Where s is 0, or the bulk stress alone makes it far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
-    for kind in KINDS:
-        for name, of in ((kind, solution.s), (f"{kind}_error", solution.s_error)):
-            found[name][rows] = of[rows].reshape(-1, *(1,) * (found[name].ndim - 1))
+    for mean, error, _ in VARIABLES.values():
+        # The points come last, so that their values are repeated along the other dimensions.
+        found[mean].T[..., rows] = solution.s[rows]
+        found[error].T[..., rows] = solution.s_error[rows]
     return found
 
 

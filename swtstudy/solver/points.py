@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.vocabulary.arrays import Columns, FloatArray, IntArray, Shape
+from swtstudy.vocabulary.arrays import FloatArray, IntArray, Shape
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, PARAMETERS, Control
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ _not_given = partial(np.empty, 0)
 
 
 @dataclass(frozen=True)
-class Points(Columns):
+class Points:
     """A batch of n parameter points that share one profile family and control (eq. 20).
 
     Attributes
@@ -80,6 +80,11 @@ class Points(Columns):
 
     def __len__(self) -> int:
         return len(self.phase)
+
+    def __getitem__(self, index: Any) -> Self:
+        """The points at an index of NumPy's, repetitions allowed."""
+        own = {name: value[index] for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        return replace(self, **own, shape={name: value[index] for name, value in self.shape.items()})
 
 
 class Solution(NamedTuple):

@@ -11,13 +11,14 @@ from __future__ import annotations
 import numpy as np
 
 from swtstudy.kernel.batch import count_batch, cycle_batch
-from swtstudy.kernel.work import OF_CYCLE
 from swtstudy.solver.means import worst_means
 from swtstudy.solver.points import Points, Solution, arguments_of
 from swtstudy.solver.von_mises import largest_von_mises
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.quantities import COUNTED_SIZES, NAMED, YIELD, Request, error_of
+from swtstudy.vocabulary.quantities import COUNTED_SIZES, YIELD, Request
 
+#: Data variables that the kernel has by other names.
+_OF_CYCLE = {"work": "dissipation", "work_error": "dissipation_error"}
 #: Cycles whose SWT differ by less than this, relative, are equal.
 EQUAL = 1e-6
 #: Cycles are alike whose logarithms of SWT differ by less than a width times that to the largest SWT plus so
@@ -48,29 +49,24 @@ def quantities_of(points: Points, asked: Request, solution: Solution) -> dict[st
         where there is no cycle, and the nonlocal ones where s is not finite.
     """
     made: dict[str, FloatArray] = {}
-    functions = {row.function for row in asked.rows}
-    if functions & {*(OF_CYCLE.names or ())}:
-        cycles = cycle_batch("force_ratio" in functions, **arguments_of(points))
-        made |= {name: cycles[name].copy() for name in cycles.dtype.names}
+    if {*asked.names} - {YIELD}:
+        cycles = cycle_batch("force_ratio" in asked.names, **arguments_of(points))
+        made |= {_OF_CYCLE.get(name, name): cycles[name].copy() for name in cycles.dtype.names}
     if YIELD in asked.names:
-        made[NAMED[YIELD].function] = largest_von_mises(points)
+        made[YIELD] = largest_von_mises(points)
     if asked.distances:
         made |= worst_means(points, solution, np.array(asked.distances))
     if asked.counts:
         made |= few_cycles(points, solution)
-    return {
-        name: made[key]
-        for row in asked.rows
-        for name, key in zip(row.variables, (row.function, error_of(row.function)), strict=False)
-    }
+    return {name: made[name] for row in asked.rows for name in row.variables}
 
 
 def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
     """Strain cycles in a round of n points with their solution, of shape (n, places, cycles).
 
-    `COUNTED_SIZES` gives the sizes. ``share`` is SWT of a cycle over the largest SWT, descending at each
-    place, and ``number`` how many cycles have it; NaN where there are no more, or no critical plane. Where
-    there is a plane but no critical point, s is that far from the contact.
+    `COUNTED_SIZES` gives the sizes. ``counted`` is SWT of a cycle over the largest SWT, descending at each
+    place, and ``counted_number`` how many cycles have it; NaN where there are no more, or no critical plane.
+    Where there is a plane but no critical point, s is that far from the contact.
     """
     share, number = np.full((2, len(points), *COUNTED_SIZES.values()), np.nan)
     double_angle = np.radians(2.0 * solution.critical_angle)
@@ -79,7 +75,7 @@ def few_cycles(points: Points, solution: Solution) -> dict[str, FloatArray]:
         for place, cycles in enumerate(places):
             shares, numbers = few(cycles, share.shape[-1])
             share[point, place, : shares.size], number[point, place, : shares.size] = shares, numbers
-    return {"share": share, "number": number}
+    return {"counted": share, "counted_number": number}
 
 
 def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:

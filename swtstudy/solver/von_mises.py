@@ -45,38 +45,29 @@ def largest_von_mises(points: Points) -> FloatArray:
 
 
 def _of_one(opened: Opened) -> float:
+    """The same of one point: from the highest places of a mesh uphill, at a tip, and far from the contact."""
     profile, reach = opened.profile, largest_radius(opened)
-    face = float(profile["flat_radius"])
+    face, feature = float(profile["flat_radius"]), 2.0 * float(profile["longest"])
     if profile["singular"] and face > 0.0:
         return np.inf
-    ring = reach - face
-    beside = _beside_face(opened, ring) if ring < 0.5 * reach else np.empty((0, 3))
+    # About the edge of a face that is much wider than the ring of contact beside it.
+    ring, beside = reach - face, np.empty((0, 3))
+    if ring < 0.5 * reach:
+        beside = _around_axis(opened, face + ring * BESIDE_FACE, ring * BENEATH_EDGE)
+    waves = min(IN_A_WAVE * reach / feature, MOST_RADII)
+    radii = RADII if waves < len(RADII) else np.linspace(0.0, RADII[-1], int(waves))
+    mesh = _around_axis(opened, reach * radii, reach * DEPTHS)
     passed = np.append(passed_radii(opened, MOST_PASSED), face)
-    surface = _around_axis(opened, np.unique(passed), np.zeros(1))
-    place = np.concatenate([beside, _mesh(opened, reach), surface])
+    place = np.concatenate([beside, mesh, _around_axis(opened, np.unique(passed), np.zeros(1))])
     largest = von_mises_at(opened, place)
     starts = np.array(_highest(place, largest, APART * reach))
-    feature = 2.0 * float(profile["longest"])
     step = FIRST_STEP * np.minimum(np.where(starts < len(beside), ring, reach), feature)
     top = _climb(opened, place[starts], largest[starts], step)
     return max(top, _at_tip(opened), _far_away(opened))
 
 
-def _mesh(opened: Opened, reach: float) -> FloatArray:
-    """Places x, y, z in a_H all over the body, shape (m, 3); nothing is different at −y."""
-    waves = min(IN_A_WAVE * reach / (2.0 * float(opened.profile["longest"])), MOST_RADII)
-    radii = RADII if waves < len(RADII) else np.linspace(0.0, RADII[-1], int(waves))
-    return _around_axis(opened, reach * radii, reach * DEPTHS)
-
-
-def _beside_face(opened: Opened, ring: float) -> FloatArray:
-    """Places about the edge of a face that is much wider than the ring of contact beside it, shape (m, 3)."""
-    radii = float(opened.profile["flat_radius"]) + ring * BESIDE_FACE
-    return _around_axis(opened, radii, ring * BENEATH_EDGE)
-
-
 def _around_axis(opened: Opened, radius: FloatArray, depth: FloatArray) -> FloatArray:
-    """Places at all angles that matter, shape (m, 3)."""
+    """Places x, y, z in a_H at all angles that matter, shape (m, 3); nothing is different at −y."""
     # Half a cycle later the stress of a mirrored load is the stress of the other side.
     angle = np.linspace(0.0, np.pi, 2 if opened.profile["plane"] else ANGLES)
     angle = angle[: (len(angle) + 1) // 2] if opened.load["mirrored"] else angle

@@ -7,15 +7,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
-from typing import NamedTuple, TypeGuard
+from typing import NamedTuple
+
+from swtstudy.vocabulary.tables import read_table
 
 #: Kinds of contact: a disc, or a strip in plane strain.
 AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
 
 
-@dataclass(frozen=True)
-class Family:
+class Family(NamedTuple):
     """One family of indenters; its form is in `swtstudy.profiles.families.FORMS`.
 
     Attributes
@@ -37,32 +37,13 @@ class Family:
     geometry: str = AXISYMMETRIC
 
 
-FAMILIES: dict[str, Family] = {
-    family.name: family
-    for family in (
-        Family("paraboloid"),
-        Family("rounded_punch", ("flat_radius",), plain=("flat_radius", 0.0)),
-        Family("truncated_paraboloid", ("flat_radius",), plain=("flat_radius", 0.0)),
-        Family("wavy_paraboloid", ("waviness_amplitude", "wavelength"), plain=("waviness_amplitude", 0.0)),
-        Family("power_law", ("exponent",), plain=("exponent", 2.0)),
-        Family("cylinder", geometry=PLANE),
-        Family("rounded_flat", ("flat_half_width",), ("flat_half_width", 0.0), PLANE),
-        Family("wavy_cylinder", ("waviness_amplitude", "wavelength"), ("waviness_amplitude", 0.0), PLANE),
-        Family("power_law_cylinder", ("exponent",), ("exponent", 2.0), PLANE),
-    )
-}
-
+FAMILIES = {name: Family(name, **row) for name, row in read_table(__file__, "families").items()}
 #: The family of what the user has defined.
 TABLE = Family("table")
 
 #: The families that others of their geometry are at their plain shape.
 PLAIN, PLAIN_STRIP = "paraboloid", "cylinder"
 PLAIN_OF = {AXISYMMETRIC: PLAIN, PLANE: PLAIN_STRIP}
-
-
-def is_profile(raw: object) -> TypeGuard[str]:
-    """Return whether something is the name of a profile."""
-    return isinstance(raw, str) and raw in FAMILIES
 
 
 def family_of(profile: object) -> Family:
@@ -101,30 +82,8 @@ class Drawing(NamedTuple):
     over: str = ""
 
 
-_UPRIGHT = {"vertical": ", whose vertical axis is y"}
-_CONTOUR = '; kind = "contour" draws borders of regimes, and y = "regime" the regimes themselves'
 #: The kinds of figures.
-FIGURES = {
-    "lines": Drawing("lines", "lines over x", _UPRIGHT),
-    "life": Drawing("lines", "lines with x upright over a life, as S–N curves", {**_UPRIGHT, "regimes": ""}),
-    "contour": Drawing("surface", "contours over x and vertical", {"hue": ""}),
-    "heatmap": Drawing(
-        "surface", "a cell for each point over x and vertical", {"hue": "", "regimes": _CONTOUR}
-    ),
-    "scatter": Drawing(
-        "sample",
-        "the points of a sample, with a panel for each of its parameters",
-        {**_UPRIGHT, "panels": ": every sampled parameter has its own", "regimes": ""},
-        "over each sampled parameter",
-    ),
-    "histogram": Drawing(
-        "sample",
-        "how often a sample has which values",
-        {**_UPRIGHT, "regimes": "", "validity": ""},
-        "at the points of the sample",
-    ),
-}
-
+FIGURES = {name: Drawing(**row) for name, row in read_table(__file__, "figures").items()}
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
@@ -132,7 +91,8 @@ REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_
 WITHOUT_S = ("not_finite", "no_equilibrium")
 
 #: Whether a bulk stress moves the stick zone, where that is known, or leaves it in its place.
-MOVED, NONE = SHIFTS = ("moved", "none")
+MOVED = "moved"
+SHIFTS = (MOVED, "none")
 
 
 class Swing(NamedTuple):
@@ -195,46 +155,10 @@ NORMAL_STRAIN = Swing("normal_strain", "strain normal to the plane", r"\varepsil
 SHEAR_STRESS = Swing("shear_stress", "shear stress on the plane", r"\tau")
 #: Names of the Smith–Watson–Topper parameter and of the criteria of shear.
 SWT, FATEMI_SOCIE, FINDLEY = "swt", "fatemi_socie", "findley"
+_SWINGS = {swing.name: swing for swing in (NORMAL_STRAIN, SHEAR_STRESS)}
 CRITERIA = {
-    SWT: Criterion(
-        "Smith-Watson-Topper parameter",
-        "swt",
-        2,
-        NORMAL_STRAIN,
-        "SWT",
-        "maximum Smith-Watson-Topper parameter over SWT0 = E* delta0 / R",
-        r"\mathrm{SWT}/\mathrm{SWT}_0",
-        *("SWT", r"\mathrm{SWT}", "stress", "swt_of"),
-        life="cycles",
-        constants=("materials",),
-    ),
-    FATEMI_SOCIE: Criterion(
-        "Fatemi-Socie parameter",
-        r"\mathrm{FS}",
-        1,
-        SHEAR_STRESS,
-        "Fatemi-Socie parameter",
-        "maximum Fatemi-Socie parameter times G over E* delta0 / a_H",
-        r"G \mathrm{FS}/(E^*\delta_0/a_H)",
-        *("FS", r"\mathrm{FS}", "1", "strain_of"),
-        life="FS_cycles",
-        subscript="FS",
-        by=" by Fatemi and Socie",
-        constants=("materials", "shear_materials"),
-        normal_unit="yield_strengths",
-    ),
-    FINDLEY: Criterion(
-        "Findley stress",
-        "f",
-        1,
-        SHEAR_STRESS,
-        "Findley stress",
-        "maximum Findley stress over E* delta0 / a_H",
-        r"f/(E^*\delta_0/a_H)",
-        *("findley_stress", "f", "stress", "stress_scale"),
-        limit="findley_limits",
-        usage="findley_usage",
-    ),
+    name: Criterion(**row | {"swing": _SWINGS[row["swing"]]})
+    for name, row in read_table(__file__, "criteria").items()
 }
 
 

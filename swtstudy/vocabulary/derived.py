@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, Criterion
 from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, error_of
+from swtstudy.vocabulary.tables import read_table
 
 #: Per cent of the bodies that have a crack before the life of that name.
 PERCENTS = (10, 50, 90)
@@ -98,41 +99,17 @@ def _of_scatter(row: Criterion, end: str) -> Iterator[Derived]:
 
 
 def _rows() -> Iterator[Derived]:
+    """All rows: of each criterion, of every criterion alike, and lives by blocks and by scatter."""
     for criterion, row in CRITERIA.items():
         yield from _of_criterion(criterion, row)
-    work, always = "work of friction in a cycle", "that always sticks"
-    length, stress = ("length", "length_scale"), ("stress", "stress_scale")
-    yield Derived("critical_position", "x", "position of the critical point", *length, "critical_x")
-    for place, quantity in NONLOCAL.items():
-        if quantity.is_place:
-            name = f"{place.removesuffix('_x')}_position"
-            yield Derived(name, "x", quantity.meaning, *length, place)
-    yield Derived("dissipation", "W", work, "work", "work_scale", "dissipation")
-    error = error_of("dissipation")
-    yield Derived(error, r"\Delta W", f"error of {work}", "work", "work_scale", error)
-    yield Derived("stick_radius", "c", f"{{radius}} {always}", *length, "stick_radius")
-    for end in STICK_ENDS:
-        side = end.removeprefix("stick_")
-        yield Derived(end, rf"x_\mathrm{{{side}}}", f"{side} end of what always sticks", *length, end)
-    largest = "largest_contact_radius", r"a_\mathrm{max}", "largest contact {radius}"
-    yield Derived(*largest, *length, "contact_radius")
-    yield Derived("bulk_shift", "e", "shift of the stick zone by the bulk strain", *length, "bulk_shift")
-    yield Derived(YIELD, r"\sigma_\mathrm{v}", "largest von Mises stress", *stress, YIELD)
-    over = r"\sigma_\mathrm{v}/\sigma_\mathrm{y}", "largest von Mises stress over the yield strength"
-    yield Derived("yield_ratio", *over, "1", "stress_scale", YIELD, ("yield_strengths",))
-    for name, symbol, meaning, unit in (
-        ("contact_radius", "a_0", "contact {radius} at the mean {mean}", "length"),
-        ("peak_pressure", "p_0", "largest pressure at the mean {mean}", "stress"),
-        ("depth", r"\delta_0", "mean indentation {mean}", "length"),
-        ("normal_force", "F_0", "normal force at the mean {mean}", "force"),
-    ):
-        yield Derived(name, symbol, meaning, unit, name)
-    alive = [row for row in CRITERIA.values() if row.life]
-    for row in alive:
+    for name, alike in read_table(__file__, "derived").items():
+        yield Derived(name, **alike)
+    with_life = [row for row in CRITERIA.values() if row.life]
+    for row in with_life:
         for end in _ENDS.values():
             yield from _of_life(row, end)
     for end in _ENDS.values():
-        yield from _of_scatter(alive[0], end)
+        yield from _of_scatter(with_life[0], end)
 
 
 #: Ends of names by what they are made of: s, and its means over a critical distance.

@@ -72,12 +72,7 @@ class TomlError(ValueError):
         The line of the text, and beneath it a caret where reading it failed; empty if that is unknown.
     """
 
-    def __init__(self, reason: str, shown: str = "") -> None:
-        self.shown = shown
-        super().__init__(reason, shown)
-
-    def __str__(self) -> str:
-        return str(self.args[0])
+    shown: str = ""
 
 
 def parse_toml(text: str) -> dict[str, Any]:
@@ -111,7 +106,9 @@ def _toml_error(reason: str, text: str) -> TomlError:
         reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"
     start = max(0, column - 60)
     mark = " " * (min(column, len(line) + 1) - 1 - start) + "^"
-    return TomlError(f"a syntax error: {reason}", f"{row:>4} | {line[start : start + 100]}\n     | {mark}")
+    error = TomlError(f"a syntax error: {reason}")
+    error.shown = f"{row:>4} | {line[start : start + 100]}\n     | {mark}"
+    return error
 
 
 def plain_float(cell: str) -> float:
@@ -138,9 +135,7 @@ def check_writable(path: str | PathLike[str]) -> None:
     path = _target(path)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = _temporary(path, path.parent)
-        os.close(handle)
-        os.unlink(name)
+        tempfile.TemporaryFile(dir=path.parent).close()
     except OSError as error:
         raise type(error)(f"cannot write into the folder {path.parent}: {error.strerror}") from error
 
@@ -161,23 +156,22 @@ def replacing(path: str | PathLike[str], folder: Path | None = None) -> Iterator
     target = _target(path)
     if Path(path).is_symlink():
         folder = None  # it may point to another file system
-    handle, name = _temporary(target, folder or target.parent)
+    handle, name = tempfile.mkstemp(target.suffix, f".{target.stem}-", folder or target.parent)
     os.close(handle)
     temporary = Path(name)
     try:
         yield temporary
+        mask = os.umask(0)
+        os.umask(mask)
         with suppress(OSError):  # a file system without modes
             # mkstemp creates files that only their owner can read.
-            temporary.chmod(0o666 & ~_umask())
+            temporary.chmod(0o666 & ~mask)
         _sync(temporary)
         os.replace(temporary, target)
-    except OSError as error:
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
-        if error.errno is None or error.filename not in (None, name):
-            raise
-        raise type(error)(error.errno, error.strerror, str(path)) from error
-    except BaseException:
-        temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno is not None and error.filename in (None, name):
+            raise type(error)(error.errno, error.strerror, str(path)) from error
         raise
     _sync(target.parent)
 
@@ -208,18 +202,8 @@ def unfinished(folder: Path, stem: str) -> list[Path]:
     return [path for path in folder.glob(".*") if name.fullmatch(path.name)]
 
 
-def _temporary(path: Path, folder: Path) -> tuple[int, str]:
-    return tempfile.mkstemp(prefix=f".{path.stem}-", suffix=path.suffix, dir=folder)
-
-
 #: Errors of file systems that cannot sync folders.
 _NO_FOLDERS = (errno.EINVAL, errno.ENOTSUP, errno.EBADF, errno.ENOSYS)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _sync(path: Path) -> None:

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from math import inf
 
-from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, MOVED, SHIFTS, SWT
+from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, SHIFTS
 from swtstudy.vocabulary.parameter import Parameter, spelled
+from swtstudy.vocabulary.tables import read_table
 
 #: The load of the paper.
 HARMONIC = "harmonic"
@@ -23,204 +23,26 @@ LOOP_AMPLITUDE = 1.0
 
 #: The parameters that say whether a bulk stress moves the stick zone, and by how much its body strains.
 SHIFT, STRAIN_SHARE = "stick_zone_shift", "bulk_strain_share"
+#: Into the body from the critical point: straight down, or along the critical plane.
+DIRECTIONS = ("depth", "critical_plane")
 
-#: Largest numerator and denominator of a frequency ratio: the common period grows with them.
-LARGEST_FREQUENCY_TERM = 64
-
-PARAMETERS: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter("poisson_ratio", r"\nu", "ν", "Poisson ratio", 0.3, 0.0, 0.5, part="body"),
-        Parameter("friction", r"\mu", "μ", "coefficient of friction", 0.3, 0.0, 10.0, part="body"),
-        Parameter(
-            "normal_amplitude",
-            r"\delta_A/\delta_0",
-            "δA",
-            "amplitude of the normal oscillation",
-            0.75,
-            upper=10.0,
-            scale="δ0",
-        ),
-        Parameter(
-            "normal_force_amplitude",
-            r"F_A/F_0",
-            "FA",
-            "amplitude of the normal force",
-            upper=10.0,
-            scale="F0",
-            instead_of="normal_amplitude",
-        ),
-        Parameter(
-            "frequency_ratio",
-            r"\omega_2/\omega_1",
-            "ω2",
-            "frequency of the tangential over that of the normal oscillation",
-            1.0,
-            upper=LARGEST_FREQUENCY_TERM,
-            open_lower=True,
-            kind="ratio",
-        ),
-        Parameter(
-            "tangential_amplitude",
-            r"G^* u_A/(\mu E^* \delta_0)",
-            "uA",
-            "amplitude of the tangential oscillation",
-            5 / 6,
-            upper=100.0,
-            scale="μ E* δ0/G*",
-            note="along an axis of friction it stays, so that uA itself moves with μ",
-        ),
-        Parameter(
-            "tangential_force_amplitude",
-            r"Q_A/(\mu F_0)",
-            "QA",
-            "amplitude of the tangential force",
-            upper=100.0,
-            scale="μ F0",
-            instead_of="tangential_amplitude",
-            note="along an axis of friction it stays, so that QA itself moves with μ",
-        ),
-        Parameter(
-            "phase", r"\psi", "ψ", "phase of the normal oscillation", 0.0, -1000.0, 1000.0, units="rad"
-        ),
-        Parameter(
-            "load",
-            r"\mathrm{load}",
-            "load",
-            "course of the load: two harmonic oscillations, or the name of a loop",
-            HARMONIC,
-            names=(HARMONIC,),
-            optional=True,
-        ),
-        Parameter(
-            "profile", "f", "f", "profile of the indenter", "paraboloid", names=tuple(FAMILIES), part="shape"
-        ),
-        Parameter(
-            "flat_radius", r"b/a_H", "b", "radius of the punch face", upper=100.0, part="shape", scale="a_H"
-        ),
-        Parameter(
-            "flat_half_width",
-            r"b/a_H",
-            "b",
-            "half-width of the flat face",
-            upper=100.0,
-            part="shape",
-            scale="a_H",
-        ),
-        Parameter(
-            "waviness_amplitude",
-            r"h/\delta_0",
-            "h",
-            "amplitude of the waviness",
-            upper=10.0,
-            part="shape",
-            scale="δ0",
-        ),
-        Parameter(
-            "wavelength",
-            r"\lambda/\sqrt{hR}",
-            "λ",
-            "wavelength of the waviness",
-            upper=1000.0,
-            open_lower=True,
-            part="shape",
-            scale="√(hR)",
-        ),
-        Parameter(
-            "exponent", "n", "n", "exponent of the power law", None, 1.0, 20.0, open_lower=True, part="shape"
-        ),
-        Parameter(
-            "bulk_stress_amplitude",
-            r"\sigma_{B,A}/(E^* \delta_0/a_H)",
-            "BA",
-            "amplitude of the bulk stress, with the tangential frequency",
-            0.0,
-            upper=10.0,
-            part="bulk",
-            optional=True,
-            scale="E* δ0/a_H",
-        ),
-        Parameter(
-            "bulk_stress_mean",
-            r"\sigma_{B,m}/(E^* \delta_0/a_H)",
-            "Bm",
-            "mean of the bulk stress",
-            0.0,
-            -10.0,
-            10.0,
-            part="bulk",
-            optional=True,
-            scale="E* δ0/a_H",
-        ),
-        Parameter(
-            "bulk_stress_phase",
-            r"\psi_B",
-            "ψB",
-            "phase of the bulk stress against the tangential oscillation",
-            0.0,
-            -1000.0,
-            1000.0,
-            part="bulk",
-            optional=True,
-            units="rad",
-        ),
-        Parameter(
-            STRAIN_SHARE,
-            r"2\epsilon_1/(\epsilon_1+\epsilon_2)",
-            "κB",
-            "strain of the body with the bulk stress over the mean of both bodies, under equal tractions",
-            1.0,
-            lower=-2.0,
-            upper=2.0,
-            part="bulk",
-            optional=True,
-            note="real contacts have it from their moduli; negative in the other body, which the bulk stress "
-            "reaches by the stick zone alone",
-        ),
-        Parameter(
-            SHIFT,
-            r"\mathrm{shift}",
-            "shift",
-            "whether the bulk stress moves the stick zone where that is known, or not",
-            MOVED,
-            names=SHIFTS,
-            part="bulk",
-            optional=True,
-        ),
-        Parameter(
-            "criterion",
-            r"\mathrm{criterion}",
-            "criterion",
-            "criterion of which s is the largest value",
-            SWT,
-            names=tuple(CRITERIA),
-            part="criterion",
-            optional=True,
-        ),
-        Parameter(
-            "walker_exponent",
-            r"\gamma",
-            "γ",
-            "Walker exponent",
-            0.5,
-            upper=0.9,
-            open_lower=True,
-            part="criterion",
-            optional=True,
-        ),
-        Parameter(
-            "normal_sensitivity",
-            r"k",
-            "k",
-            "sensitivity of a criterion of shear to the normal stress",
-            0.0,
-            upper=100.0,
-            part="criterion",
-            optional=True,
-            note="of fatemi_socie in a_H/(E* δ0), k E* δ0/(a_H σ_y); of findley a number",
-        ),
-    )
+_NAMES = {
+    "load": (HARMONIC,),
+    "profile": tuple(FAMILIES),
+    SHIFT: SHIFTS,
+    "criterion": tuple(CRITERIA),
+    "direction": DIRECTIONS,
 }
+_ROWS = [
+    Parameter(name, names=_NAMES.get(name, ()), **row)
+    for name, row in read_table(__file__, "parameters").items()
+]
+#: Dimensions of quantities beside s that the points do not have.
+QUANTITY_AXES = {row.name: row for row in _ROWS if row.part == "quantity"}
+#: Parameters of real contacts alone. The study names their units: see `swtstudy.units.rows`.
+CONTACT_AXES = {row.name: row for row in _ROWS if row.part == "contact"}
+PARAMETERS = {row.name: row for row in _ROWS if row.part not in ("quantity", "contact")}
+AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)
 
 #: Names by letter, the first one of those that share it.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
@@ -289,48 +111,6 @@ CONTROLS: dict[Control, str] = {
     Control(False, True): "normal_displacement+tangential_force",
 }
 
-
-#: Into the body from the critical point: straight down, or along the critical plane.
-DIRECTIONS = ("depth", "critical_plane")
-
-#: Dimensions of quantities beside s that the points do not have.
-QUANTITY_AXES: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter(
-            "critical_distance",
-            r"\ell/a_H",
-            "ℓ",
-            "critical distance of the nonlocal values",
-            upper=10.0,
-            open_lower=True,
-            part="quantity",
-            scale="a_H",
-        ),
-        Parameter(
-            "direction", "", "", "direction from the critical point", names=DIRECTIONS, part="quantity"
-        ),
-    )
-}
-
-#: Parameters of real contacts alone. The study names their units: see `swtstudy.units.rows`.
-CONTACT_AXES: dict[str, Parameter] = {
-    p.name: p
-    for p in (
-        Parameter(name, symbol, letter, meaning, upper=inf, open_lower=True, part="contact")
-        for name, symbol, letter, meaning in (
-            ("young_modulus", "E", "E", "Young modulus"),
-            ("radius", "R", "R", "radius of the relative curvature, 1/R = 1/R1 + 1/R2"),
-            ("depth", r"\delta_0", "δ0", "mean indentation depth"),
-            ("normal_force", "F_0", "F0", "normal force at the mean depth"),
-            ("contact_length", "L", "L", "length of a plane contact, across its section"),
-            ("bulk_stress_ratio", r"R_\sigma", "Rσ", "minimum divided by maximum bulk stress"),
-            ("body", r"\mathrm{body}", "body", "body, 1 or 2"),
-        )
-    )
-}
-
-AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)
 
 #: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
 SYMBOLS: dict[str, tuple[str, str]] = {

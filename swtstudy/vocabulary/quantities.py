@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameters import DIRECTIONS
+from swtstudy.vocabulary.tables import read_table
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
@@ -25,8 +26,7 @@ COUNTS = "strain_cycles"
 COUNTED_SIZES = {"counted_place": 5, "counted_cycle": 8}
 
 
-@dataclass(frozen=True)
-class Quantity:
+class Quantity(NamedTuple):
     """One quantity.
 
     Attributes
@@ -39,10 +39,6 @@ class Quantity:
         A few words, used as ``long_name`` and in help texts.
     comment
         The exact definition, in one line.
-    function
-        Name of the field of `swtstudy.kernel.work.OF_CYCLE`, of the function in
-        `swtstudy.solver.von_mises`, or its key in
-        `swtstudy.solver.means.Means` or in what `swtstudy.solver.quantities.few_cycles` finds.
     has_error
         Whether there is its estimated absolute error, too, which becomes ``NAME_error``.
     dims
@@ -59,7 +55,6 @@ class Quantity:
     symbol: str
     meaning: str
     comment: str
-    function: str
     has_error: bool = False
     dims: tuple[str, ...] = ()
     is_place: bool = False
@@ -71,127 +66,7 @@ class Quantity:
         return (self.name, error_of(self.name)) if self.has_error else (self.name,)
 
 
-QUANTITIES: dict[str, Quantity] = {
-    row.name: row
-    for row in (
-        Quantity(
-            "dissipation",
-            r"W/(\mu F_0\, \mu E^* \delta_0/G^*)",
-            "dissipated work",
-            "work by friction in a load cycle, the common period 2 pi q/omega1, over mu F0 mu E* delta0 / "
-            "G*, F0 the normal force at depth delta0; of plane contacts per length, over mu P0 mu delta0",
-            "work",
-            has_error=True,
-            per_cycle=True,
-        ),
-        Quantity(
-            "stick_radius",
-            r"c/a_H",
-            "radius that always sticks",
-            "radius of the permanent stick zone in units of a_H, half its width in plane contacts; "
-            "NaN if the whole contact slides or is lost",
-            "stick_radius",
-        ),
-        *(
-            Quantity(
-                name,
-                rf"x_\mathrm{{{side}}}/a_H",
-                f"{side} end of what always sticks",
-                f"signed x of the {side} end of the permanent stick zone on the line y = 0, in units of a_H: "
-                "a bulk stress may move it; NaN as stick_radius",
-                name,
-            )
-            for name, side in zip(STICK_ENDS, ("left", "right"), strict=True)
-        ),
-        Quantity(
-            "contact_radius",
-            r"a_\mathrm{max}/a_H",
-            "largest contact radius",
-            "largest contact radius over the cycle, in units of a_H; half the width in plane contacts",
-            "contact_radius",
-        ),
-        Quantity(
-            "force_ratio",
-            r"\max |F_x|/(\mu F_N)",
-            "largest force ratio",
-            "largest |F_x| over mu F_N while there is contact; 1 if the whole contact slides",
-            "force_ratio",
-        ),
-        Quantity(
-            "von_mises",
-            r"\sigma_\mathrm{v}/(E^* \delta_0/a_H)",
-            "largest von Mises stress",
-            "largest von Mises stress over the cycle and the body, in E* delta0/a_H, to about 1 %; infinite "
-            "at the edge of a truncated paraboloid",
-            "largest_von_mises",
-        ),
-        Quantity(
-            "s_volume",
-            r"s_\mathrm{volume}",
-            "mean of swt over a volume",
-            "largest mean of swt/SWT0 over the half spheres of the critical distance, in the section of "
-            "plane contacts half discs, about places of the surface line, which is that about volume_x",
-            "volume",
-            has_error=True,
-            dims=(DISTANCE,),
-        ),
-        Quantity(
-            "s_point",
-            r"s_\mathrm{point}",
-            "swt at a distance",
-            "largest swt/SWT0 at half the critical distance from places of the surface line, which is that "
-            "from point_x (point method)",
-            "point",
-            has_error=True,
-            dims=(DISTANCE, "direction"),
-        ),
-        Quantity(
-            "s_line",
-            r"s_\mathrm{line}",
-            "mean of swt along a line",
-            "largest mean of swt/SWT0 over twice the critical distance from places of the surface line, "
-            "which is that from line_x",
-            "line",
-            has_error=True,
-            dims=(DISTANCE, "direction"),
-        ),
-        *(
-            Quantity(
-                f"{kind}_x",
-                rf"x_\mathrm{{{kind}}}/a_H",
-                f"place of s_{kind}",
-                f"signed x of the place of the surface line that s_{kind} is about, in units of a_H; NaN far "
-                "from the contact",
-                f"{kind}_x",
-                dims=dims,
-                is_place=True,
-            )
-            for kind, dims in (
-                ("volume", (DISTANCE,)),
-                ("point", (DISTANCE, "direction")),
-                ("line", (DISTANCE, "direction")),
-            )
-        ),
-        Quantity(
-            "counted",
-            r"\mathrm{SWT}_i/\mathrm{SWT}",
-            "SWT of strain cycles over SWT",
-            "SWT of the strain cycles in a round over the largest SWT, at the worst places and planes, the "
-            "critical one first; NaN where there are no more",
-            "share",
-            dims=(*COUNTED_SIZES,),
-        ),
-        Quantity(
-            "counted_number",
-            "n_i",
-            "number of such strain cycles",
-            "how many strain cycles of a round have this SWT, or about it; NaN where there are no more",
-            "number",
-            dims=(*COUNTED_SIZES,),
-            per_cycle=True,
-        ),
-    )
-}
+QUANTITIES = {name: Quantity(name, **row) for name, row in read_table(__file__, "quantities").items()}
 
 #: Those that are asked by name, by giving critical distances, and with fatigue constants.
 NAMED = {name: row for name, row in QUANTITIES.items() if not row.dims}

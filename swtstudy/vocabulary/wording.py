@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from html import escape
 from typing import Any
 
 from swtstudy.vocabulary.choices import CRITERIA, MOVED
@@ -173,15 +172,11 @@ def numbers_words(values: Iterable[float], digits: int = 4) -> list[str]:
     words = [number_words(number, digits) for number in numbers]
     if not any(set(each) & set(_SUPERSCRIPTS) for each in words):
         return words
-    return [
-        raised(f"{number:.{digits - 1}e}") if _large_or_small(number) else each
-        for number, each in zip(numbers, words, strict=True)
-    ]
-
-
-def _large_or_small(value: float) -> bool:
     low, high = _PLAIN_BESIDE
-    return math.isfinite(value) and value != 0.0 and not low <= abs(value) < high
+    for place, number in enumerate(numbers):
+        if math.isfinite(number) and number != 0.0 and not low <= abs(number) < high:
+            words[place] = raised(f"{number:.{digits - 1}e}")
+    return words
 
 
 def number_of(count: int, noun: str) -> str:
@@ -204,6 +199,8 @@ def listed(words: Sequence[str], most: int) -> str:
 
 def html_table(rows: Iterable[tuple[str, str, str, str]]) -> str:
     """A table of kinds, names, values and meanings."""
+    from html import escape  # a millisecond, which the help of the command line does without
+
     body = "".join(
         f"<tr><td>{escape(kind)}</td><td><b>{escape(name)}</b></td><td>{escape(value)}</td>"
         f"<td>{escape(meaning)}</td></tr>"

@@ -4,22 +4,12 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+import xarray as xr
 from command import call
 from folders import STUDIES
-from made_up import OFF_LINE, audit_of, made_up_audit, made_up_audit_point, made_up_point, save
+from made_up import OFF_LINE, audit_of, made_up_audit, made_up_point, report, save
 
 from swtstudy import Study, audit_study
-from swtstudy.paper.audit.dataset import (
-    AUDITED,
-    VERDICTS,
-    audit_dataset,
-    audited_points,
-    canonical_rows,
-    open_audit,
-)
-from swtstudy.paper.audit.report import report
-from swtstudy.points.canonical import ROW
-from swtstudy.study.sample import drawn_rows
 
 PARAMETER_BOX = STUDIES / "audit" / "parameter_box.toml"
 STUDY = """
@@ -33,20 +23,45 @@ phase = [0.6, "0.6 + 2*pi"]
 """
 
 
+@pytest.fixture
+def audited(monkeypatch):
+    """The points that are audited, at no cost; s_error numbers them."""
+    rows = []
+
+    def audit_point(row, **_):
+        rows.append(row)
+        return made_up_point(s_error=float(len(rows)))
+
+    monkeypatch.setattr("swtstudy.paper.audit.audit.audit_point", audit_point)
+    monkeypatch.setattr("swtstudy.runner.workers.start_workers", ThreadPoolExecutor)
+    return rows
+
+
+def verdicts_of(audit):
+    """The verdicts in words, as a file has them."""
+    words = audit.verdict.attrs["flag_meanings"].split()
+    return [words[int(number)] for number in audit.verdict]
+
+
 def verdict_of(point):
-    return VERDICTS[int(audit_of([point]).verdict[0])]
+    return verdicts_of(audit_of([point]))[0]
 
 
-def test_points_are_distinct():
-    rows = drawn_rows(Study.from_text(STUDY).grid, points=10, seed=1)
-    assert len(rows) == 2
+def places_of(audit):
+    """The points of an audit, by their coordinates."""
+    return list(zip(*(audit[name].values.tolist() for name in sorted(audit.coords)), strict=True))
 
 
-def test_a_larger_sample_extends_a_smaller_one():
-    grid = Study.from_toml(PARAMETER_BOX).grid
-    few, many = (drawn_rows(grid, points, seed=0) for points in (5, 12))
-    assert len(many) == 12
-    np.testing.assert_array_equal(many[:5], few)
+def test_points_are_distinct(audited, tmp_path):
+    found = audit_study(Study.from_text(STUDY), tmp_path / "audit.nc", points=10, seed=1, workers=1)
+    assert found.sizes["sample"] == len(audited) == 2
+
+
+def test_a_larger_sample_extends_a_smaller_one(audited, tmp_path):
+    study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
+    few, many = (audit_study(study, path, points=count, workers=1) for count in (5, 12))
+    assert len(audited) == many.sizes["sample"] == 12
+    xr.testing.assert_identical(many.isel(sample=slice(5)), few)
 
 
 @pytest.mark.parametrize(
@@ -64,15 +79,15 @@ def test_verdicts(changes, verdict):
     assert verdict_of(made_up_point(**changes)) == verdict
 
 
-def test_audited_points_are_read_as_they_were_written(tmp_path):
-    written = made_up_audit(on_line=2, off_line=1)
+def test_audited_points_are_read_as_they_were_written(audited, tmp_path):
+    study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
+    written = audit_study(study, path, points=6, workers=1)
     assert written.verdict.dtype == written.regime.dtype == np.int8
-    save(written, tmp_path / "audit.nc")
-    read = audited_points(open_audit(tmp_path / "audit.nc"))
-    again = audit_dataset(np.array(list(read), ROW), np.array(list(read.values()), AUDITED), {})
+    xr.testing.assert_identical(audit_study(study, path, points=6, workers=1), written)
+    assert len(audited) == 6
+    there = xr.load_dataset(path)
     for name in written.variables:
-        np.testing.assert_array_equal(again[name], written[name])
-    assert list(read) == canonical_rows(written).tolist()
+        np.testing.assert_array_equal(there[name], written[name])
 
 
 def test_other_files_are_not_taken_for_an_audit(tmp_path):
@@ -110,7 +125,7 @@ def test_a_damaged_audit_is_named(tmp_path):
     assert b"paraboloid" in content
     path.write_bytes(content.replace(b"paraboloid", b"qaraboloid"))
     with pytest.raises(ValueError, match=f"^{path}: a damaged file: wrong check sum"):
-        open_audit(path)
+        audit_study(Study.from_text(STUDY), path)
 
 
 def test_report():
@@ -126,19 +141,19 @@ def test_command_goes_on_where_it_was(tmp_path):
     study.write_text(STUDY)
     arguments = ["audit", str(study), "--workers", "1", "--results", str(tmp_path), "--points"]
     assert call(*arguments, "1").exit_code == 0
-    first = open_audit(tmp_path / "audit_two.nc")
+    first = xr.load_dataset(tmp_path / "audit_two.nc")
     # What is there already is taken as it is.
     save(first.assign(s_body=first.s_body * 3.0), tmp_path / "audit_two.nc")
     outcome = call(*arguments, "2")
     assert outcome.exit_code == 0, outcome.output
-    dataset = open_audit(tmp_path / "audit_two.nc")
+    dataset = xr.load_dataset(tmp_path / "audit_two.nc")
     assert dataset.sizes["sample"] == 2
     assert dataset.attrs["seed"] == 0
     known = dataset.poisson_ratio == float(first.poisson_ratio[0])
     np.testing.assert_allclose(dataset.s_body[known], 3.0 * first.s_body)
     new = dataset.isel(sample=np.flatnonzero(~known))
     expected = "symmetry_line" if float(new.poisson_ratio[0]) == 0.5 else "none"
-    assert VERDICTS[int(new.verdict[0])] == expected
+    assert verdicts_of(new) == [expected]
     assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
     np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
     assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")
@@ -168,9 +183,9 @@ def test_command_on_plane_contacts(tmp_path):
     given = ["audit", str(study), "--dense", "--workers", "1", "--results", str(tmp_path)]
     outcome = call(*given)
     assert outcome.exit_code == 0, outcome.output
-    found = open_audit(tmp_path / "audit_plane.nc")
+    found = xr.load_dataset(tmp_path / "audit_plane.nc")
     assert sorted(map(str, found.profile.values)) == ["pad", "rounded_flat"]
-    assert [VERDICTS[int(one)] for one in found.verdict] == ["none", "none"]
+    assert verdicts_of(found) == ["none", "none"]
     np.testing.assert_allclose(found.s_all_planes, found.s, rtol=1e-4)
     np.testing.assert_array_equal(found.s_surface, found.s)
     assert (found.s_dense <= found.s + found.s_error).all()
@@ -209,7 +224,7 @@ def test_excess_over_nothing_is_all_or_nothing():
     )
     np.testing.assert_allclose(audit.excess, [0.0, 1.0, 0.5])
     np.testing.assert_allclose(audit.remainder, [0.0, 1.0, 0.2])
-    assert VERDICTS[int(audit.verdict[1])] == "line_search"
+    assert verdicts_of(audit)[1] == "line_search"
 
 
 def test_the_report_counts_every_point():
@@ -295,25 +310,26 @@ def test_the_report_says_where_a_bulk_stress_makes_the_line_doubtful():
     assert "The body's maximum exceeds s_surface at 0 points.\n" in plain
 
 
-def test_a_sample_has_every_point_at_most_once():
-    """Of a small grid a permutation, of a large one draws; physically the same points count once."""
-    small = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 9}\n').grid
-    rows = drawn_rows(small, 9, seed=3)
-    assert sorted(rows["friction"]) == pytest.approx(np.linspace(0.1, 0.9, 9))
-    large = Study.from_text('title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = 401}\n').grid
-    rows = drawn_rows(large, 40, seed=3)
-    assert len({*rows.tolist()}) == len(rows) == 40
-    assert not np.array_equal(rows, drawn_rows(large, 40, seed=4))
+def test_a_sample_has_every_point_at_most_once(audited, tmp_path):
+    """A small grid gives a permutation, a large one draws; physically equal points count once."""
+    text = 'title = "t"\n[axes]\nfriction = {start = 0.1, stop = 0.9, num = %d}\n'
+    small = audit_study(Study.from_text(text % 9), tmp_path / "small.nc", points=9, seed=3, workers=1)
+    assert sorted(small.friction.values) == pytest.approx(np.linspace(0.1, 0.9, 9))
+    one, other = (
+        audit_study(Study.from_text(text % 401), tmp_path / "large.nc", points=40, seed=seed, workers=1)
+        for seed in (3, 4)
+    )
+    assert len({*places_of(one)}) == one.sizes["sample"] == 40
+    assert places_of(one) != places_of(other)
 
 
-def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(tmp_path, monkeypatch):
-    monkeypatch.setattr("swtstudy.paper.audit.audit.audit_point", made_up_audit_point)
-    monkeypatch.setattr("swtstudy.runner.workers.start_workers", ThreadPoolExecutor)
+def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(audited, tmp_path):
     study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
     first = audit_study(study, path, points=5, seed=1, workers=1)
     second = audit_study(study, path, points=3, seed=2, workers=1)
     assert (first.sizes["sample"], second.sizes["sample"]) == (5, 3)
-    assert audited_points(open_audit(path)).keys() == {*audited_points(first), *audited_points(second)}
-    save(open_audit(path).assign_attrs(solver_version="1"), path)
+    there = xr.load_dataset(path)
+    assert {*places_of(there)} == {*places_of(first), *places_of(second)}
+    save(there.assign_attrs(solver_version="1"), path)
     audit_study(study, path, points=1, seed=2, workers=1)
-    assert open_audit(path).sizes["sample"] == 1
+    assert xr.load_dataset(path).sizes["sample"] == 1

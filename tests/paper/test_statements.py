@@ -209,7 +209,7 @@ def test_waviness_and_frequency_ratio():
 
     axes = {"phase": [0.0, math.pi], "frequency_ratio": RATIOS, "waviness_amplitude": H}
     good = made_up(s, **axes)
-    of_figure8 = [each for each in STATEMENTS.values() if each.studies == ["figure8"]]
+    of_figure8 = [each for each in STATEMENTS.values() if each.studies == ("figure8",)]
     for statement in of_figure8:
         assert statement(good).holds, statement.sentence
     coupled = made_up(

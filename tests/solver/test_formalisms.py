@@ -46,9 +46,13 @@ def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
     instants = np.arange(len(depth), dtype=float)
     forces = spring_forces(polygon(depth, displacement), radius**2, instants)
     jaeger, diagram = (kind(depth[0], displacement[0]) for kind in (JaegerContact, MemoryDiagram))
+    most = 0
     for k in range(1, len(depth)):
         jaeger.step(depth[k], displacement[k])
         diagram.step(depth[k], displacement[k])
+        most = max(most, len(jaeger.terms))
+        for each in (jaeger, diagram):
+            np.testing.assert_allclose(each.springs(radius**2), forces[k], rtol=0.0, atol=1e-11)
         expected = traction_of_hertz(jaeger, POSITIONS)
         # The same breakpoints, to rounding accumulated over the path …
         np.testing.assert_allclose(traction_of_punches(diagram, POSITIONS), expected, rtol=0.0, atol=1e-10)
@@ -62,18 +66,4 @@ def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
         assert error.mean() < radius[1]
         total = trapezoid(2.0 * forces[k], radius)
         assert total == pytest.approx(force, abs=radius[1] ** 1.5)
-
-
-@pytest.mark.parametrize("seed", range(12))
-def test_force_of_every_spring_is_the_sum_of_jaegers_terms(seed: int) -> None:
-    depth, displacement = random_path(seed, 40)
-    g = np.linspace(0.0, 1.6, 401)
-    instants = np.arange(len(depth), dtype=float)
-    forces = spring_forces(polygon(depth, displacement), g, instants)
-    jaeger = JaegerContact(depth[0], displacement[0])
-    regimes = set()
-    for k in range(1, len(depth)):
-        jaeger.step(depth[k], displacement[k])
-        np.testing.assert_allclose(forces[k], jaeger.springs(g), rtol=0.0, atol=1e-11)
-        regimes.add(min(len(jaeger.terms), 3))
-    assert 3 in regimes  # partial slip with a memory
+    assert most >= 3  # partial slip with a memory

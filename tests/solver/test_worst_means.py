@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from asking import study
-from body import DOWN, opened, worst_means
+from body import DOWN, opened
 from numpy.testing import assert_allclose
 from scenes import FORCES, plane_points, points
-from solved import solve_points
+from solved import results_of
 
 import swtstudy
 from swtstudy.kernel.field import direction_at, largest_radius, mean_about
@@ -59,18 +59,19 @@ ELSEWHERE = {
 @pytest.mark.parametrize("name", ELSEWHERE)
 def test_no_mean_about_another_place_is_larger(name: str) -> None:
     batch, distance = ELSEWHERE[name], 0.06
-    found = worst_means(batch, solve_points(batch), np.array([distance]))
+    found = results_of(batch, distance=distance)
+    s_volume, s_point, s_line = (found[f"s_{kind}"].values.ravel() for kind in ("volume", "point", "line"))
     cycle = opened(batch)
     end = largest_radius(cycle) + distance
     for place in np.arange(-end, end, 0.8 * distance):
         volume = mean_about(cycle, SPHERE, place, DOWN, distance, 0.0, 1e-2)[0]
-        assert volume < 1.01 * found["volume"][0, 0]
+        assert volume < 1.01 * s_volume[0]
         for way, direction in enumerate((DOWN, direction_at(cycle, place))):
             point, line = (
                 mean_about(cycle, kind, place, direction, distance, 0.0, 1e-2)[0] for kind in (POINT, LINE)
             )
-            assert point < 1.002 * found["point"][0, 0, way]
-            assert line < 1.005 * found["line"][0, 0, way]
+            assert point < 1.002 * s_point[way]
+            assert line < 1.005 * s_line[way]
 
 
 #: Lines along critical planes whose largest means a climb from the highest columns misses: a point under

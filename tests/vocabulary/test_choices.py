@@ -1,11 +1,14 @@
-"""Names whose numbers stand in tables of points: every table has them in one order."""
+"""Names whose numbers stand in tables of points: the kernel has them in the order of the studies."""
 
 from __future__ import annotations
 
-from swtstudy.archive.parts import _LAYOUT
+import json
+
+from command import call
+
 from swtstudy.kernel.criterion import NAMES
-from swtstudy.vocabulary.choices import CRITERIA
 
 
-def test_each_table_of_criteria_has_the_same_ones_in_the_same_order() -> None:
-    assert list(CRITERIA) == list(NAMES) == _LAYOUT["criteria"]
+def test_the_kernel_and_the_schema_have_the_same_criteria_in_the_same_order() -> None:
+    schema = json.loads(call("schema").output)
+    assert schema["properties"]["fixed"]["properties"]["criterion"]["examples"] == list(NAMES)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 import stand_in
 from command import call
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.parts import kept_folder, known_points, parts_folder, save_part
-from swtstudy.vocabulary.files import replacing, write_text
 
 STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
 FIGURE = '[figure]\nx = "friction"\n'
@@ -30,13 +29,13 @@ def refused(*arguments: object) -> str:
     return result.output
 
 
-@pytest.mark.parametrize("folder_of", [parts_folder, kept_folder])
-def test_a_link_in_the_place_of_a_folder_is_refused(tmp_path: Path, folder_of) -> None:
+@pytest.mark.parametrize("folder", ["mine.nc.parts", "mine.nc.kept"])
+def test_a_link_in_the_place_of_a_folder_is_refused(tmp_path: Path, folder: str) -> None:
     other = tmp_path / "other"
     other.mkdir()
     for name in (".profile", "000001.npz", "1.npz"):
         (other / name).write_text("mine")
-    folder_of(tmp_path / "mine.nc").symlink_to(other)
+    (tmp_path / folder).symlink_to(other)
     with pytest.raises(OSError, match="is a link; allowed: a folder that swtstudy makes"):
         computed(tmp_path)
     assert {path.name: path.read_text() for path in other.iterdir()} == dict.fromkeys(
@@ -45,12 +44,11 @@ def test_a_link_in_the_place_of_a_folder_is_refused(tmp_path: Path, folder_of) -
 
 
 def test_files_of_the_users_own_in_a_folder_of_parts_stay(tmp_path: Path) -> None:
-    path = computed(tmp_path)
-    parts = parts_folder(path)
-    parts.mkdir()
-    save_part(parts, known_points(path))
-    path.unlink()
-    kept = kept_folder(path)
+    path, parts, kept = (tmp_path / f"mine.nc{end}" for end in ("", ".parts", ".kept"))
+    study = Study.from_text(STUDY.replace("[0.1, 0.2]", "{start = 0.1, stop = 0.9, num = 400}"))
+    with pytest.raises(KeyboardInterrupt):
+        run(study, path, workers=1, solver=stand_in.Interrupting(192))
+    assert list(parts.glob("0*.npz"))
     kept.mkdir()
     own = [
         parts / name
@@ -60,7 +58,7 @@ def test_files_of_the_users_own_in_a_folder_of_parts_stay(tmp_path: Path) -> Non
     ours = [parts / ".mine-a1b2c3d4.nc", parts / ".000002-_1b2c3d4.npz", kept / ".000001-_1b2c3d4.npz"]
     for each in (*own, *ours):
         each.write_text("x")
-    computed(tmp_path)
+    run(study, path, workers=1, solver=stand_in.smooth)
     assert all(each.read_text() == "x" for each in own)
     assert not any(each.exists() for each in ours)
     assert not list(parts.glob("0*.npz"))
@@ -100,13 +98,20 @@ def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
     assert (tmp_path / "merged.nc").is_symlink()
     assert open_results(far / "kept.nc").s.size == 3
     # Also where there is nothing yet.
-    (tmp_path / "text").symlink_to(far / "new")
-    write_text(tmp_path / "text", "x")
-    assert (far / "new").read_text() == "x"
+    (tmp_path / "schema.json").symlink_to(far / "new")
+    assert call("schema", "-o", tmp_path / "schema.json").exit_code == 0
+    assert "properties" in (far / "new").read_text()
     assert {each.name for each in far.iterdir()} == {"kept.nc", "mine.nc", "new"}
-    # What it points to may be on another file system than the folder for unfinished files.
-    with replacing(tmp_path / "text", tmp_path) as temporary:
-        assert temporary.parent == far
+
+
+@pytest.mark.skipif(not os.path.isdir("/dev/shm"), reason="there is no second file system")
+def test_what_a_link_points_to_may_be_on_another_file_system(tmp_path: Path) -> None:
+    with TemporaryDirectory(dir="/dev/shm") as far:
+        (tmp_path / "mine.nc").symlink_to(Path(far) / "mine.nc")
+        path = computed(tmp_path)
+        assert path.is_symlink()
+        assert os.listdir(far) == ["mine.nc"]
+        assert open_results(path).s.size == 2
 
 
 def full(*_: object, **__: object) -> None:
@@ -115,7 +120,7 @@ def full(*_: object, **__: object) -> None:
 
 def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with monkeypatch.context() as patch:
-        patch.setattr("swtstudy.vocabulary.files._sync", full)
+        patch.setattr(os, "fsync", full)
         assert "mine.toml" in refused("new", tmp_path / "mine")
     assert list(tmp_path.iterdir()) == []
     assert call("new", tmp_path / "mine").exit_code == 0
@@ -124,19 +129,29 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
     assert (tmp_path / "mine.toml").read_text() == before
     schema = tmp_path / "study.schema.json"
     schema.unlink()
+    replace = os.replace
+
+    def all_but_the_schema(source: Path, target: Path) -> None:
+        full() if "schema" in target.name else replace(source, target)
+
     with monkeypatch.context() as patch:
-        patch.setattr("swtstudy.study.schema.schema_text", lambda: "\ud800")  # that cannot be written
+        patch.setattr(os, "replace", all_but_the_schema)
         call("new", tmp_path / "other")
-    assert not schema.exists()
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["mine.toml", "other.toml"]
 
 
 @pytest.mark.usefixtures("unwrapped")
 def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = computed(tmp_path, STUDY + FIGURE)
-    monkeypatch.setattr("swtstudy.vocabulary.files._sync", full)
-    assert f"No space left on device: '{tmp_path / 'mine.png'}'" in refused("plot", path)
-    with pytest.raises(OSError, match="of the user's own"), replacing(tmp_path / "a"):
-        raise OSError("of the user's own")
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", full)
+        assert f"No space left on device: '{tmp_path / 'mine.png'}'" in refused("plot", path)
+
+    def fails(*_: object, **__: object) -> None:
+        raise OSError("not of a file")
+
+    monkeypatch.setattr(Path, "write_bytes", fails)
+    assert refused("plot", path) == "Error: not of a file\n"
     assert not [each for each in tmp_path.iterdir() if each.name.startswith(".")]
 
 

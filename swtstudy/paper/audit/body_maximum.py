@@ -123,7 +123,13 @@ def _maximum_at(opened: Opened, place: FloatArray) -> BodyMaximum:
 def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
     opened, largest = search.opened, search.largest
-    radii, depths = _radii(opened, largest), largest * DEPTHS
+    # Distances from the axis: ends of the memory's pieces and edges, and in between.
+    b = float(opened.profile["flat_radius"])
+    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
+    rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
+    passed = passed_radii(opened, MOST_CUSPS)
+    radii = np.unique(np.round(np.concatenate([passed, between, rest]), 12))
+    depths = largest * DEPTHS
     if opened.load["bulk_range"].any():
         radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
     angles = ANGLES[[0, -1]] if opened.profile["plane"] else ANGLES
@@ -139,15 +145,6 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
         if len(chosen) > SUMMITS:
             break
     return np.array(chosen[1:]).reshape(-1, 3)
-
-
-def _radii(opened: Opened, largest: float) -> FloatArray:
-    """Distances from the axis of the first look: ends of the memory's pieces and edges, and in between."""
-    cusps = passed_radii(opened, MOST_CUSPS)
-    b = float(opened.profile["flat_radius"])
-    between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
-    rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
-    return np.unique(np.round(np.concatenate([cusps, between, rest]), 12))
 
 
 def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[FloatArray, float]:

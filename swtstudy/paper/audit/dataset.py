@@ -13,41 +13,22 @@ from numpy.typing import NDArray
 from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.points.canonical import COLUMNS, COST, ROW, Definitions, Table, code_of, value_of
 from swtstudy.vocabulary.choices import REGIMES
+from swtstudy.vocabulary.tables import read_table
 
-_LENGTH = "in units of a_H = sqrt(R delta0)"
-#: Numbers that the audit of a point finds.
-FOUND = {
-    "s": "maximum of swt/SWT0 on the surface line, by the solver",
-    "s_error": "estimated absolute error of s",
-    "s_surface": "maximum of swt/SWT0 on the circle through the critical point, by the solver",
-    "critical_x": f"position of the maximum on the surface line, {_LENGTH}",
-    "s_dense": "maximum of swt/SWT0 on the surface line, by a dense grid; NaN without one",
-    "s_all_planes": "swt/SWT0 there over all plane orientations, from the field of the body",
-    "s_body": "maximum of swt/SWT0 in the body over all plane orientations",
-    **{f"body_{axis}": f"position of the body's maximum, {_LENGTH}" for axis in "xyz"},
-    **{f"normal_{axis}": "unit normal of its critical plane" for axis in "xyz"},
-}
-#: An audited point, in an array: its numbers, and its regime's flag value.
-AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Which of the surface line's assumptions the body's maximum breaks, in the order of the flag values; the
 #: last one is for points without a finite s, or with their maximum where the pressure is unbounded.
 VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
 #: Attributes of the variables: what is found, and what follows from it.
-_ATTRIBUTES: dict[str, dict[str, Any]] = {
-    name: {"long_name": meaning, "units": "1"}
-    for name, meaning in {
-        **FOUND,
-        "excess": "s_body/s - 1",
-        "remainder": "s_body/s_surface - 1",
-        "shortfall": "how far s and its error are below s_dense, relative",
-    }.items()
-}
-for _name, _meaning, _flags in (
-    ("regime", "regime of the contact over the stationary cycle", REGIMES),
-    ("verdict", "the first assumption of the surface line that the body's maximum breaks", VERDICTS),
-):
-    _values = {"flag_values": np.arange(len(_flags), dtype=np.int8), "flag_meanings": " ".join(_flags)}
-    _ATTRIBUTES[_name] = {"long_name": _meaning, **_values}
+_ATTRIBUTES = read_table(__file__, "dataset")
+for _name, _flags in (("regime", REGIMES), ("verdict", VERDICTS)):
+    _values = np.arange(len(_flags), dtype=np.int8)
+    _ATTRIBUTES[_name] |= {"flag_values": _values, "flag_meanings": " ".join(_flags)}
+#: Numbers that the audit of a point finds.
+FOUND = [
+    name for name in _ATTRIBUTES if name not in ("excess", "remainder", "shortfall", "regime", "verdict")
+]
+#: An audited point, in an array: its numbers, and its regime's flag value.
+AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Columns of the rows that an audit holds, the cost of a loop being known with the loop; and those of names.
 _COLUMNS = [name for name in COLUMNS if name != COST]
 _NAMES = ("profile", "criterion", "load")

@@ -36,7 +36,7 @@ def dense_maximum(points: Points, steps: int = 400, planes: int = 64) -> tuple[f
     planes
         Planes through y, evenly spaced.
     """
-    cycle = LoadCycle.of(points)
+    cycle = LoadCycle(points)
     ends = cycle.cusps()
     ends = ends[np.append(np.diff(ends) > NO_LENGTH * np.ptp(ends), True)]
     share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps))
@@ -62,11 +62,10 @@ def _highest(
     cycle: LoadCycle, places: FloatArray, angles: FloatArray, halved: int
 ) -> tuple[FloatArray, FloatArray]:
     """Largest value at each place over the planes at 2θ, at x > 0 and x < 0, and 2θ there, each (X, 2)."""
-    contact, growth, _, history, work, tables = cycle.memory
-    of_cycle = contact, growth, cycle.profile, tables, cycle.load, cycle.ask
+    of_cycle = cycle.cycle, cycle.growth, cycle.profile, cycle.tables, cycle.load, cycle.ask
     found = np.empty((len(places), 2, 2))
     grid = places, np.cos(angles), np.sin(angles), np.int64(halved)
-    highest_on_planes(history, work, *of_cycle, cycle.largest, *grid, found)
+    highest_on_planes(cycle.history, cycle.work, *of_cycle, cycle.largest, *grid, found)
     return found[..., 0], angles[found[..., 1].astype(np.intp)]
 
 

@@ -14,14 +14,6 @@ from swtstudy.paper.rendered import rendered
 from swtstudy.points.canonical import describe_point
 from swtstudy.vocabulary.choices import REGIMES, SHARP
 
-_WORDS = {
-    "none": "on the surface line, where the solver found it",
-    "line_search": "on the surface line, elsewhere",
-    "plane_through_y": "on the surface line, on a plane that is not through y",
-    "symmetry_line": "on the surface, off the line",
-    "surface": "beneath the surface",
-    "not_finite": "not searched: s is not finite, or at the edge r = b of the truncated paraboloid",
-}
 #: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
 #: How many of the points whose maximum the solver misses are listed one by one.
@@ -60,9 +52,7 @@ def report(dataset: xr.Dataset) -> str:
         flagged=finite[finite["s_surface"] > (1.0 + TOLERANCE) * finite["s"]],
         beyond=beyond,
         groups={title: finite.groupby(title, observed=True) for title in groups},
-        verdicts=[
-            (name, words, points[points["verdict"] == VERDICTS.index(name)]) for name, words in _WORDS.items()
-        ],
+        verdicts={name: points[points["verdict"] == number] for number, name in enumerate(VERDICTS)},
         listed=[
             f"{share:.2%} ({VERDICTS[verdict]}): {describe_point(rows[number], definitions)}"
             for number, share, verdict in beyond[["remainder", "verdict"]][:_LISTED].itertuples()

@@ -85,7 +85,7 @@ def about_archive(name: str, dataset: xr.Dataset) -> list[Outcome]:
     dataset
         Its results.
     """
-    return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS.values() if each.studies == [name]]
+    return [_outcome(each, {name: dataset}, {}) for each in STATEMENTS.values() if each.studies == (name,)]
 
 
 def _outcome(

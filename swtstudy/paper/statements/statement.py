@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, field
-from pathlib import Path
 from pkgutil import resolve_name
 from typing import Any, NamedTuple
 
 import xarray as xr
+
+from swtstudy.vocabulary.tables import read_table
 
 #: A test's result: whether the statement holds, and the values for the words of the finding, by name.
 Measured = tuple[Any, dict[str, Any]]
@@ -30,7 +30,7 @@ class Statement:
     holds_if: str
     measured: str
     test: str
-    studies: list[str] = field(default_factory=list)
+    studies: tuple[str, ...] = ()
     bounds: dict[str, Any] = field(default_factory=dict)
 
     @property
@@ -45,9 +45,4 @@ class Statement:
 
 
 #: All statements by name, in the order of the paper.
-STATEMENTS = {
-    name: Statement(**row)
-    for name, row in tomllib.loads(
-        Path(__file__).with_name("statements.toml").read_text(encoding="utf-8")
-    ).items()
-}
+STATEMENTS = {name: Statement(**row) for name, row in read_table(__file__, "statements").items()}
