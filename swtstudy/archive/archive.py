@@ -17,8 +17,9 @@ from swtstudy.archive.netcdf import read_archive
 from swtstudy.archive.parts import known_points, parts_folder, read_parts
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.found import Found, matching
-from swtstudy.points.labelled import label_found
+from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.study.definition import Study
+from swtstudy.vocabulary.variables import FAILED
 from swtstudy.vocabulary.version import __version__
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
@@ -40,7 +41,10 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
     seconds
         Wall time of the run that ends with this archive.
     """
-    dataset = label_found(study.grid, points, found.arrays, study.asked)
+    of_runs = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
+    arrays = values_at(study.grid, points, found.arrays, study.asked)
+    arrays |= {name: found[name][points.index] for name in of_runs}
+    dataset = label(study.grid, arrays | margins(study.grid, points), study.asked)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     message = " message" * ("message" in dataset)

@@ -24,11 +24,9 @@ Arrays = dict[str, NDArray[Any]]
 #: Solves points to a relative accuracy; None for `swtstudy.solver.points.solve_points`.
 Solver = Callable[[Points, float], Solution] | None
 
-#: Points of a chunk whose cycles are short, as one compiled call takes them, and where means over the body
-#: are asked: some 0.1 s of work, short enough to lose.
-MOST, MOST_OF_BODY = 64, 8
-#: Pieces of the load cycles of a chunk, all together: fewer points of longer cycles.
-PIECES = 128
+#: Pieces of the load cycles of a chunk, all together, and what a point counts at least where means over the
+#: body are asked: some 0.1 s of work, short enough to lose.
+PIECES, PIECES_OF_BODY = 128, 16
 
 
 @dataclass(frozen=True)
@@ -71,16 +69,15 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     """
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
-    most = MOST_OF_BODY if {YIELD, DISTANCE} & {*asked.items} else MOST
-    found = []
+    if {YIELD, DISTANCE} & {*asked.items}:
+        pieces = np.maximum(pieces, PIECES_OF_BODY)
+    found: list[IndexArray] = []
     shared = points.rows[[*SHARED_COLUMNS]]  # a view, whose rows are copied in full
     for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
         own = places[own]
         own = own[np.argsort(-pieces[own], kind="stable")]
-        while len(own):
-            count = min(most, max(PIECES // int(pieces[own[0]]), 1))
-            found.append(own[:count])
-            own = own[count:]
+        number = (np.cumsum(pieces[own]) - 1) // PIECES
+        found += np.split(own, np.flatnonzero(np.diff(number)) + 1)
     return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
 
@@ -95,24 +92,25 @@ def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Ite
     return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
 
 
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Arrays]:
-    """Version of the solver, and the values of a chunk, even if points of it fail; runs in a worker."""
-    begin = time.perf_counter()
-    arrays = _isolated(chunk, rtol, solver)
-    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
-    return SOLVER_VERSION, arrays
+def solve_chunk(chunk: Chunk, rtol: float, solver: Solver = None) -> tuple[str, Arrays]:
+    """Solve a chunk, in a worker.
 
-
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Arrays:
-    """Values of the points, in order; a point that fails is alone, with its message and what it has."""
-    arrays = blank(len(chunk.places), FAILED)
+    Returns
+    -------
+    str
+        Version of the solver.
+    dict
+        Values of the points, in order. A point that fails does so alone, with its message and what it has.
+    """
+    begin, arrays = time.perf_counter(), blank(len(chunk.places), FAILED)
     try:
         fill(arrays, chunk, rtol, solver)
     except Exception as error:
         if len(chunk.places) > 1:
-            return stacked([_isolated(one, rtol, solver) for one in chunk.singly()])
+            return SOLVER_VERSION, stacked([solve_chunk(one, rtol, solver)[1] for one in chunk.singly()])
         arrays["message"][:] = f"{type(error).__name__}: {error}"
-    return arrays
+    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
+    return SOLVER_VERSION, arrays
 
 
 def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> None:
@@ -136,10 +134,13 @@ def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> No
 
 def blank(n: int, status: int = MISSING, message: str = "") -> Arrays:
     """Arrays of n points without values, all in one state."""
-    arrays: Arrays = {name: np.full(n, np.nan) for name in SOLVED}
-    arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
-    arrays |= {"status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
-    return arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)}
+    return {name: np.full(n, np.nan) for name in SOLVED} | {
+        "regime": np.full(n, REGIMES.index("not_finite"), np.int8),
+        "status": np.full(n, status, np.int8),
+        "run": np.full(n, -1, np.int32),
+        "message": np.full(n, message, object),
+        "seconds": np.zeros(n),
+    }
 
 
 def stacked(parts: Sequence[Arrays]) -> Arrays:

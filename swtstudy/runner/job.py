@@ -17,9 +17,8 @@ from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import check_archive_path, locked
 from swtstudy.points.chunk import Arrays, Solver, chunks, put, stacked
 from swtstudy.points.found import Found, Run
-from swtstudy.runner.engine import WorkerError, solve
 from swtstudy.runner.work import Work, assess
-from swtstudy.runner.workers import Workers
+from swtstudy.runner.workers import WorkerError, Workers
 from swtstudy.study.definition import Study, require_study
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.files import check_writable
@@ -68,33 +67,28 @@ class Job:
             self.work = assess(study, path, retry_failed)
             self._what, self._complete = _told(self.work), not self.work.todo.any()
             self._unsaved: list[tuple[IndexArray, Arrays]] = []
+            self._reported: OSError | None = None
             self.close = held.pop_all().close
 
     def compute(self, workers: Workers, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
         work, rtol = self.work, self.study.rtol
-        now = datetime.now(UTC).isoformat(timespec="seconds")
-        run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), now, work.asked.items)
+        started = datetime.now(UTC).isoformat(timespec="seconds")
+        run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), started, work.asked.items)
         work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
-
-        def deliver(places: IndexArray, arrays: Arrays) -> None:
-            arrays["run"][:] = work.found.runs.index(run)
-            self._unsaved.append((places, arrays))
-            now = time.perf_counter()
-            if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
-                self._save()
-            shown.add(len(places))
-
-        todo = int(work.todo.sum())
+        number, todo = work.found.runs.index(run), int(work.todo.sum())
+        missing = chunks(work.points, work.todo, work.asked)
         with self.reporting(), Progress(todo, self.path.stem, delay=0.0) as shown:
             try:
-                solve(chunks(work.points, work.todo, work.asked), rtol, solver, deliver, workers)
-            except OSError:  # such as a full disk
-                raise
-            except BaseException:
+                for places, arrays in workers.solve(missing, rtol, solver):
+                    arrays["run"][:] = number
+                    self._unsaved.append((places, arrays))
+                    now = time.perf_counter()
+                    if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
+                        self._save()
+                    shown.add(len(places))
+            finally:
                 self._save()
-                raise
-            self._save()
 
     def _save(self) -> None:
         """Save the results of chunks as a part; only then they count."""
@@ -107,39 +101,35 @@ class Job:
             self._unsaved, self._saved = [], time.perf_counter()
 
     def finish(self, finished: Finished) -> None:
-        """Write the archive, which replaces the parts, and release it; what is not in it is kept."""
-        with self.reporting():
-            dataset = self._known() or self._written()
-        self.close()
-        finished(self.study, self.path, dataset)
+        """Write the archive, which replaces the parts, and release it; what is not in it is kept.
 
-    def _known(self) -> xr.Dataset | None:
-        """The archive, if exactly this study wrote it and nothing had to be done."""
+        An archive that exactly this study wrote stays as it is, if nothing had to be done.
+        """
         from swtstudy.archive.netcdf import read_archive
 
-        if not (self._complete and self.path.exists()) or len(parts.read_parts(self._folder)):
-            return None
-        archive = read_archive(self.path)
-        if archive.attrs["study"] != self.study.text:
-            return None
-        parts.clear_parts(self._folder)  # parts that could not be read
-        return archive
+        with self.reporting():
+            archive = read_archive(self.path) if self.path.exists() else None
+            same = archive is not None and archive.attrs["study"] == self.study.text
+            if archive is None or not (same and self._complete) or len(parts.read_parts(self._folder)):
+                archive = self._written(archive)
+            parts.clear_parts(self._folder)
+        self.close()
+        finished(self.study, self.path, archive)
 
-    def _written(self) -> xr.Dataset:
+    def _written(self, before: xr.Dataset | None) -> xr.Dataset:
+        """Write the archive in the place of one from before."""
         from swtstudy.archive.archive import build, history_line
         from swtstudy.archive.netcdf import read_archive, save
 
         work, kept = self.work, parts.kept_folder(self.path)
-        before = [read_archive(self.path).attrs["history"]] if self.path.exists() else []
-        history = "\n".join([history_line(self._what), *before])
+        lines = [history_line(self._what)] + ([] if before is None else [before.attrs["history"]])
         seconds = time.perf_counter() - self._begin
-        dataset = build(self.study, work.points, work.found.take(slice(None)), history, seconds)
+        dataset = build(self.study, work.points, work.found.take(slice(None)), "\n".join(lines), seconds)
         try:
             with parts.keeping(kept, work.others):
                 save(dataset, self.path, beside=self._folder)
         except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
             raise OSError(f"cannot write the archive ({error})") from error
-        parts.clear_parts(self._folder)
         if len(work.others):
             _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
         return read_archive(self.path)
@@ -147,23 +137,19 @@ class Job:
     @contextmanager
     def reporting(self) -> Iterator[None]:
         """However the block is stopped, its error says what is saved and how to go on."""
+        count = len(self.work.found)
         try:
             yield
-        except Stopped:
-            raise
-        except KeyboardInterrupt:
-            words = f"stopped; {_saved(self.work, self.path)}; the same command continues from there"
-            raise Stopped(words) from None
-        except OSError as error:
+        except (KeyboardInterrupt, OSError) as error:
+            if error is self._reported:
+                raise
+            saved = f"{count - self.work.todo.sum()} of {count} distinct points are saved beside {self.path}"
+            if isinstance(error, KeyboardInterrupt):
+                raise Stopped(f"stopped; {saved}; the same command continues from there") from None
             kind = WorkerError if isinstance(error, WorkerError) else OSError
             advice = "once that is fixed, the same command continues from there"
-            raise kind(f"{error.strerror or error}; {_saved(self.work, self.path)}; {advice}") from error
-
-
-def _saved(work: Work, path: Path) -> str:
-    """Say how much is saved."""
-    count = len(work.found)
-    return f"{count - work.todo.sum()} of {count} distinct points are saved beside {path}"
+            self._reported = kind(f"{error.strerror or error}; {saved}; {advice}")
+            raise self._reported from error
 
 
 def _told(work: Work) -> str:

@@ -24,8 +24,9 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
 from swtstudy.points import chunk
-from swtstudy.runner import engine, work
 from swtstudy.runner import job as job_module
+from swtstudy.runner import work
+from swtstudy.runner import workers as workers_module
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -182,7 +183,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
-    for module in (chunk, job_module, engine, work):
+    for module in (chunk, job_module, workers_module, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
