@@ -47,7 +47,8 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
     paths = {study: Path(folder) / f"{prefix}{Path(study).stem}.nc" for study in studies}
     report = Report()
     for path in paths.values():
-        _check(path, report)
+        with report:
+            check_archive_path(path)
     existing = _existing(Path(folder))
     if not existing.is_dir():
         report.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
@@ -57,35 +58,27 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
 
 def check_archive_path(path: Path) -> None:
     """Raise a StudyError, a ValueError, for a path that no archive can have."""
-    _check(path, report := Report())
+    whole, report = path.absolute(), Report(str(path))
+    if any("\ud800" <= c <= "\udfff" for c in str(whole)):
+        report("", "bytes that are not UTF-8", "a path in UTF-8")
+    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
+    if any("\\" in part for part in whole.parts[1:]):
+        report("", "a backslash", "a path without one")
+    if "\0" in str(whole):
+        report("", "a null character", "a path without one")
     report.refuse()
-
-
-def _check(path: Path, report: Report) -> None:
-    whole, length = path.absolute(), len(os.fsencode(path.name))
-    checks = (
-        ("bytes that are not UTF-8", "a path in UTF-8", any("\ud800" <= c <= "\udfff" for c in str(whole))),
-        # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
-        ("a backslash", "a path without one", any("\\" in part for part in whole.parts[1:])),
-        ("a null character", "a path without one", "\0" in str(whole)),
-    )
-    wrong = [Mistake("", found, allowed, str(path)) for found, allowed, is_so in checks if is_so]
-    report += wrong
-    if not wrong and length > (longest := _longest_name(_existing(path.parent)) - _ADDED):
-        report.append(Mistake("", f"a name of {length} bytes", f"at most {longest}", str(path)))
+    length, longest = len(os.fsencode(path.name)), _LONGEST_NAME
+    with suppress(AttributeError, OSError, ValueError):
+        longest = os.pathconf(_existing(path.parent), "PC_NAME_MAX")
+    if length > longest - _ADDED:
+        report("", f"a name of {length} bytes", f"at most {longest - _ADDED}")
+    report.refuse()
 
 
 def _existing(folder: Path) -> Path:
     """The folder, or the nearest existing one above it."""
     absolute = folder.absolute()
     return next(each for each in (absolute, *absolute.parents) if each.exists())
-
-
-def _longest_name(folder: Path) -> int:
-    try:
-        return os.pathconf(folder, "PC_NAME_MAX")
-    except (AttributeError, OSError, ValueError):
-        return _LONGEST_NAME
 
 
 #: Errors of file systems without locks.

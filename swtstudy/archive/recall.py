@@ -50,26 +50,35 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     report, dims = Report(), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    known, along = defined_in(dataset.attrs), dict[str, str]()
-    values: NamedValues = {}
+    known = defined_in(dataset.attrs)
+    single: NamedValues = {}
+    axes: NamedValues = {}
+    samples: NamedValues = {}
     for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
         own = tuple(map(str, dataset[name].dims))
-        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
+        kind = {(): single, (name,): axes, (SAMPLE,): samples}.get(own)
+        if kind is None or not {*own} <= {*dims}:
             report(name, f"dimensions {own}", "an axis of s, or a single value")
             continue
         raw = np.atleast_1d(dataset[name].values).tolist()
-        values[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
-        along |= dict.fromkeys([name] * len(own), "".join(own))
-    for name in (name for name in dims if name not in along.values()):
+        kind[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
+    for name in (name for name in dims if name not in axes and not (name == SAMPLE and samples)):
         report(name, "a dimension without values of a parameter", ", ".join(table))
-    _check_complete(values, {*values, *dims, *pairs}, report)
-    control = Control.given({*values, *dims}).name
+    there = {*single, *axes, *samples, *dims, *pairs}
+    replaced, profiles = replaced_by(there), {**single, **axes, **samples}.get("profile", ())
+    shape = shapes_needed([value for value in profiles if isinstance(value, str)])
+    for name, parameter in PARAMETERS.items():
+        needed = parameter.default is not None and not parameter.optional and name not in replaced
+        if (needed or name in shape) and name not in there:  # an archive may leave out optional ones
+            report(name, "nothing", parameter.allowed)
+    for twice in given_twice(there):
+        report.of(*twice)
+    control = Control.given(there).name
     if dataset.get("control", control) != control:
         report("control", literal(dataset.control.values.tolist()), literal(control))
     report.refuse()
-    fixed = {name: value[0] for name, value in values.items() if name not in along}
-    samples = {name: values[name] for name, dim in along.items() if dim == SAMPLE}
-    axes = {name: values[name] for name in dims if name != SAMPLE}
+    fixed = {name: value[0] for name, value in single.items()}
+    axes = {name: axes[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, axes, samples)
     grid = completed(fixed, axes, samples, given)
@@ -83,18 +92,6 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         check_contacts(grid, report)
     report.refuse()
     return grid
-
-
-def _check_complete(values: NamedValues, given: set[str], report: Report) -> None:
-    """Parameters without a value, or two for one; an archive may leave out optional ones."""
-    replaced = replaced_by(given)
-    shape = shapes_needed([value for value in values.get("profile", ()) if isinstance(value, str)])
-    for name, parameter in PARAMETERS.items():
-        needed = parameter.default is not None and not parameter.optional and name not in replaced
-        if (needed or name in shape) and name not in given:
-            report(name, "nothing", parameter.allowed)
-    for twice in given_twice(given):
-        report.of(*twice)
 
 
 def _values(

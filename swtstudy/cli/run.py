@@ -98,7 +98,7 @@ def run(
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.runner.run import run_and_draw
+    from swtstudy.runner.run import run_several
 
     client = _connect(scheduler) if scheduler else None
     before = {target: _written(target) for target in targets.values()}
@@ -113,8 +113,16 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _stopped_once():
-        options = {"workers": workers, "processes": processes, "client": client, "retry_failed": retry_failed}
-        run_and_draw(pairs, formats, done, width, **options)
+        run_several(
+            pairs,
+            done,
+            formats,
+            width,
+            workers=workers,
+            processes=processes,
+            client=client,
+            retry_failed=retry_failed,
+        )
     if any(failed):
         sys.exit(POINTS_FAILED)
     if len(targets) == 1:

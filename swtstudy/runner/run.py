@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from os import PathLike
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from swtstudy.figures.sheet import Width
 
-__all__ = ["Stopped", "run", "run_and_draw", "run_several", "run_suite"]
+__all__ = ["Stopped", "run", "run_several", "run_suite"]
 
 
 def run(
@@ -87,9 +87,15 @@ def run(
     In each of these cases everything computed so far is saved.
     """
     found: list[xr.Dataset] = []
-    given: dict[str, Any] = {"workers": workers, "processes": processes, "client": client}
-    given |= {"retry_failed": retry_failed, "solver": solver}
-    run_several([(study, Path(path))], lambda study, path, dataset: found.append(dataset), **given)
+    run_several(
+        [(study, Path(path))],
+        lambda study, path, dataset: found.append(dataset),
+        workers=workers,
+        processes=processes,
+        client=client,
+        retry_failed=retry_failed,
+        solver=solver,
+    )
     return found[0]
 
 
@@ -128,52 +134,21 @@ def run_suite(
     studies = read_studies([str(shipped_folder() if folder is None else folder)])
     targets = archive_paths(studies, results)
     found: dict[str, xr.Dataset] = {}
-    pairs = [(study, targets[path]) for path, study in studies.items()]
-    run_and_draw(
-        pairs, formats, lambda _, path, dataset: found.update({path.stem: dataset}), width, **options
+    run_several(
+        [(study, targets[path]) for path, study in studies.items()],
+        lambda _, path, dataset: found.update({path.stem: dataset}),
+        tuple(formats),
+        width,
+        **options,
     )
     return found
-
-
-def run_and_draw(
-    studies: Iterable[tuple[Study, Path]],
-    formats: Iterable[str],
-    done: Finished,
-    width: Width | None = None,
-    **options: Any,
-) -> None:
-    """Run studies with the same workers, and draw the figures of those that have one beside their archives.
-
-    Parameters
-    ----------
-    studies
-        Studies and the paths of their archives.
-    formats
-        Formats of the figures.
-    done
-        Called with every archive once its figure is drawn; not always in this thread.
-    width
-        The use of the figures, as for `swtstudy.accessor.SwtAccessor.figure`.
-    **options
-        Further arguments of `swtstudy.run`.
-    """
-
-    def finished(study: Study, path: Path, dataset: xr.Dataset) -> None:
-        if study.figure is not None:
-            from swtstudy.figures.draw import draw
-            from swtstudy.figures.style import save_figure
-
-            figure = draw(dataset, width=width)
-            for ending in formats:
-                save_figure(figure, path.with_suffix(f".{ending}"))
-        done(study, path, dataset)
-
-    run_several(studies, finished, **options)
 
 
 def run_several(
     studies: Iterable[tuple[Study, Path]],
     finished: Finished,
+    formats: Sequence[str] = (),
+    width: Width | None = None,
     *,
     workers: int = 2,
     processes: bool = False,
@@ -181,7 +156,7 @@ def run_several(
     retry_failed: bool = False,
     solver: Solver = None,
 ) -> None:
-    """Compute studies with the same workers, and write their archives.
+    """Compute studies with the same workers, write their archives, and draw their figures beside these.
 
     While the workers compute a study, the archive of the one before is written in another thread. An error in
     one study ends all; what is computed of the others is saved.
@@ -191,12 +166,27 @@ def run_several(
     studies
         Studies and the paths of their archives.
     finished
-        Called with every archive, one after the other, not always in this thread.
+        Called with every archive, once its figure is drawn, one after the other, not always in this thread.
+    formats
+        Formats of the figures: "png", "pdf", "svg". Without one nothing is drawn.
+    width
+        The use of the figures, as for `swtstudy.accessor.SwtAccessor.figure`.
     workers, processes, client, retry_failed, solver
         As for `run`.
     """
     if not isinstance(workers, int) or workers < 1:
         raise StudyError([Mistake("workers", literal(workers), "a number of workers, from 1 on")])
+
+    def draw_and_finish(study: Study, path: Path, dataset: xr.Dataset) -> None:
+        if study.figure is not None and formats:
+            from swtstudy.figures.draw import draw
+            from swtstudy.figures.style import save_figure
+
+            figure = draw(dataset, width=width)
+            for ending in formats:
+                save_figure(figure, path.with_suffix(f".{ending}"))
+        finished(study, path, dataset)
+
     with ExitStack() as held:
         background = held.enter_context(ThreadPoolExecutor(1))
         pool = held.enter_context(workers_of(workers, processes, client))
@@ -205,7 +195,7 @@ def run_several(
             for study, path in studies:
                 job = Job(study, path, retry_failed)
                 held.callback(job.close)
-                writing = before and (before, background.submit(before.finish, finished))
+                writing = before and (before, background.submit(before.finish, draw_and_finish))
                 before = None
                 try:
                     job.compute(pool, solver)
@@ -216,4 +206,4 @@ def run_several(
                 before = job
         finally:
             if before is not None:
-                before.finish(finished)
+                before.finish(draw_and_finish)
