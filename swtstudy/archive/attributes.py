@@ -9,10 +9,12 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
 
 from swtstudy.points.found import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
@@ -75,23 +77,17 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     return layout
 
 
+#: The reader of values of a type; pydantic takes a millisecond to make one.
+_reader: Callable[[Any], TypeAdapter[Any]] = cache(TypeAdapter)
+
+
 def _read(kind: Any, text: object) -> Any:
     """The value of a type that is written as JSON; a ValueError with the first thing that is wrong in it."""
-    from pydantic import ValidationError
-
     try:
-        return _reader(kind).validate_json(text, strict=True)
+        return _reader(kind).validate_json(text, strict=True)  # type: ignore[arg-type]
     except ValidationError as error:
         wrong = error.errors()[0]
         raise ValueError(": ".join([*map(str, wrong["loc"]), wrong["msg"]])) from None
-
-
-@cache
-def _reader(kind: Any) -> Any:
-    """The reader of values of a type; pydantic takes a millisecond to make one."""
-    from pydantic import TypeAdapter
-
-    return TypeAdapter(kind)
 
 
 #: Packages whose versions can affect the numbers or the file.

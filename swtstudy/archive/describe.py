@@ -14,7 +14,7 @@ from swtstudy.archive.outcome import outcome
 from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import validity_lines
-from swtstudy.points.values import index_at
+from swtstudy.points.values import index_at, unit_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.reading import read_contact
@@ -24,14 +24,7 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
-from swtstudy.vocabulary.wording import (
-    coordinate_words,
-    listed,
-    number_of,
-    number_words,
-    numbers_words,
-    unit_words,
-)
+from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
 
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
@@ -75,9 +68,10 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "quantities", ", ".join(asked.names)
     if asked.distances:
         distances = ", ".join(f"{value:.4g}" for value in asked.distances)
-        yield "distances", f"{distances}{_unit(dataset[DISTANCE])}"
+        yield "distances", f"{distances}{unit_of(dataset[DISTANCE])}"
     if "status" in dataset:
-        yield "complete", completeness(dataset)
+        counts = _counted(dataset.status.values, STATES)
+        yield "complete", ", ".join(f"{count} {state}" for state, count in counts.items())
     if "rtol" in attributes:
         yield "asked for", f"rtol {attributes['rtol']:g}"
         yield "accurate", accuracy(dataset)
@@ -103,7 +97,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
                 words += f" ({design} design, seed {attributes.get('seed')})"
             yield "sample", words
         else:
-            yield "axis", f"{name}: {_axis_words(dataset[name])}{_unit(dataset[name])}"
+            yield "axis", f"{name}: {_axis_words(dataset[name])}{unit_of(dataset[name])}"
     for load, words in recorded_loads(dataset):
         yield "load", f"{load}: {words}"
     for name in (*PARAMETERS, *CONTACT_AXES):
@@ -112,7 +106,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         dims = dataset[name].dims
         label = "fixed" if not dims else "of each body" if dims == ("body",) else "sampled"
         words = _range_words(dataset[name]) if label == "sampled" else _axis_words(dataset[name])
-        yield label, f"{name}: {words}{_unit(dataset[name])}"
+        yield label, f"{name}: {words}{unit_of(dataset[name])}"
 
 
 def unsaid(dataset: xr.Dataset) -> set[str]:
@@ -142,7 +136,7 @@ def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             if name is not None:
                 ends = mean + float(dataset[name]) * np.array([column.min(), column.max()])
                 low, high = (number_words(end).replace("-", "−") for end in ends)
-                said.append(f"{names[name]} {low} to {high}{_unit(dataset[name])}")
+                said.append(f"{names[name]} {low} to {high}{unit_of(dataset[name])}")
         yield str(load), ", ".join(said)
 
 
@@ -224,11 +218,6 @@ def _counted_words(dataset: xr.Dataset) -> str:
     return words + f"; uncounted in {int(lacking.sum())}" * bool(lacking.any())
 
 
-def _unit(coordinate: xr.DataArray) -> str:
-    """The unit that a coordinate has in a study with units."""
-    return unit_words(coordinate.attrs.get("units", ""))
-
-
 def _words(value: xr.DataArray) -> str:
     return coordinate_words(str(value.name), value.item(), value.attrs)
 
@@ -243,11 +232,6 @@ def _range_words(axis: xr.DataArray) -> str:
         return _axis_words(known)
     ends = int(known.values.argmin()), int(known.values.argmax())
     return f"from {_words(known[ends[0]])} to {_words(known[ends[1]])}"
-
-
-def completeness(dataset: xr.Dataset) -> str:
-    """Count the points that are computed, failed, missing."""
-    return ", ".join(f"{count} {state}" for state, count in _counted(dataset.status.values, STATES).items())
 
 
 def relative_errors(dataset: xr.Dataset) -> FloatArray:

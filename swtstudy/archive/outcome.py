@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.points.validity import outside_words, point_words
-from swtstudy.points.values import index_at
+from swtstudy.points.values import index_at, unit_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.reading import read_contact
 from swtstudy.units.results import measures, sequence_words
@@ -19,7 +19,7 @@ from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.derived import FAILED, LIFE, LIVES, PERCENTS
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.variables import CONTACT, has_units
-from swtstudy.vocabulary.wording import number_words, numbers_words, unit_words
+from swtstudy.vocabulary.wording import number_words, numbers_words
 
 #: Lives over more critical distances are a range.
 _DISTANCES = 3
@@ -58,7 +58,7 @@ def _of_criteria(dataset: xr.Dataset) -> Iterator[str]:
 
 def _values(dataset: xr.Dataset, name: str) -> str:
     """The value of a criterion: one with its place, or the least and the greatest with their points."""
-    values, unit = dataset[name].values.ravel(), _unit(dataset[name])
+    values, unit = dataset[name].values.ravel(), unit_of(dataset[name])
     known = np.flatnonzero(np.isfinite(values))
     if not known.size:
         return f"{name} is finite at no point"
@@ -72,16 +72,12 @@ def _values(dataset: xr.Dataset, name: str) -> str:
     return f"{name} = {' to '.join(several)}"
 
 
-def _unit(values: xr.DataArray) -> str:
-    return unit_words(str(values.attrs.get("units", "1")))
-
-
 def _position(dataset: xr.Dataset, flat: int) -> str:
     """Position of the critical point of one of the flattened points; empty where none is critical."""
     for name, symbol in (("critical_position", "x"), ("critical_x", "x/a_H")):
         if name in dataset:
             x = float(dataset[name].isel(index_at(dataset.s, flat), missing_dims="ignore"))
-            return f"{symbol} = {number_words(x, 3)}{_unit(dataset[name])}" if math.isfinite(x) else ""
+            return f"{symbol} = {number_words(x, 3)}{unit_of(dataset[name])}" if math.isfinite(x) else ""
     return ""
 
 
@@ -135,7 +131,7 @@ def shown_in(dataset: xr.Dataset) -> list[str]:
 
 def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:
     """Critical distances in words, each with the lives over it; of many their range with all lives."""
-    distances, unit = np.atleast_1d(life[DISTANCE].values), unit_words(life[DISTANCE].attrs.get("units", ""))
+    distances, unit = np.atleast_1d(life[DISTANCE].values), unit_of(life[DISTANCE])
     if distances.size > _DISTANCES:
         yield f"{' to '.join(map(number_words, (distances.min(), distances.max())))}{unit}", life.values
         return

@@ -104,19 +104,32 @@ def locked(folder: Path) -> Iterator[None]:
     """
     refuse_link(folder)
     path = folder / "lock"
-    handle = _acquire(path)
-    try:
-        os.truncate(handle, 0)
-        os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
-        yield
-    finally:
-        # Removed while held: whoever opened it in the meantime will find another file under its name. Without
-        # locks another run may have removed it.
-        with suppress(FileNotFoundError):
-            if list(folder.iterdir()) == [path]:
-                path.unlink()
-                folder.rmdir()
-        os.close(handle)
+    with ExitStack() as opened:
+        while True:
+            folder.mkdir(parents=True, exist_ok=True)
+            with suppress(FileNotFoundError):  # the folder was removed in between
+                try:
+                    handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
+                except OSError as error:
+                    if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
+                        raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
+                    raise
+                opened.callback(os.close, handle)
+                _lock(handle, path)
+                if os.stat(path).st_ino == os.fstat(handle).st_ino:
+                    break
+            opened.close()
+        try:
+            os.truncate(handle, 0)
+            os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
+            yield
+        finally:
+            # Removed while held: whoever opened it in the meantime will find another file under its name.
+            # Without locks another run may have removed it.
+            with suppress(FileNotFoundError):
+                if list(folder.iterdir()) == [path]:
+                    path.unlink()
+                    folder.rmdir()
 
 
 def refuse_link(folder: Path) -> None:
@@ -132,30 +145,9 @@ def is_locked(path: Path) -> bool:
     try:
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
-    except OSError:
-        return False  # not even readable
+    except OSError as error:
+        return isinstance(error, BlockingIOError)  # others are not even readable
     return False
-
-
-def _acquire(path: Path) -> int:
-    """Create and lock a file; a handle of it."""
-    while True:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with suppress(FileNotFoundError):  # the folder was removed in between
-            try:
-                handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
-            except OSError as error:
-                if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
-                    raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
-                raise
-            with ExitStack() as opened:
-                opened.callback(os.close, handle)
-                _lock(handle, path)
-                if os.stat(path).st_ino == os.fstat(handle).st_ino:
-                    opened.pop_all()
-                    return handle
 
 
 def _lock(handle: int, path: Path) -> None:

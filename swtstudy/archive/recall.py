@@ -20,18 +20,9 @@ from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.units.reading import check_contacts, completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
-from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_RTOL,
-    Mistake,
-    Report,
-    StudyError,
-    is_rtol,
-    literal,
-    plain_number,
-)
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, StudyError, is_rtol, literal, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
@@ -162,16 +153,17 @@ def lacking(dataset: xr.Dataset) -> list[str]:
     return names + [f"flag_meanings of {n}" for n in flags if "flag_meanings" not in dataset[n].attrs]
 
 
-def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
+def mistakes(dataset: xr.Dataset, source: str) -> Report:
     """Everything that is wrong in an archive that lacks nothing."""
+    report = Report(source)
     # Each of these can be checked only if what it relies on, the one before it, is sound.
-    found: list[tuple[str, str, str]] = []
-    for check in (_attributes, _shapes, _coordinates, _wrong_values):
-        found = found or [*check(dataset)]
-    return [Mistake(*parts, source) for parts in found]
+    for check in (_check_attributes, _check_shapes, _check_coordinates, _check_values):
+        if not report:
+            check(dataset, report)
+    return report
 
 
-def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
     attributes, real = dataset.attrs, has_units(dataset)
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
@@ -180,7 +172,7 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     if not 0.0 <= plain_number(seconds) < np.inf:
         wrong["wall_time_seconds"] = "a number of seconds"
     for name, allowed in wrong.items():
-        yield f"attribute {name}", _words(attributes[name]), allowed
+        report(f"attribute {name}", _words(attributes[name]), allowed)
     others = [str(name) for name in dataset.data_vars] if real else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
@@ -192,7 +184,8 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         try:
             readers[name](attributes[name])
         except ValueError as error:
-            yield f"attribute {name}", f"{_words(attributes[name])} ({error})", "JSON as swtstudy writes it"
+            found = f"{_words(attributes[name])} ({error})"
+            report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = _plain(dataset)
     known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
@@ -200,33 +193,34 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
     every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
     for attribute, name, allowed in every:
-        found = plain[name].attrs.get(attribute, allowed)
-        if str(found) != allowed:
-            yield f"attribute {attribute} of {name}", _words(found), _words(allowed)
+        value = plain[name].attrs.get(attribute, allowed)
+        if str(value) != allowed:
+            report(f"attribute {attribute} of {name}", _words(value), _words(allowed))
 
 
-def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
     plain = _plain(dataset)
     own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
     for name, more in (own | request_of(dataset).variables).items():
         if name not in plain:
-            yield name, "nothing", "a variable that an archive of this version has"
+            report(name, "nothing", "a variable that an archive of this version has")
             continue
         if {*plain[name].dims} != {*dataset.s.dims, *more}:
             besides = f" and {', '.join(more)}" * bool(more)
-            yield name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}"
+            report(name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}")
         if plain[name].dtype.kind not in "fiu":
-            yield name, f"values of type {plain[name].dtype}", "numbers"
+            report(name, f"values of type {plain[name].dtype}", "numbers")
 
 
-def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_coordinates(dataset: xr.Dataset, report: Report) -> None:
     try:
         grid_of(dataset)
     except StudyError as error:
-        yield from ((mistake.key, mistake.found, mistake.allowed) for mistake in error.mistakes)
+        for mistake in error.mistakes:
+            report(mistake.key, mistake.found, mistake.allowed)
 
 
-def _wrong_values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_values(dataset: xr.Dataset, report: Report) -> None:
     """Values that no run computes, such as from a damaged file."""
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
@@ -240,18 +234,12 @@ def _wrong_values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         ("s", computed & unbounded & (s < 0.0), "0 or more"),
         ("s_error", computed & (s_error < 0.0), "0 or more"),
     ):
-        if wrong.any():
-            yield name, _first(dataset, name, wrong), allowed
+        if count := int(wrong.sum()):
+            index = index_at(dataset.s, int(wrong.argmax()))
+            place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
+            where = f" at {place}" * bool(place) + f" and {count - 1} more" * (count > 1)
+            report(name, f"{dataset[name].isel(index).item()}{where}", allowed)
 
 
 def _words(value: object) -> str:
     return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)
-
-
-def _first(dataset: xr.Dataset, name: str, wrong: BoolArray) -> str:
-    """The first wrong value, where it is, and how many more there are."""
-    index = index_at(dataset.s, int(wrong.argmax()))
-    place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
-    where = f" at {place}" if place else ""
-    more = f" and {int(wrong.sum()) - 1} more" if wrong.sum() > 1 else ""
-    return f"{dataset[name].isel(index).item()}{where}{more}"

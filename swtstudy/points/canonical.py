@@ -118,7 +118,17 @@ def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple
     table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
     for name in COLUMNS:
         table[name] = columns[name]
-    _make_profiles_canonical(table)
+    profile = table["profile"]
+    for family in FAMILIES.values():
+        if family.plain is not None:
+            name, value = family.plain
+            same = (profile == code_of(family.name)) & (table[name] == value)
+            profile[same] = code_of(PLAIN_OF[family.geometry])
+    for code in np.unique(profile):
+        # Profiles that the user has defined have no shape parameters.
+        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
+        for name in {*SHAPE_COLUMNS} - {*shape}:
+            table[name][profile == code] = 0.0
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[SHIFT])
     # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
@@ -143,20 +153,6 @@ def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple
     folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
     table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return table, mirrored
-
-
-def _make_profiles_canonical(table: Table) -> None:
-    profile = table["profile"]
-    for family in FAMILIES.values():
-        if family.plain is not None:
-            name, value = family.plain
-            same = (profile == code_of(family.name)) & (table[name] == value)
-            profile[same] = code_of(PLAIN_OF[family.geometry])
-    for code in np.unique(profile):
-        # Profiles that the user has defined have no shape parameters.
-        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
-        for name in {*SHAPE_COLUMNS} - {*shape}:
-            table[name][profile == code] = 0.0
 
 
 def _make_shifts_canonical(table: Table, shift: NDArray) -> None:

@@ -149,14 +149,13 @@ def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
         i, k = np.nonzero(np.isfinite(known["distance"]) & candidates[:, None])
         pairs = Found({name: known[name][i] for name in ("status", "run")}, known.runs)
         pairs.arrays["row"] = _with_distance(known["row"][i], known["distance"][i, k])
-        for j, distance in enumerate(points.distances.T):
-            at = look_up(_with_distance(points.rows, distance), pairs, np.ones(len(i), bool))
-            there = np.flatnonzero(at >= 0)
-            for name in _OF_DISTANCE & known.arrays.keys():
-                if j == 0:
-                    shape = *points.distances.shape, *known[name].shape[2:]
-                    found.arrays[name] = np.full(shape, np.nan)
-                found[name][there, j] = known[name][i[at[there]], k[at[there]]]
+        each = _with_distance(points.rows.repeat(points.distances.shape[1]), points.distances.ravel())
+        at = look_up(each, pairs, np.ones(len(i), bool))
+        there = np.flatnonzero(at >= 0)
+        for name in _OF_DISTANCE & known.arrays.keys():
+            values = np.full((len(each), *known[name].shape[2:]), np.nan)
+            values[there] = known[name][i[at[there]], k[at[there]]]
+            found.arrays[name] = values.reshape(*points.distances.shape, *values.shape[1:])
     return found
 
 

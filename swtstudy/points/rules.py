@@ -197,11 +197,19 @@ def check_shapes(grid: Grid, report: Report) -> None:
     from swtstudy.profiles.at_rest import check_shape, compact_shapes
 
     amplitude = grid.control.given_for("normal_amplitude")
-    # The largest contact of a shape is the hardest to keep compact.
+    # The largest contact of a shape is the hardest to keep compact: of a sample each has its own.
     largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
     profiles: dict[Any, None] = dict.fromkeys(grid.values("profile"))
     for profile in (each for each in profiles if family_of(each).shape or isinstance(each, Definition)):
-        names, shapes = family_of(profile).shape, _shapes_of(grid, profile)
+        names = family_of(profile).shape
+        sampled = {name: grid.samples[name] for name in names if name in grid.samples}
+        if sampled and amplitude in grid.samples:
+            sampled[amplitude] = grid.samples[amplitude]
+        if "profile" in grid.samples:
+            own_rows = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
+            sampled = {name: tuple(values[row] for row in own_rows) for name, values in sampled.items()}
+        fixed = {name: value for name, value in grid.fixed.items() if name in names}
+        shapes = Grid(fixed, {name: each for name, each in grid.axes.items() if name in names}, sampled)
         if shapes.size > MOST_SHAPES:
             report.of(names, f"{shapes.size} shapes of the {profile}", f"at most {MOST_SHAPES}")
             continue
@@ -228,19 +236,6 @@ def largest_reach(grid: Grid) -> float:
     from swtstudy.loads.loop import Loop
 
     return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
-
-
-def _shapes_of(grid: Grid, profile: object) -> Grid:
-    """The grid of the shapes of a profile; with the normal amplitude where both are sampled."""
-    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
-    sampled = {name: grid.samples[name] for name in names if name in grid.samples}
-    if sampled and amplitude in grid.samples:
-        sampled[amplitude] = grid.samples[amplitude]
-    if "profile" in grid.samples:
-        own = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
-        sampled = {name: tuple(values[row] for row in own) for name, values in sampled.items()}
-    axes = {name: values for name, values in grid.axes.items() if name in names}
-    return Grid({name: value for name, value in grid.fixed.items() if name in names}, axes, sampled)
 
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:

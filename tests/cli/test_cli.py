@@ -363,18 +363,18 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    from swtstudy.runner import job
+    from swtstudy.runner import run as run_module
 
     def ctrl_c(*_):
         signal.raise_signal(signal.SIGINT)
 
-    def saved(*arguments):
-        ctrl_c()  # where the words of the first are made
-        return before(*arguments)
+    class Stopped(run_module.Stopped):
+        def __init__(self, words):
+            ctrl_c()  # where the words of the first are made
+            super().__init__(words)
 
-    before = job._saved
     monkeypatch.setattr(stand_in.SOLVER, ctrl_c)
-    monkeypatch.setattr(job, "_saved", saved)
+    monkeypatch.setattr(run_module, "Stopped", Stopped)
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr
