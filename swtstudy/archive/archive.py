@@ -16,7 +16,7 @@ from swtstudy.archive.attributes import definitions_text, versions
 from swtstudy.archive.netcdf import read_archive
 from swtstudy.archive.parts import known_points, parts_folder, read_parts
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found, matching
+from swtstudy.points.chunk import Found, matching
 from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.variables import FAILED

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from swtstudy.points.found import Run
+from swtstudy.points.chunk import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal
@@ -36,7 +36,7 @@ def read_runs(text: object) -> tuple[Run, ...]:
 
 
 def definitions_text(definitions: Iterable[Definition]) -> str:
-    """Write the user's definitions as an attribute; see `read_definitions`."""
+    """Write the user's definitions as an attribute; see `defined_in`."""
     return json.dumps(
         [
             {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
@@ -45,25 +45,20 @@ def definitions_text(definitions: Iterable[Definition]) -> str:
     )
 
 
-def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
-    """Read the user's definitions, by parameter and name."""
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
+    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
     from swtstudy.loads.load_path import LoadPath
     from swtstudy.profiles.table import TabulatedProfile
 
     kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}
-    for raw in _read(list[dict[str, Any]], text):
+    for raw in _read(list[dict[str, Any]], attributes.get("definitions", "[]")):
         try:
             defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
     return found
-
-
-def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
-    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
-    return read_definitions(attributes.get("definitions", "[]"))
 
 
 def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in, read_definitions, read_figure, read_runs
+from swtstudy.archive.attributes import defined_in, read_figure, read_runs
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found
+from swtstudy.points.chunk import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
@@ -176,7 +176,7 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
     others = [str(name) for name in dataset.data_vars] if real else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
-        "definitions": read_definitions,
+        "definitions": lambda text: defined_in({"definitions": text}),
         "figure": partial(read_figure, others=others),
         CONTACT: read_contact,
     }

@@ -180,8 +180,7 @@ def _written(target: Path) -> int | None:
 
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
-    from swtstudy.archive.describe import failures, relative_errors
-    from swtstudy.archive.outcome import outcome
+    from swtstudy.archive.describe import failures, outcome, relative_errors
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"

@@ -17,8 +17,7 @@ import numpy as np
 from swtstudy.archive import parts
 from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
-from swtstudy.points.chunk import Arrays, Solver, chunks, put, stacked
-from swtstudy.points.found import Found, Run
+from swtstudy.points.chunk import Arrays, Found, Run, Solver, chunks, put, stacked
 from swtstudy.runner.work import Work, assess
 from swtstudy.runner.workers import WorkerError, Workers, workers_of
 from swtstudy.study.definition import Study, read_studies, require_study

@@ -11,8 +11,7 @@ import numpy as np
 from swtstudy.archive.parts import known_points
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.canonical import Distinct, group_rows
-from swtstudy.points.chunk import chunk_of, cut, solve_chunk
-from swtstudy.points.found import Found, look_up, matching
+from swtstudy.points.chunk import Found, chunk_of, cut, look_up, matching, solve_chunk
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.quantities import Request

@@ -277,6 +277,12 @@ def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
     assert "already computed   8" in done
 
 
+@pytest.mark.parametrize(("parts", "words"), [(1, "10 s"), (2, "5.0 s"), (9, "5.0 s")])
+def test_plan_counts_only_the_workers_that_have_something_to_do(study, tmp_path, monkeypatch, parts, words):
+    monkeypatch.setattr("swtstudy.runner.work.estimate", lambda work, rtol: (10.0, 1, parts))
+    assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
+
+
 def test_info_says_what_an_archive_is(finished):
     result = call("info", finished / "small.nc")
     assert result.exit_code == 0, result.output
