@@ -69,9 +69,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
     coordinates["control"] = (), grid.control.name, words
     if asked.distances:
-        row, along = grid.row(DISTANCE), QUANTITY_AXES["direction"]
-        words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
-        words |= {"units": row.units, "symbol": row.symbol}
+        words, along = _attributes(grid.row(DISTANCE), asked.distances), QUANTITY_AXES["direction"]
         distances = np.array(asked.distances)
         coordinates[DISTANCE] = (DISTANCE, distances, words) if asked.is_axis else ((), distances[0], words)
         words = {"long_name": along.name, "comment": along.meaning}
@@ -102,10 +100,11 @@ def values_at(
 
     ``points`` are the distinct ones of these places, and ``found`` their values.
     """
-    sizes, own = asked.sizes, {name: row.dims for row in asked.rows for name in row.variables}
-    arrays = {name: found[name][points.index] for name in (*SOLVED, *own) if name in found}
-    for name in own.keys() - arrays.keys():
-        arrays[name] = np.full((len(points.index), *(sizes[dim] for dim in own[name])), np.nan)
+    own = {name: row.dims for row in asked.rows for name in row.variables}
+    arrays = {name: found[name][points.index] for name in SOLVED}
+    for name, dims in own.items():
+        nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in dims)), np.nan)
+        arrays[name] = found.get(name, nothing)[points.index]
     cycles = grid.cycles(np.arange(grid.size) if places is None else places) if _per_cycle(own) else 1.0
     return turned(arrays, points.mirrored, cycles)
 

@@ -57,6 +57,19 @@ def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
     return LocalPool(count) if processes else Workers(count)
 
 
+class _Task:
+    """A task for another process: to unpickle it is to do it.
+
+    So a worker that lacks what the task needs reports that as the error of the task.
+    """
+
+    def __init__(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
+        self._parts = function, arguments
+
+    def __reduce__(self) -> tuple[Callable[..., Any], tuple[Any, ...]]:
+        return self._parts
+
+
 class Workers:
     """Threads of this process, which the compiled solver lets run side by side; the base of other kinds.
 
@@ -68,10 +81,13 @@ class Workers:
         Number of tasks that run at the same time.
     lost, gone
         The errors of tasks that were lost with a worker, and of tasks for which all workers are lost.
+    apart
+        Whether tasks are done in other processes.
     """
 
     lost: tuple[type[BaseException], ...] = ()
     gone: tuple[type[BaseException], ...] = ()
+    apart = False
     _executor: Any = None
 
     def __init__(self, count: int) -> None:
@@ -90,6 +106,8 @@ class Workers:
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
         self._executor = self._executor or self._start()
+        if self.apart:
+            function, arguments = pickle.loads, (cloudpickle.dumps(_Task(function, arguments)),)
         return self._executor.submit(function, *arguments)
 
     def renew(self, wait: bool = False) -> None:
@@ -158,7 +176,7 @@ class Workers:
 class LocalPool(Workers):
     """Worker processes on this machine, which start with the first task."""
 
-    lost = (BrokenProcessPool,)
+    lost, apart = (BrokenProcessPool,), True
 
     def _start(self) -> ProcessPoolExecutor:
         return start_workers(self.size)
@@ -166,7 +184,7 @@ class LocalPool(Workers):
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """See `Workers`."""
         try:
-            return super().submit(_call, cloudpickle.dumps((function, arguments)))
+            return super().submit(function, *arguments)
         except BrokenProcessPool as error:
             lost: Future[Any] = Future()
             lost.set_exception(error)
@@ -185,6 +203,8 @@ class ClusterPool(Workers):
 
     dask itself reassigns the tasks of a lost worker; only a task that has killed several workers is lost.
     """
+
+    apart = True
 
     def __init__(self, client: Client) -> None:
         from distributed.comm import CommClosedError
@@ -223,12 +243,6 @@ class ClusterPool(Workers):
             if not present and not warned:
                 _log.warning("the cluster has no workers; waiting for some")
             warned, self.size = not present, max(1, present)
-
-
-def _call(content: bytes) -> Any:
-    """Do a task in another process: a worker that lacks the package reports that as the error of the task."""
-    function, arguments = pickle.loads(content)
-    return function(*arguments)
 
 
 def start_workers(count: int) -> ProcessPoolExecutor:
