@@ -9,7 +9,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -113,16 +113,8 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _stopped_once():
-        run_several(
-            pairs,
-            done,
-            formats,
-            width,
-            workers=workers,
-            processes=processes,
-            client=client,
-            retry_failed=retry_failed,
-        )
+        how: dict[str, Any] = {"workers": workers, "processes": processes, "client": client}
+        run_several(pairs, done, formats, width, retry_failed=retry_failed, **how)
     if any(failed):
         sys.exit(POINTS_FAILED)
     if len(targets) == 1:
