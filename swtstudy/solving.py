@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
@@ -14,6 +16,7 @@ from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
+from swtstudy.vocabulary.variables import SOLVED
 from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
@@ -21,6 +24,7 @@ if TYPE_CHECKING:
 
     from swtstudy.points.chunk import Arrays
     from swtstudy.points.grid import Grid
+    from swtstudy.vocabulary.arrays import IndexArray
 
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
@@ -89,20 +93,59 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or report:
         raise StudyError([*found, *report])
-    return _solve_lazily(grid, lazy, float(rtol), asked) if lazy else solve_grid(grid, float(rtol), asked)
+    return solve_grid(grid, float(rtol), asked, lazy)
 
 
-def solve_grid(grid: Grid, rtol: float, asked: Request = NOTHING) -> xr.Dataset:
-    """s on a grid, and what is ``asked`` beside it, solved in this process."""
-    from swtstudy.points.labelled import label_found
+def solve_grid(
+    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] = MappingProxyType({})
+) -> xr.Dataset:
+    """s on a grid, and what is ``asked`` beside it, solved in this process.
 
-    points = Distinct.of(grid, asked)
-    dataset = label_found(grid, points, _found(points, rtol, asked), asked, of_runs=False)
-    return dataset.assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
+    Parameters
+    ----------
+    grid, rtol, asked
+        The points, the relative accuracy of s, and the quantities beside s.
+    lazy
+        Chunks of dask along dimensions. If there are some, data variables are arrays of dask.
+    """
+    import xarray as xr
+
+    from swtstudy.points.labelled import label, margins, values_at
+
+    own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
+
+    def block_values(*positions: IndexArray) -> tuple[NDArray[Any], ...]:
+        """Values of a block of the grid, from positions along its dimensions."""
+        places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
+        points = Distinct.of(grid, asked, places.ravel())
+        arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
+        sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
+        return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
+
+    points = None
+    if lazy:
+        made = xr.apply_ufunc(
+            block_values,
+            *(
+                xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
+                for dim, size in zip(grid.dims, grid.shape, strict=True)
+            ),
+            output_core_dims=[*own.values()],
+            dask="parallelized",
+            output_dtypes=[np.int8 if name == "regime" else float for name in own],
+            dask_gufunc_kwargs={"output_sizes": {d: asked.sizes[d] for dims in own.values() for d in dims}},
+        )
+        arrays = {name: each.data for name, each in zip(own, made, strict=True)}
+    else:
+        points = Distinct.of(grid, asked)
+        arrays = values_at(grid, points, _found(points, rtol, asked), asked)
+    arrays |= margins(grid, points)
+    return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
     """All that is asked of points, solved one chunk after another; raises if one has no value."""
+    # What solves is imported where something is solved.
     from swtstudy.points.chunk import blank, chunks, fill, put
 
     count = len(points.rows)
@@ -114,42 +157,6 @@ def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
             put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
     return found
-
-
-def _solve_lazily(grid: Grid, lazy: Mapping[str, Any], rtol: float, asked: Request) -> xr.Dataset:
-    """The same as arrays of dask, with these chunks along axes."""
-    import xarray as xr
-
-    from swtstudy.points.labelled import label, margins, values_at
-    from swtstudy.vocabulary.variables import SOLVED
-
-    of_points = dict(zip(grid.dims, grid.shape, strict=True))
-    places = [
-        xr.DataArray(np.arange(size), dims=name).chunk({name: lazy.get(name, size)})
-        for name, size in of_points.items()
-    ]
-    own = dict.fromkeys(SOLVED, ()) | asked.variables
-
-    def at(*block: np.ndarray[Any, Any]) -> tuple[np.ndarray[Any, Any], ...]:
-        flat = np.ravel_multi_index(np.broadcast_arrays(*block), grid.shape)
-        points = Distinct.of(grid, asked, flat.ravel())
-        arrays = values_at(grid, points, _found(points, rtol, asked), asked, flat.ravel())
-        return tuple(
-            arrays[name].reshape(*flat.shape, *(asked.sizes[dim] for dim in dims))
-            for name, dims in own.items()
-        )
-
-    made = xr.apply_ufunc(
-        at,
-        *places,
-        output_core_dims=[*own.values()],
-        dask="parallelized",
-        output_dtypes=[np.int8 if name == "regime" else float for name in own],
-        dask_gufunc_kwargs={"output_sizes": {dim: asked.sizes[dim] for dims in own.values() for dim in dims}},
-    )
-    arrays = {name: each.data for name, each in zip(own, made, strict=True)}
-    arrays |= margins(Distinct.of(grid), grid) if grid.margins else {}
-    return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
 def spanned(

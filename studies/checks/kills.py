@@ -42,9 +42,9 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
-    from swtstudy.runner import job
+    from swtstudy.runner import run as run_module
 
-    cut = job.chunks
+    cut = run_module.chunks
 
     def noted(*arguments: Any) -> list[Chunk]:
         found = list(cut(*arguments))
@@ -52,8 +52,8 @@ def child(what: str, text: str, path: str, log: str) -> None:
             file.writelines(f"{len(chunk.places)}\n" for chunk in found)
         return found
 
-    job.chunks = noted
-    job.PART_SECONDS = job.PART_SHARE = 0.0  # saved at once
+    run_module.chunks = noted
+    run_module.PART_SECONDS = run_module.PART_SHARE = 0.0  # saved at once
     run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap, processes=True)
 
 

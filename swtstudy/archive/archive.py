@@ -16,9 +16,10 @@ from swtstudy.archive.attributes import definitions_text, versions
 from swtstudy.archive.netcdf import read_archive
 from swtstudy.archive.parts import known_points, parts_folder, read_parts
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found, matching
-from swtstudy.points.labelled import label_found
+from swtstudy.points.chunk import Found, matching
+from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.study.definition import Study
+from swtstudy.vocabulary.variables import FAILED
 from swtstudy.vocabulary.version import __version__
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
@@ -40,21 +41,14 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
     seconds
         Wall time of the run that ends with this archive.
     """
-    dataset = label_found(study.grid, points, found.arrays, study.asked)
+    names = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
+    arrays = values_at(study.grid, points, found.arrays, study.asked)
+    arrays |= {name: found[name][points.index] for name in names}
+    dataset = label(study.grid, arrays | margins(study.grid, points), study.asked)
     if study.sample is not None and study.sample.design is not None:
         dataset.sample.attrs |= study.sample.design.attributes()
     message = " message" * ("message" in dataset)
     dataset.s.attrs["ancillary_variables"] = f"s_error regime s_surface status run{message}"
-    return dataset.assign_attrs(_provenance(study, found, history, seconds))
-
-
-def history_line(what: str) -> str:
-    """A line for the history: the present time, and what was done."""
-    now = datetime.now(UTC).isoformat(timespec="seconds")
-    return f"{now}: {what} by swtstudy {__version__}"
-
-
-def _provenance(study: Study, found: Found, history: str, seconds: float) -> dict[str, Any]:
     made = found["run"] >= 0
     of_runs = np.bincount(found["run"][made], found["seconds"][made], len(found.runs))
     each = zip(found.runs, of_runs.tolist(), strict=True)
@@ -74,7 +68,13 @@ def _provenance(study: Study, found: Found, history: str, seconds: float) -> dic
         "definitions": definitions_text(study.grid.given) if study.grid.given else None,
         "figure": study.figure and study.figure.to_json(),
     }
-    return {name: value for name, value in attributes.items() if value is not None}
+    return dataset.assign_attrs({name: value for name, value in attributes.items() if value is not None})
+
+
+def history_line(what: str) -> str:
+    """A line for the history: the present time, and what was done."""
+    now = datetime.now(UTC).isoformat(timespec="seconds")
+    return f"{now}: {what} by swtstudy {__version__}"
 
 
 def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset:

@@ -9,12 +9,14 @@ from __future__ import annotations
 import json
 import math
 import platform
-from collections.abc import Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from swtstudy.points.found import Run
+from pydantic import TypeAdapter, ValidationError
+
+from swtstudy.points.chunk import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal
@@ -34,7 +36,7 @@ def read_runs(text: object) -> tuple[Run, ...]:
 
 
 def definitions_text(definitions: Iterable[Definition]) -> str:
-    """Write the user's definitions as an attribute; see `read_definitions`."""
+    """Write the user's definitions as an attribute; see `defined_in`."""
     return json.dumps(
         [
             {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
@@ -43,25 +45,20 @@ def definitions_text(definitions: Iterable[Definition]) -> str:
     )
 
 
-def read_definitions(text: object) -> dict[str, dict[str, Definition]]:
-    """Read the user's definitions, by parameter and name."""
+def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
+    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
     from swtstudy.loads.load_path import LoadPath
     from swtstudy.profiles.table import TabulatedProfile
 
     kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
     found: dict[str, dict[str, Definition]] = {}
-    for raw in _read(list[dict[str, Any]], text):
+    for raw in _read(list[dict[str, Any]], attributes.get("definitions", "[]")):
         try:
             defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
         except (KeyError, TypeError, ValueError, OverflowError) as error:
             raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
         found.setdefault(raw["parameter"], {})[raw["name"]] = defined
     return found
-
-
-def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
-    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
-    return read_definitions(attributes.get("definitions", "[]"))
 
 
 def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
@@ -75,23 +72,17 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
     return layout
 
 
+#: The reader of values of a type; pydantic takes a millisecond to make one.
+_reader: Callable[[Any], TypeAdapter[Any]] = cache(TypeAdapter)
+
+
 def _read(kind: Any, text: object) -> Any:
     """The value of a type that is written as JSON; a ValueError with the first thing that is wrong in it."""
-    from pydantic import ValidationError
-
     try:
-        return _reader(kind).validate_json(text, strict=True)
+        return _reader(kind).validate_json(text, strict=True)  # type: ignore[arg-type]
     except ValidationError as error:
         wrong = error.errors()[0]
         raise ValueError(": ".join([*map(str, wrong["loc"]), wrong["msg"]])) from None
-
-
-@cache
-def _reader(kind: Any) -> Any:
-    """The reader of values of a type; pydantic takes a millisecond to make one."""
-    from pydantic import TypeAdapter
-
-    return TypeAdapter(kind)
 
 
 #: Packages whose versions can affect the numbers or the file.

@@ -1,7 +1,8 @@
-"""An archive in words."""
+"""Results in words: their outcome in one line, and all that an archive says."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -10,29 +11,26 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from swtstudy.archive.attributes import defined_in, read_runs
-from swtstudy.archive.outcome import outcome
 from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.validity import validity_lines
-from swtstudy.points.values import index_at
+from swtstudy.points.validity import outside_words, point_words, validity_lines
+from swtstudy.points.values import index_at, unit_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.reading import read_contact
-from swtstudy.units.results import is_uncounted, sequence_words
+from swtstudy.units.results import is_uncounted, measures, sequence_words
 from swtstudy.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import CRITERIA
+from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE
+from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
-from swtstudy.vocabulary.wording import (
-    coordinate_words,
-    listed,
-    number_of,
-    number_words,
-    numbers_words,
-    unit_words,
-)
+from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
 
+#: Lives over more critical distances are a range.
+_DISTANCES = 3
 #: How many values of an axis, or failed points, are listed one by one: a line of a terminal.
 _LISTED = 8
 #: Letters to the left of the words of a line.
@@ -75,9 +73,10 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "quantities", ", ".join(asked.names)
     if asked.distances:
         distances = ", ".join(f"{value:.4g}" for value in asked.distances)
-        yield "distances", f"{distances}{_unit(dataset[DISTANCE])}"
+        yield "distances", f"{distances}{unit_of(dataset[DISTANCE])}"
     if "status" in dataset:
-        yield "complete", completeness(dataset)
+        counts = _counted(dataset.status.values, STATES)
+        yield "complete", ", ".join(f"{count} {state}" for state, count in counts.items())
     if "rtol" in attributes:
         yield "asked for", f"rtol {attributes['rtol']:g}"
         yield "accurate", accuracy(dataset)
@@ -103,7 +102,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
                 words += f" ({design} design, seed {attributes.get('seed')})"
             yield "sample", words
         else:
-            yield "axis", f"{name}: {_axis_words(dataset[name])}{_unit(dataset[name])}"
+            yield "axis", f"{name}: {_axis_words(dataset[name])}{unit_of(dataset[name])}"
     for load, words in recorded_loads(dataset):
         yield "load", f"{load}: {words}"
     for name in (*PARAMETERS, *CONTACT_AXES):
@@ -112,7 +111,7 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         dims = dataset[name].dims
         label = "fixed" if not dims else "of each body" if dims == ("body",) else "sampled"
         words = _range_words(dataset[name]) if label == "sampled" else _axis_words(dataset[name])
-        yield label, f"{name}: {words}{_unit(dataset[name])}"
+        yield label, f"{name}: {words}{unit_of(dataset[name])}"
 
 
 def unsaid(dataset: xr.Dataset) -> set[str]:
@@ -142,7 +141,7 @@ def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             if name is not None:
                 ends = mean + float(dataset[name]) * np.array([column.min(), column.max()])
                 low, high = (number_words(end).replace("-", "−") for end in ends)
-                said.append(f"{names[name]} {low} to {high}{_unit(dataset[name])}")
+                said.append(f"{names[name]} {low} to {high}{unit_of(dataset[name])}")
         yield str(load), ", ".join(said)
 
 
@@ -224,11 +223,6 @@ def _counted_words(dataset: xr.Dataset) -> str:
     return words + f"; uncounted in {int(lacking.sum())}" * bool(lacking.any())
 
 
-def _unit(coordinate: xr.DataArray) -> str:
-    """The unit that a coordinate has in a study with units."""
-    return unit_words(coordinate.attrs.get("units", ""))
-
-
 def _words(value: xr.DataArray) -> str:
     return coordinate_words(str(value.name), value.item(), value.attrs)
 
@@ -243,11 +237,6 @@ def _range_words(axis: xr.DataArray) -> str:
         return _axis_words(known)
     ends = int(known.values.argmin()), int(known.values.argmax())
     return f"from {_words(known[ends[0]])} to {_words(known[ends[1]])}"
-
-
-def completeness(dataset: xr.Dataset) -> str:
-    """Count the points that are computed, failed, missing."""
-    return ", ".join(f"{count} {state}" for state, count in _counted(dataset.status.values, STATES).items())
 
 
 def relative_errors(dataset: xr.Dataset) -> FloatArray:
@@ -265,3 +254,127 @@ def accuracy(dataset: xr.Dataset) -> str:
     largest, median = numbers_words((relative.max(), np.median(relative)), 2)
     words = f"relative error of s estimated up to {largest}, median {median}"
     return f"{words}; {above} of {relative.size} points above rtol"
+
+
+def outcome(dataset: xr.Dataset) -> Iterator[str]:
+    """Say what was found, and then, if anything is, what is outside of the model.
+
+    Parameters
+    ----------
+    dataset
+        Results. Values are given with the place of the critical point; of several points the least and the
+        greatest, with their parameters.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> for line in outcome(swtstudy.solve(rtol=1e-3, friction=[0.2, 0.4])):
+    ...     print(line)
+    s = 0.08612 (friction = 0.2; x/a_H = −1.32) to 0.2443 (friction = 0.4; x/a_H = −1.32).
+    """
+    found = [_criterion_words(dataset, name) for name in measures(dataset)] or [*_of_criteria(dataset)]
+    yield f"{'; '.join([*found, *life_words(dataset)])}.".replace("= -", "= −")
+    if words := outside_words(dataset):
+        yield words
+
+
+def _of_criteria(dataset: xr.Dataset) -> Iterator[str]:
+    """Values of s, by each criterion where there are several: these are not to be compared."""
+    if "criterion" not in dataset.dims:
+        yield _criterion_words(dataset, "s")
+        return
+    for each in dataset.criterion.values:
+        yield f"{each}: {_criterion_words(dataset.sel(criterion=each), 's')}"
+
+
+def _criterion_words(dataset: xr.Dataset, name: str) -> str:
+    """The value of a criterion: one with its place, or the least and the greatest with their points."""
+    values, unit = dataset[name].values.ravel(), unit_of(dataset[name])
+    known = np.flatnonzero(np.isfinite(values))
+    if not known.size:
+        return f"{name} is finite at no point"
+    ends = [int(known[values[known].argmin()]), int(known[values[known].argmax()])]
+    least, most = numbers_words(values[ends])
+    if least == most:
+        place, alike = _position(dataset, ends[1]), f" at all {known.size} points" * (known.size > 1)
+        return f"{name} = {most}{unit}{alike}{f' at {place}' * bool(place)}"
+    places = ("; ".join(filter(None, (point_words(dataset, k), _position(dataset, k)))) for k in ends)
+    several = (f"{each}{unit} ({where})" for each, where in zip((least, most), places, strict=True))
+    return f"{name} = {' to '.join(several)}"
+
+
+def _position(dataset: xr.Dataset, flat: int) -> str:
+    """Position of the critical point of one of the flattened points; empty where none is critical."""
+    for name, symbol in (("critical_position", "x"), ("critical_x", "x/a_H")):
+        if name in dataset:
+            x = float(dataset[name].isel(index_at(dataset.s, flat), missing_dims="ignore"))
+            return f"{symbol} = {number_words(x, 3)}{unit_of(dataset[name])}" if math.isfinite(x) else ""
+    return ""
+
+
+def life_words(dataset: xr.Dataset) -> Iterator[str]:
+    """The life by each criterion that has one, at the worst point and as a mean over critical distances."""
+    if not has_units(dataset):
+        return
+    if sequence := sequence_words(dataset, read_contact(dataset.attrs[CONTACT]).blocks):
+        yield f"sequence of blocks: {sequence}"
+        return
+    kinds = [kind for kind in CRITERIA.values() if kind.life and kind.life in dataset]
+    for kind in kinds:
+        said = [f"{_ends(dataset[kind.life].values)} load cycles (worst point)"]
+        for name in asked_means(dataset, kind.life):
+            said += [f"{_ends(values)} (mean over {words})" for words, values in _over(dataset[name])]
+        yield f"N{f' by {kind.name}' * (len(kinds) > 1)} = {', '.join(said)}"
+        shown = [y for y in shown_in(dataset) if y in (kind.life, *asked_means(dataset, kind.life))]
+        yield from _scatter([*shown, *asked_means(dataset, kind.life), kind.life][0], dataset)
+
+
+def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
+    """Percentiles of a life where it is shortest, and the largest probability of a crack before a target."""
+    if f"{life}_{PERCENTS[0]}" in dataset:
+        shortest = (float(dataset[f"{life}_{percent}"].min()) for percent in PERCENTS)
+        words = (f"N{p} = {each}" for p, each in zip(PERCENTS, numbers_words(shortest, 2), strict=True))
+        which = f" ({life})" * (life not in ("cycles", "FS_cycles"))
+        yield f"scatter of the constants, shortest lives{which}: {', '.join(words)}"
+    if (name := life.replace(LIFE, FAILED_SHARE)) in dataset:
+        yield f"{dataset[name].long_name}: up to {number_words(float(dataset[name].max()), 2)}"
+
+
+def asked_means(dataset: xr.Dataset, life: str) -> list[str]:
+    """Lives by nonlocal means that the study's figure shows; without one the life by the mean over a volume.
+
+    Parameters
+    ----------
+    dataset
+        Results.
+    life
+        Name of the life at the worst point, which those begin with.
+    """
+    means = [name for name in LIVES if name in dataset and name.startswith(f"{life}_")]
+    return [y for y in shown_in(dataset) if y in means] or [n for n in means if n == f"{life}_volume"]
+
+
+def shown_in(dataset: xr.Dataset) -> list[str]:
+    """Data variables that the figure of the study shows; none without a figure."""
+    text: Any = dataset.attrs.get("figure")
+    return [y for y in FigureLayout.from_json(text).y if y in dataset.data_vars] if text else []
+
+
+def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:
+    """Critical distances in words, each with the lives over it; of many their range with all lives."""
+    distances, unit = np.atleast_1d(life[DISTANCE].values), unit_of(life[DISTANCE])
+    if distances.size > _DISTANCES:
+        yield f"{' to '.join(map(number_words, (distances.min(), distances.max())))}{unit}", life.values
+        return
+    for k, distance in enumerate(distances):
+        own = life.isel({DISTANCE: k}, missing_dims="ignore")
+        yield f"{number_words(distance)}{unit}", own.values
+
+
+def _ends(lives: FloatArray) -> str:
+    """The longest life and the shortest: those of the least and of the greatest value of the criterion."""
+    known = lives[~np.isnan(lives)]
+    if not known.size:
+        return "unknown"
+    ends = dict.fromkeys(numbers_words((known.max(), known.min()), 2))
+    return " to ".join("∞" if each == "inf" else each for each in ends)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
 from swtstudy.points.canonical import Distinct, canonical_number, describe_point, group_rows
-from swtstudy.points.found import Found, join, look_up, matching
+from swtstudy.points.chunk import Found, join, look_up, matching
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
@@ -61,9 +61,11 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     known = join(parts)
     versions = {run.solver_version: p for p, part in zip(paths, parts, strict=True) for run in part.runs}
     controls = {grid.control.name: path for grid, path in zip(grids, paths, strict=True)}
-    _refuse_several("solver versions", versions)
+    for what, where in (("solver versions", versions), ("prescribed loads", controls)):
+        if len(where) > 1:
+            words = ", ".join(f"{each} in {path}" for each, path in sorted(where.items()))
+            raise ConflictError(f"results of different {what} cannot be merged: {words}")
     _refuse_other_contacts(paths, datasets)
-    _refuse_several("prescribed loads", controls)
     grid, asked = _union(grids), _asked([request_of(dataset) for dataset in datasets])
     sources = [str(path) for path, part in zip(paths, parts, strict=True) for _ in range(len(part))]
     _refuse_conflicts(sources, known, grid)
@@ -94,13 +96,6 @@ def _asked(own: Sequence[Request]) -> Request:
     distances = distinct([distance for each in own for distance in each.distances])
     is_axis = any(each.is_axis for each in own) or len(distances) > 1
     return Request(tuple(names), distances, is_axis, any(each.counts for each in own))  # type: ignore[arg-type]
-
-
-def _refuse_several(what: str, where: Mapping[str, Path]) -> None:
-    """Refuse results with several of these, each of which is in one of the archives."""
-    if len(where) > 1:
-        words = ", ".join(f"{each} in {path}" for each, path in sorted(where.items()))
-        raise ConflictError(f"results of different {what} cannot be merged: {words}")
 
 
 def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:

@@ -17,7 +17,7 @@ import json
 import logging
 import re
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +25,7 @@ import numpy as np
 from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.points.canonical import NAMES, ROW, group_rows
-from swtstudy.points.found import Found, join
+from swtstudy.points.chunk import Found, join
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 
@@ -73,10 +73,8 @@ def read_parts(folder: Path) -> Found:
     A part that cannot be read is left out: its points will be computed again.
     """
     for _ in range(10):
-        try:
+        with suppress(FileNotFoundError):  # the archive has been completed between listing and reading
             return join(part for path in _paths(folder) if (part := _read(path)) is not None)
-        except FileNotFoundError:
-            continue  # joined between listing and reading
     return join([])
 
 
@@ -101,8 +99,11 @@ def clear_unfinished(folder: Path) -> None:
 
 def _paths(folder: Path) -> list[Path]:
     refuse_link(folder)
-    named = (path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name))
-    return sorted(path for path in named if path.is_file() and not path.is_symlink())
+    return sorted(path for path in _named(folder) if path.is_file() and not path.is_symlink())
+
+
+def _named(folder: Path) -> list[Path]:
+    return [path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)]
 
 
 def _remove(paths: Iterable[Path]) -> None:
@@ -114,9 +115,7 @@ def save_part(folder: Path, found: Found) -> None:
     """Write one more part, beside those that are there; when this returns, it is safe."""
     folder.mkdir(parents=True, exist_ok=True)  # without locks another run may have removed it
     # Whatever is there under such a name: it is not replaced.
-    number = 1 + max(
-        (int(path.stem) for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)), default=0
-    )
+    number = 1 + max((int(path.stem) for path in _named(folder)), default=0)
     arrays = dict(found.arrays)
     messages = {place: words for place, words in enumerate(arrays.pop("message")) if words}
     runs = json.dumps([run.to_json() for run in found.runs])

@@ -47,7 +47,8 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
     paths = {study: Path(folder) / f"{prefix}{Path(study).stem}.nc" for study in studies}
     report = Report()
     for path in paths.values():
-        _check(path, report)
+        with report:
+            check_archive_path(path)
     existing = _existing(Path(folder))
     if not existing.is_dir():
         report.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
@@ -57,35 +58,27 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
 
 def check_archive_path(path: Path) -> None:
     """Raise a StudyError, a ValueError, for a path that no archive can have."""
-    _check(path, report := Report())
+    whole, report = path.absolute(), Report(str(path))
+    if any("\ud800" <= c <= "\udfff" for c in str(whole)):
+        report("", "bytes that are not UTF-8", "a path in UTF-8")
+    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
+    if any("\\" in part for part in whole.parts[1:]):
+        report("", "a backslash", "a path without one")
+    if "\0" in str(whole):
+        report("", "a null character", "a path without one")
     report.refuse()
-
-
-def _check(path: Path, report: Report) -> None:
-    whole, length = path.absolute(), len(os.fsencode(path.name))
-    checks = (
-        ("bytes that are not UTF-8", "a path in UTF-8", any("\ud800" <= c <= "\udfff" for c in str(whole))),
-        # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
-        ("a backslash", "a path without one", any("\\" in part for part in whole.parts[1:])),
-        ("a null character", "a path without one", "\0" in str(whole)),
-    )
-    wrong = [Mistake("", found, allowed, str(path)) for found, allowed, is_so in checks if is_so]
-    report += wrong
-    if not wrong and length > (longest := _longest_name(_existing(path.parent)) - _ADDED):
-        report.append(Mistake("", f"a name of {length} bytes", f"at most {longest}", str(path)))
+    length, longest = len(os.fsencode(path.name)), _LONGEST_NAME
+    with suppress(AttributeError, OSError, ValueError):
+        longest = os.pathconf(_existing(path.parent), "PC_NAME_MAX")
+    if length > longest - _ADDED:
+        report("", f"a name of {length} bytes", f"at most {longest - _ADDED}")
+    report.refuse()
 
 
 def _existing(folder: Path) -> Path:
     """The folder, or the nearest existing one above it."""
     absolute = folder.absolute()
     return next(each for each in (absolute, *absolute.parents) if each.exists())
-
-
-def _longest_name(folder: Path) -> int:
-    try:
-        return os.pathconf(folder, "PC_NAME_MAX")
-    except (AttributeError, OSError, ValueError):
-        return _LONGEST_NAME
 
 
 #: Errors of file systems without locks.
@@ -111,19 +104,32 @@ def locked(folder: Path) -> Iterator[None]:
     """
     refuse_link(folder)
     path = folder / "lock"
-    handle = _acquire(path)
-    try:
-        os.truncate(handle, 0)
-        os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
-        yield
-    finally:
-        # Removed while held: whoever opened it in the meantime will find another file under its name. Without
-        # locks another run may have removed it.
-        with suppress(FileNotFoundError):
-            if list(folder.iterdir()) == [path]:
-                path.unlink()
-                folder.rmdir()
-        os.close(handle)
+    with ExitStack() as opened:
+        while True:
+            folder.mkdir(parents=True, exist_ok=True)
+            with suppress(FileNotFoundError):  # the folder was removed in between
+                try:
+                    handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
+                except OSError as error:
+                    if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
+                        raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
+                    raise
+                opened.callback(os.close, handle)
+                _lock(handle, path)
+                if os.stat(path).st_ino == os.fstat(handle).st_ino:
+                    break
+            opened.close()
+        try:
+            os.truncate(handle, 0)
+            os.write(handle, f"process {os.getpid()} on {socket.gethostname()}".encode())
+            yield
+        finally:
+            # Removed while held: whoever opened it in the meantime will find another file under its name.
+            # Without locks another run may have removed it.
+            with suppress(FileNotFoundError):
+                if list(folder.iterdir()) == [path]:
+                    path.unlink()
+                    folder.rmdir()
 
 
 def refuse_link(folder: Path) -> None:
@@ -139,30 +145,9 @@ def is_locked(path: Path) -> bool:
     try:
         with open(path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
-    except OSError:
-        return False  # not even readable
+    except OSError as error:
+        return isinstance(error, BlockingIOError)  # others are not even readable
     return False
-
-
-def _acquire(path: Path) -> int:
-    """Create and lock a file; a handle of it."""
-    while True:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with suppress(FileNotFoundError):  # the folder was removed in between
-            try:
-                handle = os.open(path, os.O_RDWR | os.O_CREAT | _NO_LINK, 0o666)
-            except OSError as error:
-                if error.errno in (errno.ELOOP, errno.EISDIR, errno.ENXIO):
-                    raise OSError(f"{path} is no file of ours ({error.strerror}); remove it") from None
-                raise
-            with ExitStack() as opened:
-                opened.callback(os.close, handle)
-                _lock(handle, path)
-                if os.stat(path).st_ino == os.fstat(handle).st_ino:
-                    opened.pop_all()
-                    return handle
 
 
 def _lock(handle: int, path: Path) -> None:

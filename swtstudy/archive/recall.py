@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in, read_definitions, read_figure, read_runs
+from swtstudy.archive.attributes import defined_in, read_figure, read_runs
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.found import Found
+from swtstudy.points.chunk import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
@@ -20,18 +20,9 @@ from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.units.reading import check_contacts, completed, read_contact
 from swtstudy.units.results import without_units
 from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
-from swtstudy.vocabulary.arrays import BoolArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_RTOL,
-    Mistake,
-    Report,
-    StudyError,
-    is_rtol,
-    literal,
-    plain_number,
-)
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, StudyError, is_rtol, literal, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
@@ -50,26 +41,35 @@ def grid_of(dataset: xr.Dataset) -> Grid:
     report, dims = Report(), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
-    known, along = defined_in(dataset.attrs), dict[str, str]()
-    values: NamedValues = {}
+    known = defined_in(dataset.attrs)
+    single: NamedValues = {}
+    axes: NamedValues = {}
+    samples: NamedValues = {}
     for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
         own = tuple(map(str, dataset[name].dims))
-        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
+        kind = {(): single, (name,): axes, (SAMPLE,): samples}.get(own)
+        if kind is None or not {*own} <= {*dims}:
             report(name, f"dimensions {own}", "an axis of s, or a single value")
             continue
         raw = np.atleast_1d(dataset[name].values).tolist()
-        values[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
-        along |= dict.fromkeys([name] * len(own), "".join(own))
-    for name in (name for name in dims if name not in along.values()):
+        kind[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
+    for name in (name for name in dims if name not in axes and not (name == SAMPLE and samples)):
         report(name, "a dimension without values of a parameter", ", ".join(table))
-    _check_complete(values, {*values, *dims, *pairs}, report)
-    control = Control.given({*values, *dims}).name
+    there = {*single, *axes, *samples, *dims, *pairs}
+    replaced, profiles = replaced_by(there), {**single, **axes, **samples}.get("profile", ())
+    shape = shapes_needed([value for value in profiles if isinstance(value, str)])
+    for name, parameter in PARAMETERS.items():
+        needed = parameter.default is not None and not parameter.optional and name not in replaced
+        if (needed or name in shape) and name not in there:  # an archive may leave out optional ones
+            report(name, "nothing", parameter.allowed)
+    for twice in given_twice(there):
+        report.of(*twice)
+    control = Control.given(there).name
     if dataset.get("control", control) != control:
         report("control", literal(dataset.control.values.tolist()), literal(control))
     report.refuse()
-    fixed = {name: value[0] for name, value in values.items() if name not in along}
-    samples = {name: values[name] for name, dim in along.items() if dim == SAMPLE}
-    axes = {name: values[name] for name in dims if name != SAMPLE}
+    fixed = {name: value[0] for name, value in single.items()}
+    axes = {name: axes[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, axes, samples)
     grid = completed(fixed, axes, samples, given)
@@ -83,18 +83,6 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         check_contacts(grid, report)
     report.refuse()
     return grid
-
-
-def _check_complete(values: NamedValues, given: set[str], report: Report) -> None:
-    """Parameters without a value, or two for one; an archive may leave out optional ones."""
-    replaced = replaced_by(given)
-    shape = shapes_needed([value for value in values.get("profile", ()) if isinstance(value, str)])
-    for name, parameter in PARAMETERS.items():
-        needed = parameter.default is not None and not parameter.optional and name not in replaced
-        if (needed or name in shape) and name not in given:
-            report(name, "nothing", parameter.allowed)
-    for twice in given_twice(given):
-        report.of(*twice)
 
 
 def _values(
@@ -165,16 +153,17 @@ def lacking(dataset: xr.Dataset) -> list[str]:
     return names + [f"flag_meanings of {n}" for n in flags if "flag_meanings" not in dataset[n].attrs]
 
 
-def mistakes(dataset: xr.Dataset, source: str) -> list[Mistake]:
+def mistakes(dataset: xr.Dataset, source: str) -> Report:
     """Everything that is wrong in an archive that lacks nothing."""
+    report = Report(source)
     # Each of these can be checked only if what it relies on, the one before it, is sound.
-    found: list[tuple[str, str, str]] = []
-    for check in (_attributes, _shapes, _coordinates, _wrong_values):
-        found = found or [*check(dataset)]
-    return [Mistake(*parts, source) for parts in found]
+    for check in (_check_attributes, _check_shapes, _check_coordinates, _check_values):
+        if not report:
+            check(dataset, report)
+    return report
 
 
-def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
     attributes, real = dataset.attrs, has_units(dataset)
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
@@ -183,11 +172,11 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     if not 0.0 <= plain_number(seconds) < np.inf:
         wrong["wall_time_seconds"] = "a number of seconds"
     for name, allowed in wrong.items():
-        yield f"attribute {name}", _words(attributes[name]), allowed
+        report(f"attribute {name}", _words(attributes[name]), allowed)
     others = [str(name) for name in dataset.data_vars] if real else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
-        "definitions": read_definitions,
+        "definitions": lambda text: defined_in({"definitions": text}),
         "figure": partial(read_figure, others=others),
         CONTACT: read_contact,
     }
@@ -195,7 +184,8 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         try:
             readers[name](attributes[name])
         except ValueError as error:
-            yield f"attribute {name}", f"{_words(attributes[name])} ({error})", "JSON as swtstudy writes it"
+            found = f"{_words(attributes[name])} ({error})"
+            report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = _plain(dataset)
     known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
@@ -203,33 +193,34 @@ def _attributes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
     every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
     every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
     for attribute, name, allowed in every:
-        found = plain[name].attrs.get(attribute, allowed)
-        if str(found) != allowed:
-            yield f"attribute {attribute} of {name}", _words(found), _words(allowed)
+        value = plain[name].attrs.get(attribute, allowed)
+        if str(value) != allowed:
+            report(f"attribute {attribute} of {name}", _words(value), _words(allowed))
 
 
-def _shapes(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
     plain = _plain(dataset)
     own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
     for name, more in (own | request_of(dataset).variables).items():
         if name not in plain:
-            yield name, "nothing", "a variable that an archive of this version has"
+            report(name, "nothing", "a variable that an archive of this version has")
             continue
         if {*plain[name].dims} != {*dataset.s.dims, *more}:
             besides = f" and {', '.join(more)}" * bool(more)
-            yield name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}"
+            report(name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}")
         if plain[name].dtype.kind not in "fiu":
-            yield name, f"values of type {plain[name].dtype}", "numbers"
+            report(name, f"values of type {plain[name].dtype}", "numbers")
 
 
-def _coordinates(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_coordinates(dataset: xr.Dataset, report: Report) -> None:
     try:
         grid_of(dataset)
     except StudyError as error:
-        yield from ((mistake.key, mistake.found, mistake.allowed) for mistake in error.mistakes)
+        for mistake in error.mistakes:
+            report(mistake.key, mistake.found, mistake.allowed)
 
 
-def _wrong_values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
+def _check_values(dataset: xr.Dataset, report: Report) -> None:
     """Values that no run computes, such as from a damaged file."""
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
@@ -243,18 +234,12 @@ def _wrong_values(dataset: xr.Dataset) -> Iterator[tuple[str, str, str]]:
         ("s", computed & unbounded & (s < 0.0), "0 or more"),
         ("s_error", computed & (s_error < 0.0), "0 or more"),
     ):
-        if wrong.any():
-            yield name, _first(dataset, name, wrong), allowed
+        if count := int(wrong.sum()):
+            index = index_at(dataset.s, int(wrong.argmax()))
+            place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
+            where = f" at {place}" * bool(place) + f" and {count - 1} more" * (count > 1)
+            report(name, f"{dataset[name].isel(index).item()}{where}", allowed)
 
 
 def _words(value: object) -> str:
     return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)
-
-
-def _first(dataset: xr.Dataset, name: str, wrong: BoolArray) -> str:
-    """The first wrong value, where it is, and how many more there are."""
-    index = index_at(dataset.s, int(wrong.argmax()))
-    place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
-    where = f" at {place}" if place else ""
-    more = f" and {int(wrong.sum()) - 1} more" if wrong.sum() > 1 else ""
-    return f"{dataset[name].isel(index).item()}{where}{more}"

@@ -9,7 +9,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
@@ -98,7 +98,7 @@ def run(
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.runner.run import run_and_draw
+    from swtstudy.runner.run import run_several
 
     client = _connect(scheduler) if scheduler else None
     before = {target: _written(target) for target in targets.values()}
@@ -113,8 +113,8 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _stopped_once():
-        options = {"workers": workers, "processes": processes, "client": client, "retry_failed": retry_failed}
-        run_and_draw(pairs, formats, done, width, **options)
+        how: dict[str, Any] = {"workers": workers, "processes": processes, "client": client}
+        run_several(pairs, done, formats, width, retry_failed=retry_failed, **how)
     if any(failed):
         sys.exit(POINTS_FAILED)
     if len(targets) == 1:
@@ -172,8 +172,7 @@ def _written(target: Path) -> int | None:
 
 def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
-    from swtstudy.archive.describe import failures, relative_errors
-    from swtstudy.archive.outcome import outcome
+    from swtstudy.archive.describe import failures, outcome, relative_errors
 
     relative = relative_errors(dataset)
     none = "s finite and positive at none of them"

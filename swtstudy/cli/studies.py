@@ -143,9 +143,10 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
     if work.coarse:
         yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
     if todo:
-        seconds, timed = estimate(work, study.rtol)
+        seconds, timed, parts = estimate(work, study.rtol)
         each = f"{1e3 * seconds / todo:.3g} ms a point, from {number_of(timed, 'point')} timed"
-        yield f"  time               about {duration(seconds / workers)} with {workers} workers ({each})"
+        wall = duration(seconds / min(workers, parts))
+        yield f"  time               about {wall} with {workers} workers ({each})"
 
 
 @click.command("list")

@@ -35,7 +35,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     grid, mistakes = read_grid(dict(parameters), {})
     if grid is None:
         raise StudyError(mistakes)
-    return points_from(grid.given_point(), grid.definitions)
+    return points_from(grid.canonical(np.zeros(1, int), fold=False)[0], grid.definitions)
 
 
 def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:

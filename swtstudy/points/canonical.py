@@ -42,13 +42,8 @@ def value_of(code: int, definitions: Definitions, parameter: str = "profile") ->
     return names[code] if code < len(names) else definitions[code]
 
 
-def control_code(normal_force: BoolArray, tangential_force: BoolArray) -> IntArray:
-    """The numbers that stand for what is prescribed, from whether each component is a force."""
-    return normal_force + 2 * tangential_force
-
-
 def control_of(code: int) -> Control:
-    """Control of a number; see `control_code`."""
+    """The control that a number stands for: 1 for a normal force, 2 for a tangential one, together 3."""
     return Control(bool(code & 1), bool(code & 2))
 
 
@@ -101,53 +96,51 @@ def rounded(values: NDArray) -> FloatArray:
     return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
 
 
-def given_points(columns: Mapping[str, NDArray]) -> Table:
-    """Rows of points whose phases are as given, so that their time keeps its origin.
+def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple[Table, BoolArray]:
+    """Canonical rows of points.
 
     Parameters
     ----------
     columns
         A number for every name in `GIVEN_COLUMNS`, each broadcastable to shape (n,).
+    fold
+        Whether phases are folded. If not, the time of a point keeps its origin.
 
     Returns
     -------
     table
         Shape (n,) of `ROW`; columns that do not matter for a point are 0.
-    """
-    table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
-    for name in COLUMNS:
-        table[name] = columns[name]
-    _make_profiles_canonical(table)
-    table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
-    _make_shifts_canonical(table, columns[SHIFT])
-    # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
-    rests, tangential = table["normal_amplitude"] == 0.0, (table["control"] & 2) == 2
-    table["control"] = np.where(rests, control_code(tangential, tangential), table["control"])
-    return table
-
-
-def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
-    """Canonical rows of points: their phases are folded.
-
-    Parameters
-    ----------
-    columns
-        As for `given_points`.
-
-    Returns
-    -------
-    table
-        Shape (n,) of `ROW`.
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
     from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
-    table = given_points(columns)
-    # So is a tangential load at rest as the normal one, and both at rest as displacements.
+    table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
+    for name in COLUMNS:
+        table[name] = columns[name]
+    profile = table["profile"]
+    for family in FAMILIES.values():
+        if family.plain is not None:
+            name, value = family.plain
+            same = (profile == code_of(family.name)) & (table[name] == value)
+            profile[same] = code_of(PLAIN_OF[family.geometry])
+    for code in np.unique(profile):
+        # Profiles that the user has defined have no shape parameters.
+        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
+        for name in {*SHAPE_COLUMNS} - {*shape}:
+            table[name][profile == code] = 0.0
+    table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
+    _make_shifts_canonical(table, columns[SHIFT])
+    # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
     rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
-    normal, tangential = (table["control"] & 1) == 1, (table["control"] & 2) == 2
-    table["control"] = control_code(normal & ~(rests & stands), np.where(stands, normal & ~rests, tangential))
+    tangential = (table["control"] & 2) == 2
+    normal = np.where(rests, tangential, (table["control"] & 1) == 1)
+    if fold:
+        # So is a tangential load at rest as the normal one, and both at rest as displacements.
+        normal, tangential = normal & ~(rests & stands), np.where(stands, normal & ~rests, tangential)
+    table["control"] = normal + 2 * tangential
+    if not fold:
+        return table, np.zeros(table.shape, bool)
     # A loop has neither phase nor frequencies.
     is_loop = table["load"] != code_of(HARMONIC, "load")
     phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
@@ -160,20 +153,6 @@ def canonical_points(columns: Mapping[str, NDArray]) -> tuple[Table, BoolArray]:
     folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
     table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return table, mirrored
-
-
-def _make_profiles_canonical(table: Table) -> None:
-    profile = table["profile"]
-    for family in FAMILIES.values():
-        if family.plain is not None:
-            name, value = family.plain
-            same = (profile == code_of(family.name)) & (table[name] == value)
-            profile[same] = code_of(PLAIN_OF[family.geometry])
-    for code in np.unique(profile):
-        # Profiles that the user has defined have no shape parameters.
-        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
-        for name in {*SHAPE_COLUMNS} - {*shape}:
-            table[name][profile == code] = 0.0
 
 
 def _make_shifts_canonical(table: Table, shift: NDArray) -> None:

@@ -1,21 +1,31 @@
-"""Chunks of points: how points are cut into them, and the values of one as plain arrays."""
+"""Values of points as plain arrays by name: solved in chunks, or known from runs before."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COST, SHARED_COLUMNS, Distinct, alike, points_from
+from swtstudy.points.canonical import (
+    COST,
+    ROW,
+    SHARED_COLUMNS,
+    Distinct,
+    Table,
+    alike,
+    group_rows,
+    points_from,
+)
 from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
-from swtstudy.vocabulary.arrays import BoolArray, IndexArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, YIELD, Request
+from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, NOTHING, YIELD, Request
 from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -24,11 +34,9 @@ Arrays = dict[str, NDArray[Any]]
 #: Solves points to a relative accuracy; None for `swtstudy.solver.points.solve_points`.
 Solver = Callable[[Points, float], Solution] | None
 
-#: Points of a chunk whose cycles are short, as one compiled call takes them, and where means over the body
-#: are asked: some 0.1 s of work, short enough to lose.
-MOST, MOST_OF_BODY = 64, 8
-#: Pieces of the load cycles of a chunk, all together: fewer points of longer cycles.
-PIECES = 128
+#: Pieces of the load cycles of a chunk, all together, and what a point counts at least where means over the
+#: body are asked: some 0.1 s of work, short enough to lose.
+PIECES, PIECES_OF_BODY = 128, 16
 
 
 @dataclass(frozen=True)
@@ -71,16 +79,15 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     """
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
-    most = MOST_OF_BODY if {YIELD, DISTANCE} & {*asked.items} else MOST
-    found = []
+    if {YIELD, DISTANCE} & {*asked.items}:
+        pieces = np.maximum(pieces, PIECES_OF_BODY)
+    found: list[IndexArray] = []
     shared = points.rows[[*SHARED_COLUMNS]]  # a view, whose rows are copied in full
     for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
         own = places[own]
         own = own[np.argsort(-pieces[own], kind="stable")]
-        while len(own):
-            count = min(most, max(PIECES // int(pieces[own[0]]), 1))
-            found.append(own[:count])
-            own = own[count:]
+        number = (np.cumsum(pieces[own]) - 1) // PIECES
+        found += np.split(own, np.flatnonzero(np.diff(number)) + 1)
     return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
 
@@ -95,24 +102,25 @@ def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Ite
     return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
 
 
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver) -> tuple[str, Arrays]:
-    """Version of the solver, and the values of a chunk, even if points of it fail; runs in a worker."""
-    begin = time.perf_counter()
-    arrays = _isolated(chunk, rtol, solver)
-    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
-    return SOLVER_VERSION, arrays
+def solve_chunk(chunk: Chunk, rtol: float, solver: Solver = None) -> tuple[str, Arrays]:
+    """Solve a chunk, in a worker.
 
-
-def _isolated(chunk: Chunk, rtol: float, solver: Solver) -> Arrays:
-    """Values of the points, in order; a point that fails is alone, with its message and what it has."""
-    arrays = blank(len(chunk.places), FAILED)
+    Returns
+    -------
+    str
+        Version of the solver.
+    dict
+        Values of the points, in order. A point that fails does so alone, with its message and what it has.
+    """
+    begin, arrays = time.perf_counter(), blank(len(chunk.places), FAILED)
     try:
         fill(arrays, chunk, rtol, solver)
     except Exception as error:
         if len(chunk.places) > 1:
-            return stacked([_isolated(one, rtol, solver) for one in chunk.singly()])
+            return SOLVER_VERSION, stacked([solve_chunk(one, rtol, solver)[1] for one in chunk.singly()])
         arrays["message"][:] = f"{type(error).__name__}: {error}"
-    return arrays
+    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
+    return SOLVER_VERSION, arrays
 
 
 def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> None:
@@ -136,10 +144,13 @@ def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> No
 
 def blank(n: int, status: int = MISSING, message: str = "") -> Arrays:
     """Arrays of n points without values, all in one state."""
-    arrays: Arrays = {name: np.full(n, np.nan) for name in SOLVED}
-    arrays["regime"] = np.full(n, REGIMES.index("not_finite"), np.int8)
-    arrays |= {"status": np.full(n, status, np.int8), "run": np.full(n, -1, np.int32)}
-    return arrays | {"message": np.full(n, message, object), "seconds": np.zeros(n)}
+    return {name: np.full(n, np.nan) for name in SOLVED} | {
+        "regime": np.full(n, REGIMES.index("not_finite"), np.int8),
+        "status": np.full(n, status, np.int8),
+        "run": np.full(n, -1, np.int32),
+        "message": np.full(n, message, object),
+        "seconds": np.zeros(n),
+    }
 
 
 def stacked(parts: Sequence[Arrays]) -> Arrays:
@@ -163,3 +174,151 @@ def put(arrays: Arrays, index: IndexArray, some: Arrays) -> None:
         if name not in arrays:
             arrays[name] = np.full((len(arrays["status"]), *values.shape[1:]), np.nan)
         arrays[name][index] = values
+
+
+#: Names of arrays whose second axis is the critical distance.
+_OF_DISTANCE = {"distance", *(name for row in NONLOCAL.values() for name in row.variables)}
+
+
+@dataclass(frozen=True)
+class Run:
+    """The run that made some values.
+
+    Attributes
+    ----------
+    solver_version
+        Version of the solver; it changes when values do.
+    rtol
+        Relative accuracy asked of s.
+    study
+        Text of the study file.
+    versions
+        Versions of Python and of the packages that affect the numbers.
+    started
+        Date and time of its first result, ISO 8601.
+    quantities
+        The variables of its points beside s, as in `swtstudy.vocabulary.quantities.Request.items`.
+    seconds
+        Time that it has taken to compute what an archive has of it.
+    """
+
+    solver_version: str
+    rtol: float
+    study: str
+    versions: str
+    started: str = field(default="", compare=False)
+    quantities: tuple[str, ...] = ()
+    seconds: float = field(default=0.0, compare=False)
+
+    def to_json(self) -> dict[str, Any]:
+        """The run as JSON has it; without quantities, if there are none."""
+        return {name: value for name, value in asdict(self).items() if value != ()}
+
+
+@dataclass
+class Found:
+    """Values of n points.
+
+    Attributes
+    ----------
+    arrays
+        By name: ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the solver finds;
+        ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point failed;
+        ``seconds`` of computing; and quantities, those over critical distances with ``distance``, shape
+        (n, k), in a_H: NaN where nothing is known of it.
+    runs
+        The runs that made them.
+    """
+
+    arrays: Arrays
+    runs: tuple[Run, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.arrays["row"])
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        return self.arrays[name]
+
+    @classmethod
+    def blank(cls, rows: Table) -> Found:
+        """Points without values."""
+        return cls(blank(len(rows)) | {"row": rows})
+
+    def take(self, index: Any) -> Found:
+        """The points at an index of NumPy's, with the runs that made them."""
+        arrays = {name: values[index] for name, values in self.arrays.items()}
+        used = np.unique(arrays["run"][arrays["run"] >= 0])
+        number = np.full(len(self.runs) + 1, -1, np.int32)
+        number[used] = np.arange(len(used))
+        return Found(arrays | {"run": number[arrays["run"]]}, tuple(self.runs[k] for k in used))
+
+    def of_runs(self, values: Iterable[Any], without: Any) -> NDArray[Any]:
+        """A value of each run at every point of it, and what stands where there is no run; shape (n,)."""
+        return np.array([*values, without])[self["run"]]
+
+    def usable(self, rtol: float, solver_version: str, retry_failed: bool = False) -> BoolArray:
+        """Which values can be used for a study with this accuracy and solver, shape (n,)."""
+        good = (run.rtol <= rtol and run.solver_version == solver_version for run in self.runs)
+        return self.of_runs(good, False) & (self["status"] <= (COMPUTED if retry_failed else FAILED))
+
+    def lacking(self, asked: Request) -> BoolArray:
+        """Which computed points do not have all quantities that are asked, shape (n,)."""
+        lacks = self.of_runs((not {*asked.items} <= {*run.quantities} for run in self.runs), False)
+        if asked.distances:
+            lacks |= np.isnan(self.arrays["distance"]).any(axis=1) if "distance" in self.arrays else True
+        return lacks & (self["status"] == COMPUTED)
+
+
+def join(parts: Iterable[Found]) -> Found:
+    """Values of several, one after another; equal runs are one."""
+    parts = list(parts) or [Found.blank(np.empty(0, ROW))]
+    runs = tuple(dict.fromkeys(run for part in parts for run in part.runs))
+    numbers = [part.of_runs(map(runs.index, part.runs), -1).astype(np.int32) for part in parts]
+    return Found(stacked([part.arrays for part in parts]) | {"run": np.concatenate(numbers)}, runs)
+
+
+def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
+    """Index of the values of every point of a table, -1 if there are none, shape (len(rows),).
+
+    A computed candidate for a point is preferred to a failed one, then the one with most
+    quantities, then the most accurate one, then the latest.
+    """
+    index = np.flatnonzero(candidates)
+    if not len(index) or not len(rows):
+        return np.full(len(rows), -1)
+    tolerance = found.of_runs((run.rtol for run in found.runs), np.inf)[index]
+    count = found.of_runs((len(run.quantities) for run in found.runs), 0)[index]
+    index = index[np.lexsort((-index, tolerance, -count, found["status"][index]))]
+    # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
+    first, group = group_rows(np.concatenate([found["row"][index], rows]))
+    winner = first[group[len(index) :]]
+    return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
+
+
+def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
+    """All that is known of each of some points: "missing" where that is nothing.
+
+    One row may stand for contacts of several sizes, each of which has critical distances of its own: what is
+    about these is looked up by row and distance.
+    """
+    found, at = Found.blank(points.rows), look_up(points.rows, known, candidates)
+    found.runs, there = known.runs, np.flatnonzero(at >= 0)
+    own = {name: values for name, values in known.arrays.items() if name not in {*_OF_DISTANCE, "row"}}
+    put(found.arrays, there, {name: values[at[there]] for name, values in own.items()})
+    if points.distances.size and "distance" in known.arrays:
+        i, k = np.nonzero(np.isfinite(known["distance"]) & candidates[:, None])
+        pairs = Found({name: known[name][i] for name in ("status", "run")}, known.runs)
+        pairs.arrays["row"] = _with_distance(known["row"][i], known["distance"][i, k])
+        each = _with_distance(points.rows.repeat(points.distances.shape[1]), points.distances.ravel())
+        at = look_up(each, pairs, np.ones(len(i), bool))
+        there = np.flatnonzero(at >= 0)
+        for name in _OF_DISTANCE & known.arrays.keys():
+            values = np.full((len(each), *known[name].shape[2:]), np.nan)
+            values[there] = known[name][i[at[there]], k[at[there]]]
+            found.arrays[name] = values.reshape(*points.distances.shape, *values.shape[1:])
+    return found
+
+
+def _with_distance(rows: Table, distance: FloatArray) -> Table:
+    """Rows with a critical distance each."""
+    return append_fields(rows, "distance", distance, usemask=False)

@@ -19,8 +19,6 @@ from swtstudy.points.canonical import (
     canonical_number,
     canonical_points,
     code_of,
-    control_code,
-    given_points,
 )
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
@@ -125,24 +123,16 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, places: IndexArray) -> tuple[Table, BoolArray]:
+    def canonical(self, places: IndexArray, fold: bool = True) -> tuple[Table, BoolArray]:
         """Canonical rows of the points at n places of the grid in C order; see `canonical_points`."""
-        return canonical_points(self._row_columns(places))
-
-    def given_point(self) -> Table:
-        """The row of the only point of the grid, with its phases as given; shape (1,)."""
-        return given_points(self._row_columns(np.zeros(1, int)))
-
-    def _row_columns(self, places: IndexArray) -> dict[str, NDArray]:
-        """The columns of rows at n places, (n,) or (1,)."""
         columns, control = self.columns(places), self.control
-        code = control_code(np.array(control.normal_force), np.array(control.tangential_force))
-        columns |= {"control": code, "profile": np.broadcast_to(columns["profile"], len(places))}
+        columns["control"] = np.array(control.normal_force + 2 * control.tangential_force)
+        columns["profile"] = np.broadcast_to(columns["profile"], len(places))
         # Parameters that do not scale a loop do not matter for it.
         name = "bulk_stress_amplitude"
         if idle := [loop.code for loop in self.loops if name not in loop.scaled_by]:
             columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
-        return columns
+        return canonical_points(columns, fold)
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """Names and dimensions of what results have beside what is asked: margins, and that with units."""

@@ -21,7 +21,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, STICK_ENDS, Request, attributes_of
-from swtstudy.vocabulary.variables import ATTRIBUTES, FAILED, SOLVED
+from swtstudy.vocabulary.variables import ATTRIBUTES, SOLVED
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -69,9 +69,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
     coordinates["control"] = (), grid.control.name, words
     if asked.distances:
-        row, along = grid.row(DISTANCE), QUANTITY_AXES["direction"]
-        words = {"long_name": row.name.replace("_", " "), "comment": row.meaning}
-        words |= {"units": row.units, "symbol": row.symbol}
+        words, along = _attributes(grid.row(DISTANCE), asked.distances), QUANTITY_AXES["direction"]
         distances = np.array(asked.distances)
         coordinates[DISTANCE] = (DISTANCE, distances, words) if asked.is_axis else ((), distances[0], words)
         words = {"long_name": along.name, "comment": along.meaning}
@@ -95,29 +93,20 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
 
-def label_found(
-    grid: Grid, points: Distinct, found: Arrays, asked: Request, of_runs: bool = True
-) -> xr.Dataset:
-    """The Dataset of a grid whose distinct points have these values; ``of_runs`` with their states."""
-    arrays = values_at(grid, points, found, asked, np.arange(grid.size))
-    if of_runs:
-        names = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
-        arrays |= {name: found[name][points.index] for name in names}
-    return label(grid, arrays | margins(points, grid), asked)
-
-
 def values_at(
-    grid: Grid, points: Distinct, found: Arrays, asked: Request, places: IndexArray
+    grid: Grid, points: Distinct, found: Arrays, asked: Request, places: IndexArray | None = None
 ) -> dict[str, NDArray[Any]]:
-    """Values at n places of a grid, and what is asked beside s, NaN where that is not known.
+    """Values at n places of a grid, by default at all, and what is asked beside s, NaN where it is not known.
 
-    ``points`` are the distinct ones of these places.
+    ``points`` are the distinct ones of these places, and ``found`` their values.
     """
-    sizes, own = asked.sizes, {name: row.dims for row in asked.rows for name in row.variables}
-    for name in (name for name in own if name not in found):
-        found[name] = np.full((len(points.rows), *(sizes[dim] for dim in own[name])), np.nan)
-    arrays = {name: found[name][points.index] for name in (*SOLVED, *own)}
-    return turned(arrays, points.mirrored, grid.cycles(places) if _per_cycle(own) else 1.0)
+    own = {name: row.dims for row in asked.rows for name in row.variables}
+    arrays = {name: found[name][points.index] for name in SOLVED}
+    for name, dims in own.items():
+        nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in dims)), np.nan)
+        arrays[name] = found.get(name, nothing)[points.index]
+    cycles = grid.cycles(np.arange(grid.size) if places is None else places) if _per_cycle(own) else 1.0
+    return turned(arrays, points.mirrored, cycles)
 
 
 def turned(
@@ -189,16 +178,21 @@ def _attributes(parameter: Parameter, values: tuple[Value, ...]) -> dict[str, st
     return attributes
 
 
-def margins(points: Distinct, grid: Grid, without_compiler: bool = False) -> dict[str, NDArray]:
+def margins(
+    grid: Grid, points: Distinct | None = None, without_compiler: bool = False
+) -> dict[str, NDArray[Any]]:
     """Data variables of the points of a grid, each of shape (grid.size,), by `Grid.margins`.
 
     ``bulk_shift`` as long as it is no larger than the width of the slip zone. Without a compiler they are
-    known to 1e-5.
+    known to 1e-5. ``points`` are the distinct points of the grid, if they are known.
     """
     from swtstudy.solver.margins import foreseen, margins_of
 
     names, found = grid.margins, dict[str, NDArray]()
-    for rows in alike(points.rows) if names else ():
+    if not (names and grid.size):
+        return {}
+    points = points or Distinct.of(grid)
+    for rows in alike(points.rows):
         for some in np.array_split(rows, len(rows) // _TOGETHER + 1):
             own = points_from(points.rows[some], points.definitions)
             with np.errstate(all="ignore"):
@@ -206,8 +200,6 @@ def margins(points: Distinct, grid: Grid, without_compiler: bool = False) -> dic
             made["stick_zone"] = made["moved"] * (1.0 if is_plane(own.profile) else 2.0)
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
-    if not found:
-        return {}
     found = {name: values[points.index] for name, values in found.items()}
     radius, shift = found["contact_radius"], found["bulk_shift"]
     width = radius - found["stick_radius"]  # of the slip zone
@@ -219,11 +211,9 @@ def margins(points: Distinct, grid: Grid, without_compiler: bool = False) -> dic
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": found["force_ratio"],
+            "radius_ratio": radius * grid.curvatures,
+            "slide_ratio": found["slide"] * grid.slip_scales / radius,
         }
-    if "radius_ratio" in names:
-        told["radius_ratio"] = radius * grid.curvatures
-    if "slide_ratio" in names:
-        told["slide_ratio"] = found["slide"] * grid.slip_scales / radius
     return {name: told[name] for name in names}
 
 
@@ -235,7 +225,7 @@ def foreseen_lines(grid: Grid) -> tuple[str, ...]:
     """
     if grid.size > MOST_FORESEEN or not grid.margins:
         return ()
-    found = margins(Distinct.of(grid), grid, without_compiler=True)
+    found = margins(grid, without_compiler=True)
     lost = found.get("prescribed_force_ratio", np.zeros(grid.size)) > 1.0 + _ROUNDING
     states = [REGIMES.index(name) for name in ("no_equilibrium", "stick")]
     arrays = {name: np.full(grid.size, np.nan) for name in SOLVED}

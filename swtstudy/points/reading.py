@@ -144,9 +144,14 @@ def read_values(
         if name in rows
     }
     good_axes: NamedValues = {}
-    if not _too_many(known_axes, axes, report):
-        for name, raw in known_axes.items():
-            good_axes[name] = _read_axis(rows[name], raw, report.key(name), report, known)
+    sizes = [raw.num + len(raw.also) if isinstance(raw, Range) else len(raw) for raw in known_axes.values()]
+    # Axes that are not too long one by one may be so together: to read them takes a minute.
+    if sum(sizes) > LONGEST_AXIS >= max(sizes) and min(sizes) > 0:
+        found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
+        report.of(axes, found, f"at most {LONGEST_AXIS} values along all axes")
+        known_axes = {}
+    for name, raw in known_axes.items():
+        good_axes[name] = _read_axis(rows[name], raw, report.key(name), report, known)
     for twice in given_twice((*fixed, *axes, *samples)):
         report.of(*twice)
     return {name: value for name, value in read.items() if value is not None}, good_axes
@@ -164,16 +169,6 @@ def warn_of_degrees(key: str, raw: object) -> None:
                 words = f'{key}: {number:g} is in radians; for degrees write "{number:g} deg"'
                 warnings.warn(words, stacklevel=2)
                 return
-
-
-def _too_many(known: Mapping[str, Sequence[object] | Range], axes: Iterable[str], report: Report) -> bool:
-    """Return whether axes that are not too long one by one are so together: to read them takes a minute."""
-    sizes = [raw.num + len(raw.also) if isinstance(raw, Range) else len(raw) for raw in known.values()]
-    if sum(sizes) <= LONGEST_AXIS or max(sizes) > LONGEST_AXIS or min(sizes) < 1:
-        return False
-    found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
-    report.of(axes, found, f"at most {LONGEST_AXIS} values along all axes")
-    return True
 
 
 def read_distances(

@@ -42,22 +42,19 @@ def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], repo
     good
         Sound values.
     """
-
-    def values(name: str) -> Sequence[Any]:
-        return values_taken(name, good)
-
-    names, others = {*given}, [name for name in dict.fromkeys(values("criterion")) if name != SWT]
+    others = [name for name in dict.fromkeys(values_taken("criterion", good)) if name != SWT]
     if not others:
-        if any(values("normal_sensitivity")):
+        if any(values_taken("normal_sensitivity", good)):
             found = f"a value with the criterion {SWT}"
             report.of("normal_sensitivity", found, f"a value with {FATEMI_SOCIE} or {FINDLEY} only")
         return
     criteria = f"with the criterion {', '.join(others)}"
-    if "normal_sensitivity" not in names:
+    if "normal_sensitivity" not in {*given}:
         report.of("normal_sensitivity", "nothing", f"a number ≥ 0 {criteria}")
-    if any(value != PARAMETERS["walker_exponent"].default for value in values("walker_exponent")):
+    default = PARAMETERS["walker_exponent"].default
+    if any(value != default for value in values_taken("walker_exponent", good)):
         report.of("walker_exponent", f"a value {criteria}", f"a value with {SWT} only")
-    if SHARP in map(str, values("profile")):
+    if SHARP in map(str, values_taken("profile", good)):
         why = "where slip reverses at its sharp edge, the amplitude of the shear stress has no bound"
         report.of("profile", f"{SHARP} {criteria}", f"another profile: {why}")
 
@@ -197,21 +194,41 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
 
 def check_shapes(grid: Grid, report: Report) -> None:
     """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
-    from swtstudy.profiles.at_rest import check_shape
+    from swtstudy.profiles.at_rest import check_shape, compact_shapes
 
+    amplitude = grid.control.given_for("normal_amplitude")
+    # The largest contact of a shape is the hardest to keep compact: of a sample each has its own.
+    largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
     profiles: dict[Any, None] = dict.fromkeys(grid.values("profile"))
-    for profile in profiles:
-        names, shapes = family_of(profile).shape, _shapes_of(grid, profile)
+    for profile in (each for each in profiles if family_of(each).shape or isinstance(each, Definition)):
+        names = family_of(profile).shape
+        sampled = {name: grid.samples[name] for name in names if name in grid.samples}
+        if sampled and amplitude in grid.samples:
+            sampled[amplitude] = grid.samples[amplitude]
+        if "profile" in grid.samples:
+            own_rows = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
+            sampled = {name: tuple(values[row] for row in own_rows) for name, values in sampled.items()}
+        fixed = {name: value for name, value in grid.fixed.items() if name in names}
+        shapes = Grid(fixed, {name: each for name, each in grid.axes.items() if name in names}, sampled)
         if shapes.size > MOST_SHAPES:
             report.of(names, f"{shapes.size} shapes of the {profile}", f"at most {MOST_SHAPES}")
             continue
-        refused, first = _refused(grid, profile, shapes)
-        if first is not None:
-            shape, depth = first
-            found = ", ".join(f"{name} = {value:g}" for name, value in shape.items()) or str(profile)
-            report.of(
-                names or "profile", found + more_like_it(refused), check_shape(profile, shape, depth) or ""
-            )
+        refused, found, why = 0, "", None
+        for start in range(0, shapes.size, _SLAB):
+            places = np.arange(start, min(start + _SLAB, shapes.size))
+            columns = shapes.columns(places)
+            shape = {name: np.broadcast_to(columns[name], len(places)) for name in names}
+            own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
+            normal = np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), len(places))
+            depth = largest_depths(grid, profile, shape, normal)
+            wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(profile, shape, depth)))
+            if wrong.size and not refused:
+                first = {name: float(values[wrong[0]]) for name, values in shape.items()}
+                found = ", ".join(f"{name} = {value:g}" for name, value in first.items()) or str(profile)
+                why = check_shape(profile, first, float(depth[wrong[0]]))
+            refused += wrong.size
+        if refused:
+            report.of(names or "profile", found + more_like_it(refused), why or "")
 
 
 def largest_reach(grid: Grid) -> float:
@@ -219,41 +236,6 @@ def largest_reach(grid: Grid) -> float:
     from swtstudy.loads.loop import Loop
 
     return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
-
-
-def _shapes_of(grid: Grid, profile: object) -> Grid:
-    """The grid of the shapes of a profile; with the normal amplitude where both are sampled."""
-    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
-    sampled = {name: grid.samples[name] for name in names if name in grid.samples}
-    if sampled and amplitude in grid.samples:
-        sampled[amplitude] = grid.samples[amplitude]
-    if "profile" in grid.samples:
-        own = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
-        sampled = {name: tuple(values[row] for row in own) for name, values in sampled.items()}
-    axes = {name: values for name, values in grid.axes.items() if name in names}
-    return Grid({name: value for name, value in grid.fixed.items() if name in names}, axes, sampled)
-
-
-def _refused(grid: Grid, profile: Any, shapes: Grid) -> tuple[int, tuple[dict[str, float], float] | None]:
-    """Number of shapes that are not admissible; the first of these, and its largest depth."""
-    from swtstudy.profiles.at_rest import compact_shapes
-
-    names, amplitude = family_of(profile).shape, grid.control.given_for("normal_amplitude")
-    refused, first = 0, None
-    # The largest contact of a shape is the hardest to keep compact.
-    largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
-    for start in range(0, shapes.size if names or isinstance(profile, Definition) else 0, _SLAB):
-        places = np.arange(start, min(start + _SLAB, shapes.size))
-        columns = shapes.columns(places)
-        shape = {name: np.broadcast_to(columns[name], len(places)) for name in names}
-        own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
-        normal = np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), len(places))
-        depth = largest_depths(grid, profile, shape, normal)
-        wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(profile, shape, depth)))
-        if wrong.size and first is None:
-            first = {name: float(values[wrong[0]]) for name, values in shape.items()}, float(depth[wrong[0]])
-        refused += wrong.size
-    return refused, first
 
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:

@@ -9,12 +9,12 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel import INNERMOST
-from swtstudy.points.values import index_at
+from swtstudy.points.values import index_at, unit_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.variables import COMPUTED, ZONES, has_units, require
-from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words, unit_words
+from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
@@ -142,8 +142,8 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
             words = "the rise of the stress at the edge in tension is right within 4 %"
             within.append(f"stick zone moved approximately{_where(some)}: {words}")
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
-        unit = unit_words(dataset.peak_pressure.attrs.get("units", ""))
-        words = f"peak_pressure up to {_number(dataset.peak_pressure.max())}{unit}"
+        pressure = dataset.peak_pressure
+        words = f"{pressure.name} up to {_number(pressure.max())}{unit_of(pressure)}"
         within.append(f"{words}; whether that yields is unknown without a yield_strength")
     return found, within
 
@@ -192,7 +192,7 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     if not has_units(dataset):
         return f": {name} {force:.4g} exceeds 1, in μ F_N{place}"
     # The numbers of a contact without names of units have no unit.
-    unit = unit_words(dataset[name].attrs.get("units", ""))
+    unit = unit_of(dataset[name])
     return f": {name} {force:.4g}{unit} exceeds μ F_N = {force / worst:.4g}{unit}{place}"
 
 
@@ -295,9 +295,9 @@ def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -
     for dim, number in index_at(dataset.s, flat).items():
         if dim in dataset.coords and dim not in besides:
             value: Any = dataset[dim].values[number]
-            attributes = dataset[dim].attrs
-            named = coordinate_words(dim, value if isinstance(value, str) else float(value), attributes)
-            words.append(f"{dim} = {named}{unit_words(attributes.get('units', '1'))}")
+            value = value if isinstance(value, str) else float(value)
+            named = coordinate_words(dim, value, dataset[dim].attrs)
+            words.append(f"{dim} = {named}{unit_of(dataset[dim])}")
         elif dim not in besides:
             words.append(f"{dim} = {number}")
     return ", ".join(words)

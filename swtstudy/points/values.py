@@ -20,6 +20,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -180,7 +181,15 @@ def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition
     """
     raw = plain(raw)
     if parameter.kind == "name":
-        return _read_name(parameter.name, raw, known)
+        if isinstance(raw, Definition) and raw.parameter == parameter.name:
+            return raw
+        if not isinstance(raw, str):
+            raise ValueError("not a name")
+        if raw in parameter.names:
+            return raw
+        if raw not in known:
+            raise ValueError(f"no such {parameter.name}")
+        return known[raw]
     exact = read_angle(raw) if parameter.units == "rad" else read_exact(raw)
     if parameter.kind == "ratio":
         return _read_ratio(exact, int(parameter.upper))
@@ -196,16 +205,6 @@ def as_number(value: Value) -> float:
     if isinstance(value, Definition):
         raise TypeError(f"{value!r} is no number")
     return float(value)
-
-
-def _read_name(parameter: str, raw: object, known: Mapping[str, Definition]) -> str | Definition:
-    if isinstance(raw, Definition) and raw.parameter == parameter:
-        return raw
-    if not isinstance(raw, str):
-        raise ValueError("not a name")
-    if raw not in PARAMETERS[parameter].names and raw not in known:
-        raise ValueError(f"no such {parameter}")
-    return known.get(raw, raw) if raw not in PARAMETERS[parameter].names else raw
 
 
 def read_exact(raw: object) -> Fraction | float:
@@ -298,3 +297,8 @@ def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:
     """Index along each dimension of a place among the flattened values."""
     index = np.unravel_index(flat, values.shape) if values.ndim else ()
     return dict(zip(map(str, values.dims), map(int, index), strict=True))
+
+
+def unit_of(values: xr.DataArray) -> str:
+    """The unit of values as it stands behind one of them."""
+    return unit_words(str(values.attrs.get("units", "")))

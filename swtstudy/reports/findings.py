@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from markupsafe import Markup
 
-from swtstudy.archive.outcome import life_words, outcome, shown_in
+from swtstudy.archive.describe import life_words, outcome, shown_in
 from swtstudy.archive.recall import grid_of
 from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from swtstudy.points.canonical import Distinct
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.points.reading import LONGEST_AXIS
@@ -262,7 +261,7 @@ def _force_ratio(grid: PhysicalGrid) -> float:
 
     Tests whose force exceeds the limit are refused before anything is solved.
     """
-    ratios = np.asarray(margins(Distinct.of(grid), grid).get("prescribed_force_ratio", np.zeros(1)), float)
+    ratios = np.asarray(margins(grid).get("prescribed_force_ratio", np.zeros(1)), float)
     if (wrong := np.flatnonzero(ratios > 1.0 + 1e-9)).size:
         k = int(wrong[0])
         friction = grid.values("friction")

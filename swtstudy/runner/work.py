@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from swtstudy.archive.parts import known_points
+from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.canonical import Distinct, group_rows
-from swtstudy.points.chunk import chunk_of, cut, solve_chunk
-from swtstudy.points.found import Found, look_up, matching
+from swtstudy.points.chunk import Found, chunk_of, cut, look_up, matching, solve_chunk
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.quantities import Request
@@ -86,49 +85,50 @@ _BUDGET, _TIMED = 4.0, 16
 _VERTICES = 200
 
 
-def estimate(work: Work, rtol: float) -> tuple[float, int]:
-    """Computing time of what is left in seconds, and how many points have been timed to estimate it.
+def estimate(work: Work, rtol: float) -> tuple[float, int, int]:
+    """Estimate the time of what is left from some points that are solved.
 
     Chunks are timed at even distances of the list of all, which is sorted by the length of their cycles; each
     stands for its neighbours.
+
+    Returns
+    -------
+    seconds
+        Computing time.
+    timed
+        Number of points that have been timed.
+    parts
+        Number of chunks, which workers share.
     """
-    lean, growth = _thinned(work.points)
-    todo = cut(lean, work.todo, work.asked)
+    lean, growth = dict(work.points.definitions), dict[int, float]()
+    for code, loop in work.points.definitions.items():
+        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
+            lean[code] = thin = loop.thinned(_VERTICES)
+            # As k log k: results/vertices.md.
+            many, few = len(loop.vertices), len(thin.vertices)
+            growth[code] = many * np.log(many) / (few * np.log(few))
+    points = replace(work.points, definitions=lean)
+    todo = cut(points, work.todo, work.asked)
+    if not todo:
+        return 0.0, 0, 0
 
     def timed(places: IndexArray) -> float:
         """Time for each of some points."""
-        return float(solve_chunk(chunk_of(lean, places, work.asked), rtol, None)[1]["seconds"][0])
+        return float(solve_chunk(chunk_of(points, places, work.asked), rtol)[1]["seconds"].mean())
 
-    if not todo:
-        return 0.0, 0
     timed(todo[-1][:1])  # imports, and compiles
     groups = np.array_split(np.arange(len(todo)), min(_TIMED, len(todo)))
     begin, seconds, count, counted = time.perf_counter(), 0.0, 0, 0
     # The middle ones first: if time is up, those that are timed stand for all.
     for group in sorted(groups, key=lambda each: abs(int(each[0]) - len(todo) // 2)):
         places = todo[group[len(group) // 2]]
-        spent = time.perf_counter() - begin
-        if count and spent > _BUDGET:
+        left = _BUDGET - (time.perf_counter() - begin)
+        if count and left < 0.0:
             break
         one, own = timed(places[:1]), 1
-        if len(places) * one < (_BUDGET - spent) / len(groups):
+        if len(places) * one < left / len(groups):
             one, own = timed(places), len(places)
-        points = sum(len(todo[k]) for k in group)
-        seconds += growth.get(int(lean.rows["load"][places[0]]), 1.0) * one * points
-        count, counted = count + own, counted + points
-    return seconds * sum(map(len, todo)) / counted, count
-
-
-def _thinned(points: Distinct) -> tuple[Distinct, Mapping[int, float]]:
-    """The points with loops of few vertices, and by its code how much longer a loop itself takes."""
-    from swtstudy.loads.load_path import LoadPath
-
-    lean, growth = dict(points.definitions), {}
-    for code, loop in points.definitions.items():
-        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
-            thin = loop.thinned(_VERTICES)
-            lean[code] = thin
-            # As k log k: results/vertices.md.
-            many, few = (len(each.vertices) for each in (loop, thin))
-            growth[code] = many * np.log(many) / (few * np.log(few))
-    return replace(points, definitions=lean), growth
+        of_group = sum(len(todo[k]) for k in group)
+        seconds += growth.get(int(points.rows["load"][places[0]]), 1.0) * one * of_group
+        count, counted = count + own, counted + of_group
+    return seconds * sum(map(len, todo)) / counted, count, len(todo)

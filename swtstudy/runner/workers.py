@@ -1,9 +1,4 @@
-"""Workers: threads of this process, local processes with one BLAS thread each, or workers of a dask cluster.
-
-Each kind is used in a with block. It has ``submit`` as an executor has; ``size``, the number of tasks that
-run at the same time; ``lost``, the exceptions of tasks that were lost with a worker; ``gone``, those that say
-that all workers are lost; and ``renew``, which drops all tasks after a loss.
-"""
+"""Workers: threads of this process, local processes with one BLAS thread each, or those of a dask cluster."""
 
 from __future__ import annotations
 
@@ -16,13 +11,20 @@ import signal
 import sys
 import threading
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from itertools import islice
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING, Any, Self
 
 import cloudpickle
+
+from swtstudy.points.chunk import Arrays, Chunk, Solver, blank, solve_chunk
+from swtstudy.vocabulary.arrays import IndexArray
+from swtstudy.vocabulary.variables import FAILED
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -33,8 +35,19 @@ _log = logging.getLogger(__name__)
 THREADS = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 #: Seconds between two checks that a cluster has workers: the user who has just started a run still looks.
 CHECK_SECONDS = 5.0
+#: Tasks in flight per worker: with two, no worker waits for the parent, and few are lost with a worker.
+IN_FLIGHT = 2
+#: Seconds after which the main thread looks for signals, where waiting does not end with them.
+_LOOK = 1.0
 
-Errors = tuple[type[BaseException], ...]
+LOST_WORKER = "the worker process died while it computed this point"
+
+#: Places and values of a chunk.
+Solved = tuple[IndexArray, Arrays]
+
+
+class WorkerError(OSError):
+    """Workers that cannot do the work: they are gone, of another version, or lack the package."""
 
 
 def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
@@ -58,16 +71,29 @@ class _Task:
 
 
 class Workers:
-    """Threads of this process, which the compiled solver lets run side by side; the base of other kinds."""
+    """Threads of this process, which the compiled solver lets run side by side; the base of other kinds.
 
-    lost: Errors = ()
-    gone: Errors = ()
+    Used in a with block.
+
+    Attributes
+    ----------
+    size
+        Number of tasks that run at the same time.
+    lost, gone
+        The errors of tasks that were lost with a worker, and of tasks for which all workers are lost.
+    apart
+        Whether tasks are done in other processes.
+    """
+
+    lost: tuple[type[BaseException], ...] = ()
+    gone: tuple[type[BaseException], ...] = ()
+    apart = False
     _executor: Any = None
 
     def __init__(self, count: int) -> None:
         self.size = count
 
-    def __enter__(self) -> Workers:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
@@ -80,6 +106,8 @@ class Workers:
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
         self._executor = self._executor or self._start()
+        if self.apart:
+            function, arguments = pickle.loads, (cloudpickle.dumps(_Task(function, arguments)),)
         return self._executor.submit(function, *arguments)
 
     def renew(self, wait: bool = False) -> None:
@@ -88,11 +116,67 @@ class Workers:
         if executor is not None:
             executor.shutdown(wait, cancel_futures=True)
 
+    def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver) -> Iterator[Solved]:
+        """Yield the values of all chunks, in any order.
+
+        The points of chunks that were in flight when a worker died are solved again one by one, so that a
+        point that kills workers fails alone.
+
+        Parameters
+        ----------
+        chunks
+            Consumed as they are needed.
+        rtol, solver
+            As in `swtstudy.run`.
+
+        Raises
+        ------
+        WorkerError
+            If a worker cannot even begin to solve.
+        """
+        waiting = iter(chunks)
+        while lost := (yield from self._until_loss(waiting, rtol, solver)):
+            for one in (one for chunk in lost for one in chunk.singly()):
+                if (yield from self._until_loss(iter([one]), rtol, solver)):
+                    yield one.places, blank(1, FAILED, LOST_WORKER)
+
+    def _until_loss(
+        self, waiting: Iterator[Chunk], rtol: float, solver: Solver
+    ) -> Generator[Solved, None, list[Chunk]]:
+        """Solve chunks until there are no more, or a worker dies; return those that are lost in flight."""
+        in_flight: dict[Future[Any], Chunk] = {}
+        # Not by `concurrent.futures.wait`, which Ctrl-C may leave with futures locked.
+        done: SimpleQueue[Future[Any]] = SimpleQueue()
+        while True:
+            for chunk in islice(waiting, max(0, IN_FLIGHT * self.size - len(in_flight))):
+                future = self.submit(solve_chunk, chunk, rtol, solver)
+                in_flight[future] = chunk
+                future.add_done_callback(done.put)
+            if not in_flight:
+                return []
+            try:
+                future = done.get(timeout=_LOOK)
+                version, arrays = future.result()
+            except Empty:
+                continue
+            except self.lost:
+                self.renew()
+                return [*in_flight.values()]
+            except self.gone as error:
+                raise WorkerError("the dask scheduler is gone") from error
+            except Exception as error:  # outside of the solver, such as while it is imported
+                words = f"a worker cannot solve anything ({type(error).__name__}: {error})"
+                raise WorkerError(words) from error
+            if version != SOLVER_VERSION:
+                words = f"a worker has version {version} of the solver, this machine {SOLVER_VERSION}"
+                raise WorkerError(words)
+            yield in_flight.pop(future).places, arrays
+
 
 class LocalPool(Workers):
     """Worker processes on this machine, which start with the first task."""
 
-    lost = (BrokenProcessPool,)
+    lost, apart = (BrokenProcessPool,), True
 
     def _start(self) -> ProcessPoolExecutor:
         return start_workers(self.size)
@@ -100,7 +184,7 @@ class LocalPool(Workers):
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """See `Workers`."""
         try:
-            return super().submit(pickle.loads, cloudpickle.dumps(_Task(function, arguments)))
+            return super().submit(function, *arguments)
         except BrokenProcessPool as error:
             lost: Future[Any] = Future()
             lost.set_exception(error)
@@ -120,6 +204,8 @@ class ClusterPool(Workers):
     dask itself reassigns the tasks of a lost worker; only a task that has killed several workers is lost.
     """
 
+    apart = True
+
     def __init__(self, client: Client) -> None:
         from distributed.comm import CommClosedError
         from distributed.scheduler import KilledWorker
@@ -131,11 +217,7 @@ class ClusterPool(Workers):
     def _start(self) -> Any:
         return self._client.get_executor(pure=False)
 
-    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """See `Workers`."""
-        return super().submit(pickle.loads, cloudpickle.dumps(_Task(function, arguments)))
-
-    def __enter__(self) -> Workers:
+    def __enter__(self) -> Self:
         threading.Thread(target=self._watch, daemon=True).start()
         return self
 
@@ -146,9 +228,9 @@ class ClusterPool(Workers):
 
     def renew(self, wait: bool = False) -> None:
         """See `Workers`: this executor knows no cancelling."""
-        if self._executor is not None:
-            self._executor.shutdown(wait=wait)
-        self._executor = None
+        executor, self._executor = self._executor, None
+        if executor is not None:
+            executor.shutdown(wait=wait)
 
     def _watch(self) -> None:
         """Count the workers; warn when there are none: dask waits for them silently."""

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from swtstudy.points.canonical import Distinct
 from swtstudy.points.labelled import margins
 from swtstudy.units.at_rest import Contact
 from swtstudy.units.grid import PhysicalGrid, are_measured
@@ -85,7 +84,7 @@ def words_of(grid: PhysicalGrid, parameters: Mapping[str, Any]) -> Iterator[tupl
         ends = dict.fromkeys(found[[0, -1]].tolist())
         yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
     # How far the contacts are from where the model ends, as far as that is known without solving.
-    for name, values in margins(Distinct.of(grid), grid).items():
+    for name, values in margins(grid).items():
         if name not in ("stick_zone", "bulk_shift") and np.isfinite(values).any():
             largest = plain_words(float(np.nanmax(values)))
             yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]

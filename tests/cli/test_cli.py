@@ -277,6 +277,12 @@ def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
     assert "already computed   8" in done
 
 
+@pytest.mark.parametrize(("parts", "words"), [(1, "10 s"), (2, "5.0 s"), (9, "5.0 s")])
+def test_plan_counts_only_the_workers_that_have_something_to_do(study, tmp_path, monkeypatch, parts, words):
+    monkeypatch.setattr("swtstudy.runner.work.estimate", lambda work, rtol: (10.0, 1, parts))
+    assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
+
+
 def test_info_says_what_an_archive_is(finished):
     result = call("info", finished / "small.nc")
     assert result.exit_code == 0, result.output
@@ -363,18 +369,18 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    from swtstudy.runner import job
+    from swtstudy.runner import run as run_module
 
     def ctrl_c(*_):
         signal.raise_signal(signal.SIGINT)
 
-    def saved(*arguments):
-        ctrl_c()  # where the words of the first are made
-        return before(*arguments)
+    class Stopped(run_module.Stopped):
+        def __init__(self, words):
+            ctrl_c()  # where the words of the first are made
+            super().__init__(words)
 
-    before = job._saved
     monkeypatch.setattr(stand_in.SOLVER, ctrl_c)
-    monkeypatch.setattr(job, "_saved", saved)
+    monkeypatch.setattr(run_module, "Stopped", Stopped)
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr

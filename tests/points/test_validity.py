@@ -11,7 +11,6 @@ import swtstudy
 from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
-from swtstudy.points.canonical import Distinct
 from swtstudy.points.labelled import margins
 from swtstudy.points.validity import outside, validity_lines
 from swtstudy.solving import solve_grid
@@ -370,8 +369,7 @@ def test_margins_without_a_compiler_are_known_to_their_accuracy(control: str) ->
     grid = Study.from_text(
         f'title = "t"\n[axes]\n{axes}\nfrequency_ratio = [1, "3/2"]\nbulk_stress_amplitude = [0.1]\n'
     ).grid
-    points = Distinct.of(grid)
-    seen, exact = margins(points, grid, without_compiler=True), margins(points, grid)
+    seen, exact = margins(grid, without_compiler=True), margins(grid)
     assert seen.keys() == exact.keys() >= {"bulk_shift_ratio"}
     for name in seen:
         np.testing.assert_allclose(seen[name], exact[name], rtol=0.0, atol=1e-5)

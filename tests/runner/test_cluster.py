@@ -15,8 +15,7 @@ from folders import TESTS
 
 from swtstudy import Study, run
 from swtstudy.archive.parts import parts_folder, points_saved
-from swtstudy.runner.engine import LOST_WORKER, WorkerError
-from swtstudy.runner.workers import ClusterPool
+from swtstudy.runner.workers import LOST_WORKER, ClusterPool, WorkerError
 
 # The warnings of distributed about a killed worker are none of ours.
 pytestmark = [pytest.mark.filterwarnings("default"), pytest.mark.slow]

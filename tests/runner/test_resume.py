@@ -24,8 +24,9 @@ from swtstudy.archive.parts import kept_folder, parts_folder, points_saved, read
 from swtstudy.archive.paths import LockedError, locked
 from swtstudy.cli import main
 from swtstudy.points import chunk
-from swtstudy.runner import engine, work
-from swtstudy.runner import job as job_module
+from swtstudy.runner import run as run_module
+from swtstudy.runner import work
+from swtstudy.runner import workers as workers_module
 from swtstudy.runner.run import Stopped
 
 #: Long cycles, so that a block has some thirty points.
@@ -182,7 +183,7 @@ def test_another_solver_version_is_not_mixed_in(tmp_path, monkeypatch, caplog):
     path = tmp_path / "square.nc"
     run(square([0.1, 0.2], [0, 1]), path, solver=stand_in.smooth)
     monkeypatch.setattr("swtstudy.vocabulary.version.SOLVER_VERSION", "next")
-    for module in (chunk, job_module, engine, work):
+    for module in (chunk, run_module, workers_module, work):
         monkeypatch.setattr(module, "SOLVER_VERSION", "next")
     counting = stand_in.Counting()
     dataset = run(square([0.1, 0.2, 0.3], [0, 1]), path, solver=counting)
@@ -253,7 +254,7 @@ def test_a_full_disk_stops_the_run_but_loses_nothing(line, tmp_path, monkeypatch
             raise OSError(28, "No space left on device")
         fsync(handle)
 
-    monkeypatch.setattr(job_module, "PART_SECONDS", 0.05)
+    monkeypatch.setattr(run_module, "PART_SECONDS", 0.05)
     monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match=r"No space left on device; \d+ of 400 distinct points are saved"):
         run(line, path, solver=stand_in.slow, workers=1)
@@ -308,7 +309,7 @@ def test_a_file_that_cannot_grow_is_one_line_and_loses_nothing(tmp_path, seconds
     path = tmp_path / "line.nc"
     before = (
         "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (40_000, 40_000))\n"
-        f"from swtstudy.runner import job; job.PART_SECONDS = {seconds}\n"
+        f"from swtstudy.runner import run; run.PART_SECONDS = {seconds}\n"
     )
     done = subprocess.run(command_of(tmp_path, LINE, before), timeout=60, capture_output=True, text=True)
     assert done.returncode == 2

@@ -19,9 +19,8 @@ import swtstudy
 from swtstudy import Study, StudyError, run
 from swtstudy.archive.describe import failures
 from swtstudy.archive.paths import ArchiveError
-from swtstudy.runner.engine import LOST_WORKER, WorkerError
 from swtstudy.runner.run import run_several
-from swtstudy.runner.workers import LocalPool, _clean_start
+from swtstudy.runner.workers import LOST_WORKER, LocalPool, WorkerError, _clean_start
 from swtstudy.vocabulary import progress
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.wording import duration
@@ -295,6 +294,20 @@ def test_an_error_in_one_study_leaves_the_others_whole(tmp_path):
     assert paths[0].exists()
     assert not paths[2].exists()
     assert not list(tmp_path.glob("*.parts"))
+
+
+def test_an_archive_that_cannot_be_written_in_the_background_is_told_once(tmp_path, monkeypatch):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", full)
+    pairs = [
+        (Study.from_text(f'title = "{n}"\naxes.friction = [0.1, 0.{n}]\n'), tmp_path / f"{n}.nc")
+        for n in (3, 4)
+    ]
+    with pytest.raises(OSError, match=r"^cannot write the archive .*3\.nc") as caught:
+        run_several(pairs, lambda *_: None, solver=stand_in.smooth)
+    assert str(caught.value).count("distinct points are saved") == 1
 
 
 #: Prints what of scipy a worker imports, and whether distributed is there once an archive is written.

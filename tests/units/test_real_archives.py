@@ -114,9 +114,9 @@ KILLED = """
 import os, signal, sys, time
 import swtstudy
 from swtstudy.solver.points import solve_points
-from swtstudy.runner import job
+from swtstudy.runner import run
 
-job.PART_SECONDS = 0.0
+run.PART_SECONDS = 0.0
 left = [2]
 
 def solver(points, rtol):

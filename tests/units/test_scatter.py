@@ -11,8 +11,7 @@ from real import ALUMINIUM, CONTACT
 
 import swtstudy
 from swtstudy import FatigueConstants, Study
-from swtstudy.archive.describe import describe
-from swtstudy.archive.outcome import outcome
+from swtstudy.archive.describe import describe, outcome
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.wording import number_words
 
