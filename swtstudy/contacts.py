@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from swtstudy.points.labelled import margins
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.at_rest import Contact, Moduli
-from swtstudy.units.grid import ContactDetails, PhysicalGrid, mean_of_bulk
+from swtstudy.units.grid import ContactDetails, PhysicalGrid, are_measured, mean_of_bulk
 from swtstudy.units.life import (
     ROUNDS,
     UNCOUNTED,
@@ -27,19 +28,21 @@ from swtstudy.units.life import (
     not_negative,
 )
 from swtstudy.units.material import warn_of_units
-from swtstudy.units.measured import Measured, headline, words_of
 from swtstudy.units.reading import check_distances, completed, read_contacts
-from swtstudy.units.results import derived
+from swtstudy.units.results import derived, scale_of
 from swtstudy.units.rows import (
     LABELS,
     NAMES_KEY,
     OF_BODIES,
     ONE_OF,
+    REST_DEPENDS_ON,
+    SCALES,
     SIMILAR,
     SIMILAR_KEY,
+    TABLES,
+    UNIT_KINDS,
     Units,
     checked_body,
-    length_of,
     rows,
     wrong_size,
 )
@@ -55,11 +58,13 @@ from swtstudy.vocabulary.mistakes import (
     StudyError,
     is_rtol,
     literal,
+    refused,
 )
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, SHIFT
 from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, NONLOCAL, YIELD, Request, read_quantities
-from swtstudy.vocabulary.wording import html_table
+from swtstudy.vocabulary.variables import ATTRIBUTES
+from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -128,8 +133,39 @@ class PhysicalContact:
         return f"<div><b>Real contact</b>, in any consistent set of units{html_table(self._words())}</div>"
 
     def _words(self) -> Iterator[tuple[str, str, str, str]]:
-        single = self.grid.dims in ((), ("body",))
-        return words_of(self.grid, self.parameters(self.grid.bulk_stress_body + 1) if single else {})
+        """Kind, name, value and meaning of all that is known without solving."""
+        grid, table = self.grid, rows(Units(*(f"the unit of {kind}" for kind in UNIT_KINDS)))
+        for name, each in self._given().items():
+            if name not in TABLES["at_rest"]:
+                yield "given", name, ", ".join(map(plain_words, each)), table[name].meaning
+        for name, meaning in TABLES["at_rest"].items():
+            found = np.unique(grid.each(lambda contact, name=name: getattr(contact, name)))  # type: ignore[misc]
+            ends = dict.fromkeys(found[[0, -1]].tolist())
+            yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
+        # How far the contacts are from where the model ends, as far as that is known without solving.
+        for name, values in margins(grid).items():
+            if name not in ("stick_zone", "bulk_shift") and np.isfinite(values).any():
+                largest = plain_words(float(np.nanmax(values)))
+                yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]
+        single = grid.dims in ((), ("body",))
+        for name, value in (self.parameters(grid.bulk_stress_body + 1) if single else {}).items():
+            if PARAMETERS[name].scale:
+                yield "without units", name, plain_words(value), PARAMETERS[name].notation
+
+    def _given(self) -> dict[str, tuple[Any, ...]]:
+        """The values of what is given, but for what goes without saying."""
+        grid, loads = self.grid, self.grid.values("load")
+        values = {name: grid.pairs.get(name) or grid.values(name) for name in grid.rows if name != "body"}
+        unsaid = ["frequency_ratio", "phase"] if all(isinstance(load, Definition) for load in loads) else []
+        if are_measured(loads):
+            # Its amplitudes are factors of what was measured.
+            factors = [name for name in values if grid.row(name).part in ("load", "bulk")]
+            unsaid += [name for name in factors if {*values[name]} == {LOOP_AMPLITUDE}]
+        return {
+            name: each
+            for name, each in values.items()
+            if each and name not in unsaid and not all(map(grid.row(name).goes_without_saying, each))
+        }
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
@@ -180,7 +216,7 @@ class PhysicalContact:
             A ValueError with every mistake in the parameters.
         """
         if "poisson_ratio" in parameters:
-            raise StudyError([Mistake("poisson_ratio", "a parameter", "that of the bodies, which stays")])
+            raise refused("poisson_ratio", "a parameter", "that of the bodies, which stays")
         rest, grid = self._one, self.grid
         profile = parameters.get("profile", rest.profile)
         kept = family_of(profile).shape
@@ -201,7 +237,7 @@ class PhysicalContact:
         # In the order of the table: a length may be measured in the one before it.
         for name in sorted(fixed, key=[*PARAMETERS].index):
             if PARAMETERS[name].scale:
-                fixed[name] = length_of(name, fixed[name], contact)
+                fixed[name] = contact.length_of(name, fixed[name])
             if name in shape:
                 contact = replace(contact, shape={**contact.shape, name: fixed[name]})
         bodies = ("young_modulus", "poisson_ratio", "radius", "body")
@@ -231,7 +267,7 @@ class PhysicalContact:
         StudyError
             A ValueError, if it is not said which body has this s, or s is negative or no number.
         """
-        return self._swt(s, self._bodies_of(s, self.moduli.alike, body))
+        return self._swt_of(s, self.moduli.alike, body)[0]
 
     def cycles(
         self,
@@ -265,53 +301,53 @@ class PhysicalContact:
         report = Report()
         both = _of_both("constants", constants, FatigueConstants, report)
         report.refuse()
-        bodies = self._bodies_of(s, self.moduli.alike and both[0] == both[1], body)
-        swt = self._swt(s, bodies)
+        swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
         if counted is None:
             one, two = (each.cycles(np.asarray(swt)) for each in both)
         else:
             one, two = (np.asarray(each.rounds(swt, *(counted[name] for name in COUNTED))) for each in both)
+        lives = np.where(bodies == 1, two, one)
+        if not hasattr(swt, "dims"):
+            return lives
         words = _CYCLES | {"comment": UNCOUNTED if counted is None else ROUNDS}
-        return _labelled("cycles", np.where(bodies == 1, two, one), swt, words)
+        return swt.copy(data=lives).rename("cycles").drop_attrs(deep=False).assign_attrs(words)
 
-    def _swt(self, s: ArrayLike | xr.DataArray, bodies: IndexArray) -> Values:
-        """SWT from s of bodies, 0 or 1, with the SWT scale of the half-space with E*."""
-        import xarray as xr
-
-        scale = self.swt_scale
-        shares = np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])[bodies]
-        with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
-            swt: Any = _labelled("SWT", not_negative("s", s) * shares, s, _SWT) * scale
-        if isinstance(s, xr.DataArray) and np.ndim(scale):
-            return swt.transpose(*s.dims, ...).rename("SWT").assign_attrs(_SWT)
-        return swt
-
-    def _bodies_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> IndexArray:
-        """The index of the body of each value, 0 or 1, broadcastable to the shape of the values.
+    def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
+        """SWT from s, and the index of the body of each value, 0 or 1, broadcastable to the values' shape.
 
         Raises
         ------
         StudyError
             If no s of the contacts is of SWT; if ``body`` and the coordinate ``body`` name it both, or
-            neither and the bodies are not ``alike``.
+            neither and the bodies are not ``alike``; if s is negative or no number.
         """
         import xarray as xr
 
         names = [str(each) for each in self.grid.values("criterion")]
         if SWT not in names:
             allowed = f"{SWT}; of others solve() has the values in units"
-            raise StudyError([Mistake("criterion", ", ".join(names), allowed)])
+            raise refused("criterion", ", ".join(names), allowed)
+        bodies: IndexArray
         if isinstance(s, xr.DataArray) and "body" in s.coords:
             if body is not None:
-                raise StudyError([Mistake("body", literal(body), "nothing, since s has the coordinate body")])
+                raise refused("body", literal(body), "nothing, since s has the coordinate body")
             if not np.isin(s.body, LABELS).all():
                 found = f"the coordinate {literal(s.body.values.tolist())}"
-                raise StudyError([Mistake("body", found, "1 and 2")])
-            return (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
-        if body is None and not alike:
+                raise refused("body", found, "1 and 2")
+            bodies = (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+        elif body is None and not alike:
             allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
-            raise StudyError([Mistake("body", "nothing", allowed)])
-        return np.array(0 if body is None else checked_body(body) - 1)
+            raise refused("body", "nothing", allowed)
+        else:
+            bodies = np.array(0 if body is None else checked_body(body) - 1)
+        with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
+            of_body = (
+                not_negative("s", s) * np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])[bodies]
+            )
+            if not isinstance(s, xr.DataArray):
+                return of_body * self.swt_scale, bodies
+            swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)
+        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(_SWT), bodies
 
     def solve(
         self,
@@ -426,7 +462,7 @@ class PhysicalContact:
         made = (each.name for each in derived(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
         if minimise not in known and (lacking := _lacking(grid, minimise, asked)):
-            raise StudyError([Mistake("minimise", literal(minimise), f"with {' and '.join(lacking)}")])
+            raise refused("minimise", literal(minimise), f"with {' and '.join(lacking)}")
         report, numbers = Report(), [name for name, row in grid.rows.items() if row.kind == "number"]
         corners: PhysicalGrid | None = None
         with report:
@@ -456,7 +492,7 @@ class PhysicalContact:
         """The contact at rest; a StudyError if there are several."""
         several = [name for name in self.grid.dims if name != "body"]
         if several:
-            raise StudyError([Mistake(", ".join(several), "several contacts", "one: a single value of each")])
+            raise refused(", ".join(several), "several contacts", "one: a single value of each")
         return self.grid.at_rest.item()
 
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
@@ -501,18 +537,55 @@ class PhysicalContact:
         """The label of a body, 1 or 2, from that or its name."""
         return checked_body(body, names=self.grid.body_names)
 
-    def _measured(self, body: int | str) -> Measured:
-        """The scales of one body of one contact."""
-        criterion = str(self.grid.values("criterion")[0])
-        return Measured(self._one, self._body(body) - 1, self.grid.labels, criterion)
+    def _scales(self, body: int | str) -> dict[str, tuple[float, str, str]]:
+        """By name of a variable its scale in one body of one contact, the label of its unit, its symbol."""
+        contact, index = self._one, self._body(body) - 1
+        row = CRITERIA[str(self.grid.values("criterion")[0])]
+        found = {
+            name: (getattr(contact, scale), kind, symbol)
+            for name, (scale, kind, symbol) in TABLES["measured"].items()
+        }
+        strain = contact.depth / contact.length_scale * contact.moduli.swt_share(index)
+        found["normal_strain"] = strain, "1", r"\varepsilon_n"
+        found["s_local"] = scale_of(row.scale)(contact, index), row.unit, row.sign
+        unit = {kind: self.grid.labels.label(kind) or f"unit of {kind}" for kind in (*UNIT_KINDS, "work")}
+        return {name: (scale, unit.get(kind, kind), symbol) for name, (scale, kind, symbol) in found.items()}
+
+    def _with_units(self, dataset: xr.Dataset, body: int | str) -> xr.Dataset:
+        """Results of one body of one contact in lengths, forces and stresses."""
+        dataset, scales = dataset.copy(), {}
+        for name, (scale, unit, symbol) in self._scales(body).items():
+            if name in dataset.variables:
+                words = str(dataset[name].attrs.get("long_name", name))
+                words = words.partition(", in units of")[0].partition(" over E*")[0]
+                scales[name] = scale, {"long_name": words, "symbol": symbol, "units": unit}
+        for name, row in self.grid.rows.items():
+            by = PARAMETERS[name].scale if name in PARAMETERS else ""
+            if by and name in dataset.coords:
+                unit = row.units or f"unit of {SCALES[by].kind}"
+                scales[name] = SCALES[by].of(self._one), {"symbol": row.symbol, "units": unit}
+        for name, (scale, own) in scales.items():
+            attributes = {**dataset[name].attrs, **own}
+            dataset[name] = dataset[name].variable * scale
+            dataset[name].attrs = attributes
+        return dataset
 
     def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
         """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
-        body = self._body(body)
+        body, words = self._body(body), {}
+        for name, values in {"profile": self.grid.values("profile"), **self._given()}.items():
+            row = self.grid.row(name)
+            of_other = row.part == "bulk" and body != self.grid.bulk_stress_body + 1
+            if not of_other and (name in REST_DEPENDS_ON or not at_rest):
+                value: Any = values[body - 1 if name in self.grid.pairs else 0]
+                value = str(value) if row.kind == "name" else value
+                words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
+        if self.grid.body_names and not at_rest:
+            words["body"] = self.grid.body_names[body - 1]
         grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
         asked = Request((YIELD,) if grid.yield_strengths else ())
         validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
-        return headline(self.grid, body, at_rest), validity
+        return ",  ".join(words.values()), validity
 
     @contextmanager
     def _in_equilibrium(self, body: int | str) -> Iterator[None]:
@@ -529,7 +602,7 @@ class PhysicalContact:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
         from swtstudy.fields.stress import stress_field
 
-        return self._field(partial(stress_field, time=time), body, {}, x=x, y=y, z=z)
+        return self._field(partial(stress_field, time=time), body, x=x, y=y, z=z)
 
     def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
@@ -538,37 +611,35 @@ class PhysicalContact:
         """
         from swtstudy.fields.stress import swt_field
 
-        names = {"s_local": CRITERIA[self._measured(body).criterion].name}
-        return self._field(swt_field, body, names, x=x, y=y, z=z)
+        found = self._field(swt_field, body, x=x, y=y, z=z)
+        return found.rename(s_local=CRITERIA[str(self.grid.values("criterion")[0])].name)
 
-    def _field(
-        self, field: Callable[..., xr.Dataset], body: int | str, names: Mapping[str, str], **places: Any
-    ) -> xr.Dataset:
-        """A field at places that are lengths, with units; some variables by other names."""
+    def _field(self, field: Callable[..., xr.Dataset], body: int | str, **places: Any) -> xr.Dataset:
+        """A field at places that are lengths, with units."""
         from swtstudy.fields.one_point import read_places
 
-        own, length = self._measured(body), self._one.length_scale
+        length, parameters = self._one.length_scale, self.parameters(body)
         read_places(**places, allowed="finite positions, which are lengths")  # as they are given
         in_a_h = {
             name: v / length if hasattr(v, "dims") else np.divide(v, length) for name, v in places.items()
         }
         with self._in_equilibrium(body):
-            found = field(**in_a_h, **self.parameters(body))
-        return own.with_units(found, names)
+            found = field(**in_a_h, **parameters)
+        return self._with_units(found, body)
 
     def inspect_point(self, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
 
         with self._in_equilibrium(body):
-            return self._measured(body).with_units(inspect_point(**self.parameters(body)))
+            return self._with_units(inspect_point(**self.parameters(body)), body)
 
     def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.fields.inspection import inspect_point
         from swtstudy.figures.point import draw_inspection
 
-        labels, headlines = _labels(self._measured(body)), self._headlines(body)
+        labels, headlines = self._labels(body), self._headlines(body)
         with self._in_equilibrium(body):
             return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
 
@@ -578,28 +649,18 @@ class PhysicalContact:
 
         shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
         given, _ = self._headlines(1, at_rest=True)
-        return draw_shape(shape, style, width, _labels(self._measured(1)), given)
+        return draw_shape(shape, style, width, self._labels(1), given)
 
+    def _labels(self, body: int | str) -> dict[str, Label]:
+        """By name of a variable what its numbers are in the units of one body of the contact."""
+        from swtstudy.figures.words import Label
 
-def _labelled(
-    name: str, values: FloatArray, like: ArrayLike | xr.DataArray, attributes: dict[str, str]
-) -> Values:
-    """The values with the dimensions and coordinates of others, if those have any."""
-    import xarray as xr
-
-    if not isinstance(like, xr.DataArray):
-        return values
-    return xr.DataArray(values, like.coords, like.dims, name, attributes)
-
-
-def _labels(measured: Measured) -> dict[str, Label]:
-    """By name of a variable what its numbers are in the units of a contact."""
-    from swtstudy.figures.words import Label
-
-    found = {name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in measured.scales().items()}
-    if measured.criterion != SWT:
-        found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
-    return found
+        found = {
+            name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in self._scales(body).items()
+        }
+        if self.grid.values("criterion")[0] != SWT:
+            found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
+        return found
 
 
 def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
@@ -660,7 +721,7 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
 
     grid = grid_of(dataset)
     if not isinstance(grid, PhysicalGrid):
-        raise StudyError([Mistake("units", "results without units", "those of a study with [units]")])
+        raise refused("units", "results without units", "those of a study with [units]")
     return PhysicalContact(grid)
 
 

@@ -172,7 +172,7 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
     from swtstudy.figures.point import inspect
     from swtstudy.figures.profile import draw_profile
     from swtstudy.study.keys import ProfileTable
-    from swtstudy.study.loops_and_profiles import profile_from
+    from swtstudy.study.reading import profile_from
 
     path = Path(str(values.get("profile")))
     if path.suffix == ".csv":
@@ -216,7 +216,7 @@ def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure
     """A load of a study, and what its record is like in words."""
     from swtstudy.figures.load import draw_load
     from swtstudy.study.definition import Study
-    from swtstudy.study.loops_and_profiles import read_signal_of
+    from swtstudy.study.reading import read_signal_of
 
     study, path = Study.from_toml(source), find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)

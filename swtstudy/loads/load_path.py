@@ -14,7 +14,7 @@ from swtstudy.kernel.loops import without_collinear
 from swtstudy.loads.loop import FINITE, LARGEST, FloatArray, Loop, checked_mean, checked_name, mean_of
 from swtstudy.loads.smooth_path import SmoothPath, sampled
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, refused
 
 #: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000
@@ -206,12 +206,12 @@ def _checked(vertices: ArrayLike, name: str) -> FloatArray:
         raise StudyError([_of_another_length(vertices, key) or error.mistakes[0]]) from None
     if found.ndim != 2 or found.shape[1] not in (2, 3):
         allowed = "pairs of numbers, shape (k, 2), or triples with the bulk stress, (k, 3)"
-        raise StudyError([Mistake(key, f"an array of shape {found.shape}", allowed)])
+        raise refused(key, f"an array of shape {found.shape}", allowed)
     wrong = np.flatnonzero(~(np.abs(found) <= LARGEST).all(axis=1))
     if wrong.size:
         row = int(wrong[0])
         found_words = literal(found[row].tolist())
-        raise StudyError([Mistake(f"{key}, number {row + 1}", found_words, FINITE)])
+        raise refused(f"{key}, number {row + 1}", found_words, FINITE)
     return found
 
 
@@ -232,13 +232,13 @@ def _canonical(vertices: FloatArray, name: str) -> FloatArray:
         vertices = vertices[:, :2]
     lean = without_collinear(vertices) + 0.0
     if len(lean) < 2:
-        raise StudyError([Mistake(f"vertices of {name}", "a single point", "2 distinct points at least")])
+        raise refused(f"vertices of {name}", "a single point", "2 distinct points at least")
     if len(lean) > MOST_VERTICES:
         found = f"{len(lean)} vertices that are not on a line between their neighbours"
         allowed = (
             f"at most {MOST_VERTICES}; of more a smooth loop is the harmonic sum (LoadPath.harmonic_sum; "
         )
         allowed += "harmonics of a signal), and several cycles are folded (recorded_cycles)"
-        raise StudyError([Mistake(f"vertices of {name}", found, allowed)])
+        raise refused(f"vertices of {name}", found, allowed)
     first = np.lexsort(lean.T[::-1])[0]
     return np.roll(lean, -first, axis=0)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.vocabulary.definition import Definition, wrong_name
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import StudyError, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import PAIRS
 
 FloatArray = NDArray[np.float64]
@@ -90,7 +90,7 @@ def checked_mean(mean: object, name: str) -> float | None:
     number = plain_number(mean)
     if not 0.0 < number <= LARGEST:
         found = literal(mean) if isinstance(mean, str) else f"{number:g}"
-        raise StudyError([Mistake(f"mean_normal of {name}", found, "a positive number: bodies are pressed")])
+        raise refused(f"mean_normal of {name}", found, "a positive number: bodies are pressed")
     return number
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from swtstudy.kernel.loops import ends_of_sum
 from swtstudy.loads.loop import LARGEST, PERIOD, FloatArray, Loop, checked_mean, checked_name, mean_of
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number, refused
 
 #: Amplitudes below this share of the largest one are rounding of a Fourier transform.
 ROUNDING = 1e-12
@@ -37,7 +37,7 @@ class SmoothPath(Loop):
         if self._ends("bulk") == (0.0, 0.0):
             del self.harmonics["bulk"]
         if not any(order and size for rows in self.harmonics.values() for order, size, _ in rows):
-            raise StudyError([Mistake(f"harmonics of {name}", "nothing that changes", "a loop")])
+            raise refused(f"harmonics of {name}", "nothing that changes", "a loop")
 
     def content(self) -> dict[str, Any]:
         return dict(self.harmonics) | mean_of(self)
@@ -89,7 +89,7 @@ def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) ->
             [Mistake(f"course of {name}", f"a function that fails ({error})", allowed)]
         ) from None
     if not all(np.isfinite(each).all() for each in columns):
-        raise StudyError([Mistake(f"course of {name}", "a value that is no finite number", "finite numbers")])
+        raise refused(f"course of {name}", "a value that is no finite number", "finite numbers")
     return SmoothPath(name, *[_harmonics(each, name) for each in columns])
 
 
@@ -102,7 +102,7 @@ def _harmonics(values: FloatArray, name: str) -> list[tuple[int, float, float]]:
     if kept.max(initial=0) > HIGHEST_ORDER:
         beyond = f"harmonics beyond the order {HIGHEST_ORDER}, of up to {size[HIGHEST_ORDER + 1 :].max():.1g}"
         allowed = "a smooth loop; one with corners has vertices: LoadPath(name, vertices)"
-        raise StudyError([Mistake(f"course of {name}", beyond, allowed)])
+        raise refused(f"course of {name}", beyond, allowed)
     # cos(kφ + β) = sin(kφ + β + π/2).
     return [(int(k), float(size[k]), float(np.angle(found[k]) + 0.5 * np.pi)) for k in kept]
 
@@ -111,12 +111,12 @@ def _checked(rows: object, key: str) -> list[list[float]]:
     """Rows of order, amplitude and phase."""
     allowed = f"rows of order (a whole number up to {HIGHEST_ORDER}), amplitude and phase"
     if not isinstance(rows, Sequence | np.ndarray) or isinstance(rows, str):
-        raise StudyError([Mistake(key, literal(rows), allowed)])
+        raise refused(key, literal(rows), allowed)
     for row in rows:
         sound = (
             isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(is_number(each) for each in row)
         )
         sound = sound and all(abs(plain_number(each)) <= LARGEST for each in row)
         if not (sound and row[0] == int(row[0]) and 0 <= row[0] <= HIGHEST_ORDER):
-            raise StudyError([Mistake(key, literal(row), allowed)])
+            raise refused(key, literal(row), allowed)
     return [[int(row[0]), float(row[1]), float(row[2])] for row in rows]

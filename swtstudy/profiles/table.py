@@ -75,7 +75,8 @@ class TabulatedProfile(Definition):
         self.name, self.geometry = name, geometry
         self.radius, self.height = (_frozen(values) for values in (radius, height))
         mistakes = list(_mistakes(name, self.radius, self.height, smoothing))
-        mistakes += _wrong_geometry(name, geometry)
+        if geometry not in GEOMETRIES:
+            mistakes.append(Mistake(f"{name}.geometry", literal(geometry), f"one of {', '.join(GEOMETRIES)}"))
         if mistakes:
             raise StudyError(mistakes)
         self.smoothing = float(smoothing)
@@ -214,21 +215,18 @@ class TabulatedProfile(Definition):
             return None
         at, place = ("load 4P/(πE*) =", "half-width") if self.plane else ("depth", "radius")
         if self._falls.size:
+            advice = "if its heights are noisy, smoothing takes that away"
+            if self.smoothing != 0.0:
+                advice = f"its smoothing is {self.smoothing:g}: more takes noise away, "
+                advice += "less leaves its shape as it is"
             return (
                 f"at the {at} {depth:g} {self.name} touches in several places: its fit is wavy at the "
-                f"{place} {self.compact_radius:.4g}; {self._advice}"
+                f"{place} {self.compact_radius:.4g}; {advice}"
             )
         return (
             f"the {at} {depth:g} is beyond the table of {self.name}, which ends at the {place} "
             f"{self.compact_radius:.4g}: the contact is as large as that at the {at} {self.deepest:.4g}"
         )
-
-    @property
-    def _advice(self) -> str:
-        """Advice for a table whose g falls."""
-        if self.smoothing == 0.0:
-            return "if its heights are noisy, smoothing takes that away"
-        return f"its smoothing is {self.smoothing:g}: more takes noise away, less leaves its shape as it is"
 
     @cached_property
     def _sampled(self) -> tuple[FloatArray, FloatArray]:
@@ -253,11 +251,6 @@ class TabulatedProfile(Definition):
 
 #: The name of a family, or a table.
 AnyProfile = str | TabulatedProfile
-
-
-def _wrong_geometry(name: object, geometry: object) -> Iterator[Mistake]:
-    if geometry not in GEOMETRIES:
-        yield Mistake(f"{name}.geometry", literal(geometry), f"one of {', '.join(GEOMETRIES)}")
 
 
 def _frozen(values: ArrayLike) -> FloatArray:

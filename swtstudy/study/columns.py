@@ -19,7 +19,7 @@ from swtstudy.study.keys import SEPARATORS, FileTable
 from swtstudy.units.rows import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
 
 #: More rows than this are no table that someone recorded for a study, nor are more columns.
 MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
@@ -90,21 +90,19 @@ class UserTable(NamedTuple):
             values = np.array([number(text, self.form.decimal) for text in texts])
             found.append(values * self.form.scale.get(name, 1.0))
             for row in np.flatnonzero(~np.isfinite(values))[:1]:
-                hint = self._hint(texts[row], int(row))
+                text, hint = texts[row], ""  # the key that is usually missing there
+                if not text:
+                    hint = "; with the header of the time, time = ..., such rows are left out"
+                elif "," in text and self.form.decimal == ".":
+                    hint = COMMA_HINT
+                elif row == 0:
+                    hint = "; lines above the header are skip_rows, a row of units is units_row = true"
                 if hint not in hints:
-                    place, shown = f"line {self.cells[row][0]}, {self.form.header(name)}", literal(texts[row])
-                    report(place, shown if texts[row] else "nothing", f"a finite number{hint}")
+                    place, shown = f"line {self.cells[row][0]}, {self.form.header(name)}", literal(text)
+                    report(place, shown if text else "nothing", f"a finite number{hint}")
                 hints |= {hint} - {""}
         report.refuse()
         return np.stack(found, axis=1)
-
-    def _hint(self, text: str, row: int) -> str:
-        """The key that is usually missing where a cell is no number."""
-        if not text:
-            return "; with the header of the time, time = ..., such rows are left out"
-        if "," in text and self.form.decimal == ".":
-            return COMMA_HINT
-        return "; lines above the header are skip_rows, a row of units is units_row = true" * (row == 0)
 
     def values(self, name: str) -> list[object]:
         """The cells of a column, numbers where they are, scaled, and texts."""
@@ -112,28 +110,23 @@ class UserTable(NamedTuple):
         factor = self.form.scale.get(name, 1.0)
         return [factor * value if math.isfinite(value) else text for text, value in found]
 
-    def unit(self, name: str, kind: str) -> str | None:
-        """The unit of a column that its header or the row of units says; None without a known one."""
-        for text in self._with_units(name):
-            words = re.findall(r"[A-Za-zµμ]+", text)
-            if words and words[-1] in KNOWN[kind] and (words[-1] != "in" or "[" in text or "(" in text):
-                return words[-1]
-        return None
+    def unit(self, name: str, kind: str) -> tuple[str, str]:
+        """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
 
-    def other_unit(self, name: str, kind: str) -> tuple[str, str] | None:
-        """The unit of a column, alone or in brackets, and its kind, if that is another one."""
-        units, header = self._with_units(name)
+        In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
+        """
+        column = self.headers.index(self.form.header(name))
+        header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
         bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
-        for text in (units.strip("[]() "), bracket[1].strip() if bracket else ""):
+        for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
             kinds = [each for each, known in KNOWN.items() if text in known]
             if kinds:
-                return None if kind in kinds else (text, kinds[0])
-        return None
-
-    def _with_units(self, name: str) -> tuple[str, str]:
-        """The cell of a column in the row of units, and its header."""
-        column = self.headers.index(self.form.header(name))
-        return (self.units[column : column + 1] or [""])[0], self.headers[column]
+                return text, kind if kind in kinds else kinds[0]
+        for text in (cell, header):
+            words = re.findall(r"[A-Za-zµμ]+", text)
+            if words and words[-1] in KNOWN[kind] and words[-1] != "in":
+                return words[-1], kind
+        return "", kind
 
 
 def number(cell: str, decimal: str | None) -> float:
@@ -210,23 +203,21 @@ def read_columns(
 
 def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
     """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
-    column = literal(table.form.header(name))
-    if other := table.other_unit(name, kind):
-        found = f"{column} in {other[0]} as {name}, which is a {kind}"
-        return [
-            Mistake("", found, f"a column with a {kind}, not a {other[1]}, whatever its scale", table.source)
-        ]
-    unit, units = table.unit(name, kind), KNOWN[kind]
+    column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
+    if own_kind != kind:
+        found = f"{column} in {unit} as {name}, which is a {kind}"
+        allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
+        return [Mistake("", found, allowed, table.source)]
+    units, own = KNOWN[kind], table.form.scale.get(name)
     if not unit or label not in units or units[unit] == units[label]:
         return []
-    factor, own = units[unit] / units[label], table.form.scale.get(name)
+    factor = units[unit] / units[label]
     if own is not None and not math.isclose(abs(own) * factor, 1.0):
         return []
     found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
-    if own is not None:
-        found += f", and scale has {name} = {own:g}"
-    allowed = f"scale = {{ {name} = {factor:g} }}"
-    return [Mistake("", found, f"{allowed}; {name} = 1 if the unit in the file is wrong", table.source)]
+    found += "" if own is None else f", and scale has {name} = {own:g}"
+    allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+    return [Mistake("", found, allowed, table.source)]
 
 
 def read_table(
@@ -264,7 +255,7 @@ def read_table(
     try:
         data = read_file(path, LARGEST_TABLE)
     except OSError as error:
-        raise _refused(source, reason_of(error), _READABLE) from None
+        raise refused("", reason_of(error), _READABLE, source) from None
     report = Report()
     if data.startswith(b"PK\x03\x04"):
         content: str | list[Row]
@@ -278,10 +269,10 @@ def read_table(
     try:
         rows = list(islice(_rows(content, separator, form.skip_rows), above + most + 3))
     except csv.Error as error:
-        raise _refused(source, str(error), _READABLE) from None
+        raise refused("", str(error), _READABLE, source) from None
     skipped, (line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
     if wrong := _wrong_headers(headers, names, known, form):
-        raise _refused(source, *wrong, f"line {line}")
+        raise refused(f"line {line}", *wrong, source)
     notices = []
     if above:
         notices.append(f"the header is found in line {line}: {_skipped_words(skipped)}")
@@ -291,12 +282,12 @@ def read_table(
         notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
     cells = rows[bool(units) :]
     if len(cells) > most:
-        raise _refused(source, f"more than {most} rows", f"at most {most}")
+        raise refused("", f"more than {most} rows", f"at most {most}", source)
     for place, own in cells:
         if len(own) - (own[-1] == "") > len(headers):
             allowed = "as many as columns: a comma between cells, a point in numbers; "
             allowed += "or say separator and decimal"
-            raise _refused(source, f"{len(own)} cells under {len(headers)} columns", allowed, f"line {place}")
+            raise refused(f"line {place}", f"{len(own)} cells under {len(headers)} columns", allowed, source)
         own += [""] * (len(headers) - len(own))
     if form.decimal is None:
         # A comma if numbers have commas, and none has a point.
@@ -327,10 +318,10 @@ def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
     """The text in a file, its lines ended by newlines; of a wrong encoding as in Windows'."""
     for start, what, way in FORMATS:
         if data.startswith(start):
-            raise _refused(source, what, f"a table in a text file: {way}")
+            raise refused("", what, f"a table in a text file: {way}", source)
     if form.sheet is not None:
         found = f"{literal(form.sheet)}, and {Path(source).name}, a text file"
-        raise StudyError([Mistake("sheet", found, "a sheet of an Excel workbook only")])
+        raise refused("sheet", found, "a sheet of an Excel workbook only")
     has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
     encoding = form.encoding or ("utf-16" if has_mark else "utf-8-sig")
     try:
@@ -350,39 +341,36 @@ def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
         text = data.decode(ENCODINGS[0], "replace")
     if "\0" in text:
         report.refuse()
-        raise _refused(source, "a binary file", "a table in a text file")
+        raise refused("", "a binary file", "a table in a text file", source)
     return io.StringIO(text, newline=None).read()
 
 
 def _sheet(data: bytes, form: FileTable, source: str) -> tuple[str, list[Row]]:
     """The file, with the names of its sheets if none is given, and the rows of the sheet that is read."""
     if b"xl/" not in data:
-        raise _refused(source, "a zip archive", "a table in a text file, or an Excel workbook")
+        raise refused("", "a zip archive", "a table in a text file, or an Excel workbook", source)
     try:
-        from openpyxl import load_workbook
+        import pandas as pd
 
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of styles and the like that are not read
-            book = load_workbook(io.BytesIO(data), read_only=True, data_only=True)
-            names, sheet = book.sheetnames, form.sheet if form.sheet is not None else 1
+            book = pd.ExcelFile(io.BytesIO(data), "openpyxl")
+            names, sheet = book.sheet_names, form.sheet if form.sheet is not None else 1
             if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
-                raise StudyError([Mistake("sheet", literal(sheet), nearest(str(sheet), names, {}))])
-            cells = book[sheet if isinstance(sheet, str) else names[sheet - 1]]
+                raise refused("sheet", literal(sheet), nearest(str(sheet), map(str, names), {}))
             if form.sheet is None and len(names) > 1:
-                others = ", ".join(map(literal, names[1:]))
-                source += f", sheet {literal(names[0])} (others: {others})"
-            cells.reset_dimensions()  # some programs write wrong ones
-            rows = [*cells.values]
+                source += f", sheet {literal(names[0])} (others: {', '.join(map(literal, names[1:]))})"
+            cells = book.parse(
+                sheet if sheet in names else names[int(sheet) - 1], header=None, dtype=str, na_filter=False
+            )
     except ImportError:
         allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
-        raise _refused(source, "an Excel workbook", allowed) from None
+        raise refused("", "an Excel workbook", allowed, source) from None
     except StudyError:
         raise
     except Exception as error:  # a damaged workbook fails anywhere in openpyxl
-        raise _refused(source, f"a workbook that cannot be read ({error})", _AS_CSV) from None
-    return source, [
-        (line, ["" if cell is None else str(cell) for cell in row]) for line, row in enumerate(rows, 1)
-    ]
+        raise refused("", f"a workbook that cannot be read ({error})", _AS_CSV, source) from None
+    return source, list(enumerate(cells.values.tolist(), 1))
 
 
 def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
@@ -418,7 +406,7 @@ def _found_header(
             rows = [*islice(_rows(content, separator, form.skip_rows), WITHIN)] or rows
         except csv.Error as error:  # a stray quote makes the rest one cell
             if separator == SEPARATORS[0]:
-                raise _refused(source, str(error), _READABLE) from None
+                raise refused("", str(error), _READABLE, source) from None
         scores = [
             (len(wanted & {*row}), len(others & {*row}), not any(map(_is_number, row)), len(row))
             for _, row in rows
@@ -439,7 +427,7 @@ def _found_header(
         found, allowed = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
     elif above := rows_of[own][: header[own]]:
         found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
-    raise _refused(source, found, allowed, f"line {line}")
+    raise refused(f"line {line}", found, allowed, source)
 
 
 def _parts(rows: Sequence[Row], line: int) -> bool:
@@ -489,10 +477,6 @@ def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -
 
 def _is_number(cell: str) -> bool:
     return any(math.isfinite(number(cell, sign)) for sign in ".,")
-
-
-def _refused(source: str, found: str, allowed: str, place: str = "") -> StudyError:
-    return StudyError([Mistake(place, found, allowed, source)])
 
 
 def _tell(source: str, words: str) -> None:

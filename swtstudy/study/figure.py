@@ -226,34 +226,63 @@ def check_figure(
     unsure
         Names of what the study may have but for other mistakes, which are reported.
     """
+    made = {} if grid is None else grid.made(asked)
+    known = [*dict.fromkeys((*VARIABLES, *asked.variables, *made))]
+    lengths: dict[str, int | None] = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
+    of_quantities = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
     found = [*wrong_layout(layout)]
-    for y in [y for y in layout.y if y.strip() not in unsure] or ("s",) * (not layout.y):
-        sizes = _sizes(y, layout, dims, grid, asked)
+    for y in layout.y or ("s",):
+        name = y.strip()
+        if name in unsure:
+            continue
+        if name in made:
+            sizes = {dim: {**lengths, **of_quantities}[dim] for dim in made[name]}
+        else:  # of what is no quantity, all that the figure uses
+            sizes = {dim: lengths.get(dim) for dim in dims if dim not in QUANTITY_AXES}
+            used = (
+                () if name in VARIABLES or not name.isidentifier() else (each for _, each in layout.roles())
+            )
+            own = asked.variables.get(name, [each for each in used if each in QUANTITY_AXES])
+            sizes |= {dim: of_quantities[dim] for dim in own}
         of = f"{y} in this study" if asked.distances or {*dims} - {*sizes} else "this study"
         found += wrong_axes(layout, sizes, of)
+        found += _wrong_quantity(y, dims, grid, known)
     if layout.regimes and layout.x in QUANTITY_AXES:
         found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
     for mistake in dict.fromkeys(found):
         report(*mistake)
-    for y in layout.y:
-        if y.strip() in unsure:
-            continue
-        _check_quantity(y, dims, grid, asked, report)
 
 
-def _sizes(
-    y: str, layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request
-) -> dict[str, int | None]:
-    """Axes of a quantity with their lengths, None if not known; of what is none, all that the figure uses."""
-    lengths_of = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
-    lengths = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
-    made = {} if grid is None else grid.made(asked)
-    if y.strip() in made:
-        return {name: {**lengths_of, **lengths}[name] for name in made[y.strip()]}
-    sizes = {name: lengths_of.get(name) for name in dims if name not in QUANTITY_AXES}
-    known = y.strip() in VARIABLES or not y.strip().isidentifier()
-    used = () if known else tuple(name for _, name in layout.roles() if name in QUANTITY_AXES)
-    return sizes | {name: lengths[name] for name in asked.variables.get(y.strip(), used)}
+def _wrong_quantity(
+    y: str, dims: list[str], grid: Grid | None, known: list[str]
+) -> Iterator[tuple[str, str, str]]:
+    """Key, found and allowed of a quantity that a study does not have, or of its place."""
+    name, row, found = y.strip(), DERIVED.get(y.strip()), literal(y)
+    try:
+        place = reference(y)
+    except ValueError as error:
+        yield "figure.y", f"{found} ({error})", f"{', '.join(known)}, or {QUANTITY}"
+        return
+    if place is not None:
+        parameter, value = place
+        if parameter not in dims:
+            yield "figure.y", f"{found}: {parameter} is not an axis of this study", nearest(parameter, dims)
+        elif grid is not None and index_of(value, grid.values(parameter)) is None:
+            yield "figure.y", f"{found}: {value} is not on that axis", f"a value of the axis {parameter}"
+    elif name in COUNTED:
+        yield "figure.y", f"{found}, which has several values at a point", "cycles, which is made of it"
+    elif name in known:
+        pass
+    elif name in EVERY_VARIABLE:
+        allowed = f"what it asks for, {', '.join(known)}, or {QUANTITY}"
+        yield "figure.y", f"{found}, which this study does not ask for", allowed
+    elif row and row.of in NONLOCAL and name.rpartition("_")[0] in known:
+        yield "figure.y", found, f"in a study with a {DISTANCE} alone"
+    elif row and row.kind and not {*LIVES} & {*known}:
+        allowed = f"[material] with them, in a study with units; or {', '.join(known)}"
+        yield "figure.y", f"{found}, a life, without fatigue constants", allowed
+    else:
+        yield "figure.y", f"{found} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}"
 
 
 def wrong_formula(text: str) -> str | None:
@@ -272,33 +301,3 @@ def wrong_formula(text: str) -> str | None:
         # Without the name of the parser's error.
         return str(error).strip().splitlines()[-1].partition(": ")[2]
     return None
-
-
-def _check_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, report: Report) -> None:
-    known = [*dict.fromkeys((*VARIABLES, *asked.variables, *({} if grid is None else grid.made(asked))))]
-    try:
-        place = reference(y)
-    except ValueError as error:
-        report("figure.y", f"{literal(y)} ({error})", f"{', '.join(known)}, or {QUANTITY}")
-        return
-    if place is None:
-        name, row = y.strip(), DERIVED.get(y.strip())
-        if name in COUNTED:
-            found = f"{literal(y)}, which has several values at a point"
-            report("figure.y", found, "cycles, which is made of it")
-        elif name in EVERY_VARIABLE and name not in known:
-            found = f"{literal(y)}, which this study does not ask for"
-            report("figure.y", found, f"what it asks for, {', '.join(known)}, or {QUANTITY}")
-        elif name not in known and row and row.of in NONLOCAL and name.rpartition("_")[0] in known:
-            report("figure.y", literal(y), f"in a study with a {DISTANCE} alone")
-        elif name not in known and row and row.kind and not {*LIVES} & {*known}:
-            found = f"{literal(y)}, a life, without fatigue constants"
-            report("figure.y", found, f"[material] with them, in a study with units; or {', '.join(known)}")
-        elif name not in known:
-            report("figure.y", f"{literal(y)} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}")
-        return
-    name, value = place
-    if name not in dims:
-        report("figure.y", f"{literal(y)}: {name} is not an axis of this study", nearest(name, dims))
-    elif grid is not None and index_of(value, grid.values(name)) is None:
-        report("figure.y", f"{literal(y)}: {value} is not on that axis", f"a value of the axis {name}")

@@ -8,7 +8,7 @@ further points: each draw of theirs has a life at every point.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -74,14 +74,6 @@ class Design:
     size: int
     seed: int
 
-    def count(self, dimensions: int) -> int:
-        """Number of points."""
-        return self.size * (dimensions + 2) if self.name == "saltelli" else self.size
-
-    def attributes(self) -> dict[str, str | int]:
-        """Attributes of the samples of an archive."""
-        return {"design": self.name, "size": self.size, "seed": self.seed}
-
     def points(self, dimensions: int) -> FloatArray:
         """The points in the unit cube, shape (n, d)."""
         from scipy.stats import qmc
@@ -140,24 +132,26 @@ class Distribution:
         """The values at points of the unit interval."""
         if self.kind == "uniform":
             return self.low * (1.0 - unit) + self.high * unit
-        whole, below = self._whole(), self._whole().cdf(self.low)
-        return np.clip(whole.ppf(below + unit * self.share()), self.low, self.high)
+        whole = self.unbounded()
+        below, share = whole.cdf(self.low), self.share()
+        return np.clip(whole.ppf(below + unit * share), self.low, self.high)
 
     def share(self) -> float:
         """The share of the distribution that is within the bounds."""
-        return float(self._whole().cdf(self.high) - self._whole().cdf(self.low))
+        whole = self.unbounded()
+        return float(whole.cdf(self.high) - whole.cdf(self.low))
 
-    def _whole(self) -> Any:
+    def unbounded(self) -> Any:
         """The distribution without bounds, of scipy's."""
         from scipy import stats
 
-        given, width = self.given, self.high - self.low
-        if self.kind in ("uniform", "triangular"):
-            middle = (given.get("mode", self.low) - self.low) / width
-            return stats.triang(middle, self.low, width)
+        given = self.given
         if self.kind == "normal":
             return stats.norm(given["mean"], given["deviation"])
-        return stats.lognorm(given["deviation"], scale=given["median"])
+        if self.kind == "lognormal":
+            return stats.lognorm(given["deviation"], scale=given["median"])
+        width = self.high - self.low
+        return stats.triang((given.get("mode", self.low) - self.low) / width, self.low, width)
 
 
 @dataclass(frozen=True)
@@ -300,10 +294,10 @@ def _design(table: SampleTable, dimensions: int, report: Report) -> Design | Non
         allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
         report("sample.size", "nothing" if size is None else literal(size), allowed)
         return None
-    design = Design(table.design, size, table.seed)
-    if (count := design.count(dimensions)) > LONGEST_AXIS:
+    count = size * (dimensions + 2) if table.design == "saltelli" else size
+    if count > LONGEST_AXIS:
         report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
-    return design
+    return Design(table.design, size, table.seed)
 
 
 def _distributions(
@@ -315,6 +309,57 @@ def _distributions(
         with report:
             read[name] = _distribution(rows[name], ranges[name], f"sample.ranges.{name}")
     return read
+
+
+def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
+    """The distribution of a parameter that a user wrote; a StudyError with the mistakes in it."""
+    if isinstance(raw, list) and len(raw) == 2:
+        raw = {"distribution": "uniform", "low": raw[0], "high": raw[1]}
+    if not isinstance(raw, Mapping):
+        raise refused(key, literal(raw), ALLOWED_RANGE)
+    kind = raw.get("distribution")
+    if not isinstance(kind, str) or kind not in DISTRIBUTIONS:
+        found = literal(kind) if "distribution" in raw else "nothing"
+        raise refused(f"{key}.distribution", found, nearest(str(kind or ""), DISTRIBUTIONS))
+    report, known = Report(), ("distribution", "low", "high", *DISTRIBUTIONS[kind])
+    for name in (each for each in raw if each not in known):
+        report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
+    ends = {"low": parameter.lower, "high": parameter.upper}
+    numbers: dict[str, float] = {}
+    for name in known[1:]:
+        own = raw.get(name, ends.get(name) if kind in _UNBOUNDED else None)
+        try:
+            if own is None:
+                raise ValueError
+            if name not in ends:
+                numbers[name] = float((read_angle if parameter.units == "rad" else read_exact)(own))
+            elif own == parameter.lower:
+                numbers[name] = parameter.lower  # an open end is a bound, although it is no value
+            else:
+                numbers[name] = as_number(read_value(parameter, own))
+        except ValueError as error:
+            found = "nothing" if own is None else f"{literal(own)} ({error})"
+            report(f"{key}.{name}", found, parameter.allowed if name in ends else "a number")
+    report.refuse()
+    of = Distribution(kind, numbers, low := numbers.pop("low"), high := numbers.pop("high"))
+    bounds, deviation, mode = (
+        f"the bounds {low:g} and {high:g}",
+        numbers.get("deviation", 1.0),
+        numbers.get("mode", low),
+    )
+    if not low < high:
+        raise refused(key, bounds, "the lower bound first, and a higher one")
+    if kind == "lognormal" and deviation > _LARGEST_DEVIATION:
+        allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
+        raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed)
+    for name in ("deviation", "median"):
+        if numbers.get(name, 1.0) <= 0.0:
+            raise refused(f"{key}.{name}", f"{numbers[name]:g}", "a number greater than 0")
+    if not low <= mode <= high:
+        raise refused(f"{key}.mode", f"{mode:g}", f"a number in [{low:g}, {high:g}]")
+    if of.share() < _LEAST_SHARE:
+        raise refused(key, f"{bounds}, which hold none of the distribution", "bounds that hold some of it")
+    return of
 
 
 def _given(
@@ -350,64 +395,6 @@ def _given(
             report(f"{key}.{name}", wrong[0] + more_like_it(len(wrong)), allowed)
         values[name] = tuple(good)
     return {} if len(report) > before else values
-
-
-def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
-    """The distribution of a parameter that a user wrote; a StudyError with the mistakes in it."""
-    if isinstance(raw, list) and len(raw) == 2:
-        raw = {"distribution": "uniform", "low": raw[0], "high": raw[1]}
-    if not isinstance(raw, Mapping):
-        raise refused(key, literal(raw), ALLOWED_RANGE)
-    kind = raw.get("distribution")
-    if not isinstance(kind, str) or kind not in DISTRIBUTIONS:
-        found = literal(kind) if "distribution" in raw else "nothing"
-        raise refused(f"{key}.distribution", found, nearest(str(kind or ""), DISTRIBUTIONS))
-    report, known = Report(), ("distribution", "low", "high", *DISTRIBUTIONS[kind])
-    for name in (each for each in raw if each not in known):
-        report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
-    bounds = {"low": parameter.lower, "high": parameter.upper} if kind in _UNBOUNDED else {}
-    numbers: dict[str, float] = {}
-    for name in known[1:]:
-        with report:
-            numbers[name] = _number(parameter, name, raw.get(name, bounds.get(name)), f"{key}.{name}")
-    report.refuse()
-    distribution = Distribution(kind, numbers, numbers.pop("low"), numbers.pop("high"))
-    for part, found, allowed in _wrong_distribution(distribution):
-        raise refused(f"{key}{part}", found, allowed)
-    return distribution
-
-
-def _number(parameter: Parameter, name: str, raw: object, key: str) -> float:
-    """A number of a distribution: a bound is a value of the parameter, a deviation is positive."""
-    bound = name in ("low", "high")
-    try:
-        if raw is None:
-            raise ValueError
-        if bound and raw == parameter.lower:
-            return parameter.lower  # an open end is a bound, although it is no value
-        read = read_angle if parameter.units == "rad" else read_exact
-        return as_number(read_value(parameter, raw)) if bound else float(read(raw))
-    except ValueError as error:
-        found = "nothing" if raw is None else f"{literal(raw)} ({error})"
-        raise refused(key, found, parameter.allowed if bound else "a number") from None
-
-
-def _wrong_distribution(of: Distribution) -> Iterator[tuple[str, str, str]]:
-    """Part of the key, found and allowed of what does not go together in a distribution."""
-    bounds, deviation = f"the bounds {of.low:g} and {of.high:g}", of.given.get("deviation", 1.0)
-    if not of.low < of.high:
-        yield "", bounds, "the lower bound first, and a higher one"
-    if of.kind == "lognormal" and deviation > _LARGEST_DEVIATION:
-        allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
-        yield ".deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed
-    for name in ("deviation", "median"):
-        if of.given.get(name, 1.0) <= 0.0:
-            yield f".{name}", f"{of.given[name]:g}", "a number greater than 0"
-    mode = of.given.get("mode", of.low)
-    if not of.low <= mode <= of.high:
-        yield ".mode", f"{mode:g}", f"a number in [{of.low:g}, {of.high:g}]"
-    if of.share() < _LEAST_SHARE:
-        yield "", f"{bounds}, which hold none of the distribution", "bounds that hold some of it"
 
 
 def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: Report) -> Scatter | None:

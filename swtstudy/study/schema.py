@@ -41,8 +41,19 @@ def study_schema() -> dict[str, Any]:
     for name in ("start", "stop"):
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
-    keys["units"] = {"description": keys["units"]["description"], **_units()}
-    keys["material"] = {"description": keys["material"]["description"], **_material()}
+    label = {"type": "string", "minLength": 1}
+    kinds = {
+        kind: {"description": f"Of each {kind}.", **label, "examples": list(KNOWN[kind])} for kind in UNITS
+    }
+    of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
+    meanings = {key: row["meaning"] for key, row in PROPERTIES.items()} | BY_NAME
+    properties = {key: {"description": meaning, **of_both} for key, meaning in meanings.items()}
+    for name, more in (
+        ("units", {"properties": kinds, "required": [*UNITS]}),
+        ("material", {"properties": properties}),
+    ):
+        table = {"description": keys[name]["description"], "type": "object"}
+        keys[name] = {**table, **more, "additionalProperties": False}
     _name_keys(keys, parts["SampleTable"]["properties"], given)
     schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
     for role in ("x", "vertical", "hue", "panels"):
@@ -76,23 +87,6 @@ def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str,
 def schema_text() -> str:
     """The text of the schema's file."""
     return json.dumps(study_schema(), indent=1, ensure_ascii=False) + "\n"
-
-
-def _units() -> dict[str, Any]:
-    """Schema of the units."""
-    label = {"type": "string", "minLength": 1}
-    kinds = {
-        kind: {"description": f"Of each {kind}.", **label, "examples": list(KNOWN[kind])} for kind in UNITS
-    }
-    return {"type": "object", "properties": kinds, "required": [*UNITS], "additionalProperties": False}
-
-
-def _material() -> dict[str, Any]:
-    """Schema of fatigue constants."""
-    of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
-    meanings = {key: row.meaning for key, row in PROPERTIES.items()} | BY_NAME
-    properties = {key: {"description": meaning, **of_both} for key, meaning in meanings.items()}
-    return {"type": "object", "properties": properties, "additionalProperties": False}
 
 
 def _without_units(given: Mapping[str, Parameter]) -> dict[str, Any]:

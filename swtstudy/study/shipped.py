@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from swtstudy.vocabulary.files import parse_toml, read_text
+
 _PACKAGE = Path(__file__).parent.parent
 
 #: Where they are in an installed package, and in the source tree.
@@ -12,19 +14,7 @@ _PLACES = (_PACKAGE / "studies", _PACKAGE.parent / "studies")
 
 
 #: The studies by what they are about, in the order in which they are listed.
-GROUPS: dict[str, tuple[str, ...]] = {
-    "The paper": (
-        *(f"figure{number}" for number in range(3, 9)),
-        *("frequencies", "other_frequencies", "friction", "poisson_ratio", "tangential_amplitude"),
-        "tangential_amplitude_sample",
-    ),
-    "Loads": ("contour", "force_control", "loops", "bulk_stress"),
-    "Plane contacts": ("plane_contacts",),
-    "Criteria and parameters": ("criteria", "walker_exponent", "sensitivity"),
-    "Real contacts": ("sphere_on_flat", "fretting_map", "vingsbo_map", "life", "critical_distance"),
-    "Limits": ("stability", "stability_friction", "stability_small_motion", "stability_thin_annulus"),
-    "Random points, for swtstudy audit": ("parameter_box", "bulk_stress_box", "criteria_box"),
-}
+GROUPS: dict[str, list[str]] = parse_toml(read_text(Path(__file__).with_name("groups.toml")))
 #: The group of a study that none of these is.
 OTHERS = "Others"
 

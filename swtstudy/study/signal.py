@@ -14,22 +14,11 @@ import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
+from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
-from swtstudy.study.cycles import (
-    determined,
-    drift,
-    folded,
-    harmonics,
-    mean_over,
-    repeats,
-    repetitions,
-    scatter,
-    spikes,
-    uneven_ends,
-)
 from swtstudy.study.keys import SignalTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_of
 
 #: By what share of a step a record may be shorter than a whole number of periods.
@@ -82,7 +71,7 @@ class Signal:
         """The whole cycles at even phases, shape (count, m, d); a single one at its own samples."""
         if self.count == 1 and self._used == len(self.time):
             return self.values[None]
-        return folded(self.time, self.values, self.period, self.count)
+        return cycles.folded(self.time, self.values, self.period, self.count)
 
     @property
     def mean_cycle(self) -> FloatArray:
@@ -92,12 +81,7 @@ class Signal:
     @property
     def scatter(self) -> FloatArray:
         """Standard deviation of the cycles from their mean, by column; NaN for a single one."""
-        return scatter(self.cycles)
-
-    @property
-    def is_folded_apart(self) -> bool:
-        """True if cycles have less in common than what tells them apart, in each column: a wrong period."""
-        return bool(np.all(self.scatter > self.mean_cycle.std(axis=0)))
+        return cycles.scatter(self.cycles)
 
     @cached_property
     def mean_normal(self) -> float | None:
@@ -113,18 +97,25 @@ class Signal:
         if self.highest:
             mean = float(self._fits[0][0][0, 1])
         elif self.count == 1 and self._used == len(self.time):
-            mean = mean_over(self.time, self.values[:, 0], self.period)
+            mean = cycles.mean_over(self.time, self.values[:, 0], self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
         if not mean > 0.0:
             allowed = "a mean above 0; where compression is negative: scale = { normal = -1 }"
-            raise StudyError([Mistake("absolute", f"a mean normal load of {mean:.3g}", allowed)])
+            raise refused("absolute", f"a mean normal load of {mean:.3g}", allowed)
         return mean
 
     @cached_property
     def loop(self) -> Loop:
         """The loop of the mean cycle, for a study's ``load``."""
-        return self._harmonic if self.highest else self._polygon(self.name, self.mean_cycle)
+        if not self.highest:
+            return self._polygon(self.name, self.mean_cycle)
+        columns = [
+            [(int(order), float(a), float(phase)) for order, a, phase in rows] for rows, _ in self._fits
+        ]
+        if self.is_absolute:
+            del columns[0][0]  # of the order 0, which is the mean
+        return LoadPath.harmonic_sum(self.name, *columns, mean_normal=self.mean_normal)
 
     @property
     def loops(self) -> tuple[LoadPath, ...]:
@@ -172,17 +163,7 @@ class Signal:
 
     @cached_property
     def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
-        return [harmonics(self.phase, column, self.highest) for column in self._whole]
-
-    @property
-    def _harmonic(self) -> Loop:
-        columns = [
-            [(int(order), float(a), float(phase)) for order, a, phase in rows] for rows, _ in self._fits
-        ]
-        if self.is_absolute:
-            del columns[0][0]  # of the order 0, which is the mean
-        bulk = columns[2] if len(columns) > 2 else ()
-        return LoadPath.harmonic_sum(self.name, columns[0], columns[1], bulk, mean_normal=self.mean_normal)
+        return [cycles.harmonics(self.phase, column, self.highest) for column in self._whole]
 
     def _polygon(self, name: str, cycle: FloatArray) -> LoadPath:
         off = np.eye(1, cycle.shape[1]) * (self.mean_normal or 0.0)
@@ -258,64 +239,47 @@ def signal_from(
         each for each in ("recorded_cycles", "period", "frequency") if getattr(given, each) is not None
     ]
     if len(lengths) > 1:
-        raise StudyError([Mistake(", ".join(lengths), "both", "one of the two: the other follows")])
+        raise refused(", ".join(lengths), "both", "one of the two: the other follows")
     if given.frequency is not None and given.time is None:
         allowed = "time = the header of the time, in whose unit a cycle takes 1/frequency; or recorded_cycles"
-        raise StudyError([Mistake("frequency", literal(given.frequency), allowed)])
-    time, values, rows = _table(path, given, labels, kinds)
-    if len(values) < 2:
-        raise StudyError([Mistake("", f"{len(values)} samples", "2 at least", str(path))])
-    return _whole(name, time, values, rows, given)
-
-
-def _table(
-    path: Path, given: SignalTable, labels: Mapping[str, Any] | None, kinds: Mapping[str, str]
-) -> tuple[FloatArray, FloatArray, IndexArray]:
-    """Time, loads, and their lines in the file."""
-    form = given.model_copy(
-        update={"columns": {**given.columns, **({TIME: given.time} if given.time else {})}}
-    )
-    names = (*([TIME] if given.time else []), *COLUMNS, *([BULK] if BULK in given.columns else []))
+        raise refused("frequency", literal(given.frequency), allowed)
+    form = given.model_copy(update={"columns": given.columns | ({TIME: given.time} if given.time else {})})
+    names = (*(TIME,) * bool(given.time), *COLUMNS, *(BULK,) * (BULK in given.columns))
     optional = () if BULK in given.columns else (BULK,)
     values, rows = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
-    if not given.time:
-        return np.arange(len(values), dtype=np.float64), values, rows
-    wrong = np.flatnonzero(np.diff(values[:, 0]) <= 0.0)
-    if wrong.size:
-        found = f"{values[wrong[0] + 1, 0]:g} after {values[wrong[0], 0]:g}"
-        raise StudyError([Mistake(f"line {rows[wrong[0] + 1]}, time", found, "times that ascend", str(path))])
-    return values[:, 0], values[:, 1:], rows
-
-
-def _whole(name: str, time: FloatArray, values: FloatArray, rows: IndexArray, given: SignalTable) -> Signal:
-    """The signal with its period and number of cycles."""
+    time = np.arange(len(values), dtype=np.float64)
+    if given.time:
+        time, values = values[:, 0], values[:, 1:]
+        for row in np.flatnonzero(np.diff(time) <= 0.0)[:1]:
+            found = f"{time[row + 1]:g} after {time[row]:g}"
+            raise refused(f"line {rows[row + 1]}, time", found, "times that ascend", str(path))
+    if len(values) < 2:
+        raise refused("", f"{len(values)} samples", "2 at least", str(path))
     length = time[-1] - time[0]
     step = length / (len(time) - 1)
-    lengths = [each for each in ("period", "frequency") if getattr(given, each) is not None]
     key = (*lengths, "recorded_cycles")[0]
-    if lengths:
-        period = given.period or 1.0 / float(given.frequency or 1.0)
-        count = int((length + step * (1.0 + ROUNDING)) / period)
-    else:
+    if key == "recorded_cycles":
         count = given.recorded_cycles or 1
         # Each sample is there once: the first is not the last again.
         period = float(length * len(time) / (len(time) - 1) / count)
+    else:
+        period = given.period or 1.0 / float(given.frequency or 1.0)
+        count = int((length + step * (1.0 + ROUNDING)) / period)
     samples, highest = period / step, given.harmonics or 0
     if count < 1:
         own = given.frequency or period
-        raise StudyError([Mistake(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")])
+        raise refused(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")
     if samples < 2.0 - 1e-9:
-        raise StudyError([Mistake(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")])
-    values = _without_spikes(name, time, values, rows, period, count, given)
+        raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
+    values = _without_spikes(name, time, values, rows, period, count, given.despike)
     signal = Signal(name, time, values, period, count, given.absolute, highest)
-    if highest and not determined(signal.phase, highest):
-        found = f"{highest} with {samples * count:.0f} samples"
+    if highest and not cycles.determined(signal.phase, highest):
         allowed = "less than half as many as samples at different phases of the cycle"
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
-        raise StudyError([Mistake("harmonics", found, allowed)])
+        raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
     for line in _doubts(signal, key, given):
-        warnings.warn(f"{name}: {line}", stacklevel=3)
+        warnings.warn(f"{name}: {line}", stacklevel=2)
     return signal
 
 
@@ -329,23 +293,24 @@ def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
         yield f"{found}: the loads there are unknown"
     if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
         yield "the last sample is the first again: leave it out if closed"
-    if key == "recorded_cycles" and unsaid and (times := repeats(signal.time, values)):
+    if key == "recorded_cycles" and unsaid and (times := cycles.repeats(signal.time, values)):
         if abs(times - round(times)) < 0.01 * times:
             yield f"the record repeats {times:.0f} times: recorded_cycles = {times:.0f}?"
         else:
             yield f"the record repeats {times:.1f} times: period = {period / times:.4g}?"
-    elif (parts := repetitions(signal.cycles)) > 1:
+    elif (parts := cycles.repetitions(signal.cycles)) > 1:
         right = {"recorded_cycles": count * parts, "period": period / parts, "frequency": parts / period}
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
-    if signal.is_folded_apart:
+    # Cycles have less in common than what tells them apart, in each column.
+    if np.all(signal.scatter > signal.mean_cycle.std(axis=0)):
         yield f"its {count} cycles differ by more than their mean moves; is {key} right?"
-    elif abs(shift := drift(signal.cycles)) * count > MOST_DRIFT:
+    elif abs(shift := cycles.drift(signal.cycles)) * count > MOST_DRIFT:
         found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
         late = "late" if shift > 0.0 else "early"
         yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"
-    elif not kept and (uneven := uneven_ends(signal.cycles)):
+    elif not kept and (uneven := cycles.uneven_ends(signal.cycles)):
         column, ends, (first, last, mean) = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"
         found = (
@@ -362,10 +327,10 @@ def _without_spikes(
     lines: IndexArray,
     period: float,
     count: int,
-    given: SignalTable,
+    despike: bool,
 ) -> FloatArray:
     """The values; spikes are told, and with ``despike`` they take the values that other samples suggest."""
-    out, usual = spikes(time, values, period, count)
+    out, usual = cycles.spikes(time, values, period, count)
     rows, columns = np.nonzero(out)
     if not rows.size:
         return values
@@ -375,10 +340,10 @@ def _without_spikes(
         f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in cycle {cycle}, line {lines[row]} of the file"
     )
     more = f", and {rows.size - 1} more" if rows.size > 1 else ""
-    if given.despike:
+    if despike:
         told = f"{number_of(rows.size, 'spike')} replaced, {found}, by {usual[row, column]:.4g}{more}"
     else:
         told = f"{found}, where the other samples suggest {usual[row, column]:.4g}{more}: a spike? "
         told += "despike = true takes it out"
-    warnings.warn(f"{name}: {told}", stacklevel=4)
-    return np.where(out, usual, values) if given.despike else values
+    warnings.warn(f"{name}: {told}", stacklevel=3)
+    return np.where(out, usual, values) if despike else values

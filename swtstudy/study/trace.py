@@ -15,7 +15,7 @@ from swtstudy.profiles.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import TraceTable, sound_keys, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import refused
 
 #: The columns of a trace.
 COLUMNS = ("position", "height")
@@ -44,6 +44,8 @@ LOWEST = 0.5
 OUTLIER, MOST_OUTLIERS = 8.0, 0.2
 #: A gap is longer than this number of steps; a sample represents its side up to this number of steps.
 GAP, REACH = 5.0, 1.5
+#: Runs of lines that a message names.
+MOST_RUNS = 5
 #: Least share of the trace that both sides together cover without a warning.
 LEAST_USED = 0.7
 #: Share of the points, at least so many, of whose parabola the lowest point is the zero of heights.
@@ -99,19 +101,24 @@ def trace_from(
     values, rows = read_columns(own, COLUMNS, (), form, kinds, labels, gaps=True)
     position, height = values.T
     if len(position) < 4 * FEWEST:
-        raise StudyError([Mistake("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))])
+        raise refused("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))
     if not np.ptp(position) > 0.0:
-        raise StudyError([Mistake("", f"{len(position)} points at one position", "a trace across", str(own))])
+        raise refused("", f"{len(position)} points at one position", "a trace across", str(own))
+    # Of a trace that hardly rises towards one of its ends nothing there can be folded.
     real = _without_sentinels(height)
-    if _one_sided(position[real], height[real]):
+    sound = height[real][np.argsort(position[real])]
+    outer, span = max(1, len(sound) // 100), np.ptp(sound)
+    ends = sound[:outer].mean(), sound[-outer:].mean()
+    is_cap = max(ends) < sound.max() - 0.5 * span
+    if min(ends) - sound.min() < LEAST_RISE * span and not is_cap:
         found = "one side only: heights are lowest at an end of the trace"
         allowed = "both sides, with the lowest point between them; of one side a table of radius and height"
-        raise StudyError([Mistake("", found, allowed, str(own))])
+        raise refused("", found, allowed, str(own))
     fold = Fold.of(position, height, form.level)
     if -fold.height.min() > fold.height.max():
         found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
         allowed = "heights that grow away from the other body: scale = { height = -1 }"
-        raise StudyError([Mistake("", found, allowed, str(own))])
+        raise refused("", found, allowed, str(own))
     for line in _doubts(position, fold, rows):
         warnings.warn(f"{name}: {line}", stacklevel=2)
     given = fold.noise if form.smoothing is None else form.smoothing
@@ -126,22 +133,15 @@ def trace_from(
     return TabulatedProfile(name, fold.radius, fold.height, least, form.geometry)
 
 
-def _one_sided(position: FloatArray, height: FloatArray) -> bool:
-    """Return whether a trace hardly rises towards one of its ends: nothing there is to be folded."""
-    order = np.argsort(position)
-    outer = max(1, len(order) // 100)
-    ends = [height[order[:outer]].mean(), height[order[-outer:]].mean()]
-    span = np.ptp(height)
-    is_cap = max(ends) < height.max() - 0.5 * span
-    return bool(min(ends) - height.min() < LEAST_RISE * span and not is_cap)
-
-
 def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> list[str]:
     """Lines on the samples that were set aside, on gaps, and on a trace of which much is unused."""
     lines, aside = [], rows[~fold.kept]
     if aside.size:
         plural = "s" * (aside.size > 1)
-        places = f"line{plural} {_runs(aside)} of the file"
+        parts = np.split(aside, np.flatnonzero(np.diff(aside) > 1) + 1)
+        runs = [f"{part[0]} to {part[-1]}" if len(part) > 1 else f"{part[0]}" for part in parts]
+        more = f" and {len(runs) - MOST_RUNS} more places" if len(runs) > MOST_RUNS else ""
+        places = f"line{plural} {', '.join(runs[:MOST_RUNS])}{more} of the file"
         lines.append(f"{aside.size} sample{plural} set aside that the other side does not have: {places}")
     at = np.sort(position)
     steps = np.diff(at)
@@ -154,13 +154,6 @@ def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> list[str]:
         found = f"the middle is at {fold.middle:.4g}, so that only {used:.0%} of the trace has two sides"
         lines.append(f"{found}: radii up to {fold.radius[-1]:.4g}; is that the middle?")
     return lines
-
-
-def _runs(rows: IndexArray, most: int = 5) -> str:
-    """Ascending numbers as ranges, such as 3, 7 to 9."""
-    parts = np.split(rows, np.flatnonzero(np.diff(rows) > 1) + 1)
-    words = [f"{part[0]} to {part[-1]}" if len(part) > 1 else f"{part[0]}" for part in parts]
-    return ", ".join(words[:most]) + (f" and {len(words) - most} more places" if len(words) > most else "")
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +188,12 @@ class Fold:
             middle, tilt = _middle(position[kept], height[kept], level)
             kept = real.copy()
             kept[real] = ~_outliers(position[real], height[real] - tilt * position[real], middle)
-        sides = _sides(position[kept], height[kept] - tilt * position[kept], middle)
+        # Distances and heights of both sides, each with the nearest samples across the middle.
+        sides = []
+        for sign in (1.0, -1.0):
+            distance, own = _merged(sign * (position[kept] - middle), height[kept] - tilt * position[kept])
+            first = max(int(np.searchsorted(distance, 0.0)) - 3, 0)
+            sides.append((distance[first:], own[first:]))
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
         values = np.array([CubicSpline(*side)(radius) for side in sides])
         known = np.array([_reached(side[0], radius) for side in sides])
@@ -359,16 +357,6 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolAr
     # The one of two opposite samples that is nearer to the spline is sound.
     out &= np.abs(residual) >= 0.5 * np.abs(differs)
     return out if out.mean() < MOST_OUTLIERS else np.zeros(len(position), bool)
-
-
-def _sides(position: FloatArray, height: FloatArray, middle: float) -> list[tuple[FloatArray, FloatArray]]:
-    """Distances and heights of both sides, ascending, each with the nearest samples across the middle."""
-    found = []
-    for sign in (1.0, -1.0):
-        distance, own = _merged(sign * (position - middle), height)
-        first = max(int(np.searchsorted(distance, 0.0)) - 3, 0)
-        found.append((distance[first:], own[first:]))
-    return found
 
 
 def _merged(distance: FloatArray, height: FloatArray) -> tuple[FloatArray, FloatArray]:

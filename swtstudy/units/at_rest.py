@@ -9,6 +9,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from operator import itemgetter
+from typing import Any
 
 import numpy as np
 
@@ -16,9 +18,9 @@ from swtstudy.points.canonical import canonical_number, rounded
 from swtstudy.profiles.at_rest import AtRest, too_small
 from swtstudy.profiles.families import MEAN_LOAD, length_law
 from swtstudy.profiles.table import AnyProfile, TabulatedProfile
-from swtstudy.units.rows import least_depths, length_of, number_of
+from swtstudy.units.rows import SCALES
 from swtstudy.vocabulary.choices import is_plane
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import refused
 from swtstudy.vocabulary.parameters import PARAMETERS
 
 
@@ -178,6 +180,11 @@ class Contact:
         return is_plane(self.profile)
 
     @property
+    def friction_force(self) -> float:
+        """The friction times the normal force, at which the whole contact slides."""
+        return self.friction * self.normal_force
+
+    @property
     def work_scale(self) -> float:
         """Unit of the work of friction."""
         slip = self.friction * self.depth if self.plane else self.slip_scale
@@ -213,11 +220,25 @@ class Contact:
     @property
     def shape_parameters(self) -> dict[str, float]:
         """The non-dimensional parameters of its profile."""
-        return {name: number_of(name, value, self) for name, value in self.shape.items()}
+        return {name: self._number_of(name, value) for name, value in self.shape.items()}
+
+    def _number_of(self, name: str, value: float) -> float:
+        """The non-dimensional parameter from its length; what is no length stays as it is."""
+        if not PARAMETERS[name].scale:
+            return value
+        unit = SCALES[PARAMETERS[name].scale].of(self)
+        if unit == 0.0:
+            return math.inf if value else 0.0
+        return value / unit
+
+    def length_of(self, name: str, number: Any) -> Any:
+        """The length of a non-dimensional parameter; what is no length stays as it is."""
+        scale = PARAMETERS[name].scale
+        return number * SCALES[scale].of(self) if scale else number
 
 
 def depth_at(contact: Contact, force: float) -> float:
-    """Indentation depth at a normal force, which rises with it."""
+    """Indentation depth at a normal force, which rises with it; a StudyError if its shape fits at none."""
     from scipy.optimize import brentq
 
     if contact.plane:
@@ -225,7 +246,11 @@ def depth_at(contact: Contact, force: float) -> float:
     if isinstance(contact.profile, TabulatedProfile):
         profile, half = AtRest(contact.profile), np.array([[0.5 * force / contact.moduli.normal]])
         return float(profile.depth(profile.radius_at(half))[0, 0])
-    _refuse_at_any_depth(contact)
+    if limit := too_small(contact.profile, contact.shape_parameters, 0.0):
+        name, number = limit
+        shortest = f"at least {contact.length_of(name, number):.4g}"
+        allowed = f"{shortest}: with less no contact is compact, at whatever depth"
+        raise refused(name, f"{contact.shape[name]:g}", allowed)
     assert contact.radius is not None
     (coefficient, power), log_radius = length_law(contact.profile, contact.shape), math.log(contact.radius)
 
@@ -235,11 +260,17 @@ def depth_at(contact: Contact, force: float) -> float:
         length = log_radius + power * (logarithm - math.log(coefficient) - log_radius)
         return math.log(factor) + math.log(contact.moduli.normal) + logarithm + length - math.log(force)
 
-    name, least = max(least_depths(contact).items(), key=lambda item: item[1], default=("", 0.0))
+    # Below a least depth a shape parameter that grows as the depth falls is beyond its range.
+    name, least = "", 0.0
+    for own, number in contact.shape_parameters.items():
+        row = PARAMETERS[own]
+        if row.scale and (exponent := SCALES[row.scale].power):
+            depth = contact.depth * (number / row.upper) ** (1.0 / exponent)
+            name, least = max((name, least), (own, depth), key=itemgetter(1))
     if least > 0.0 and excess(math.log(least)) > 0.0:
         row = PARAMETERS[name]
         allowed = f"a length of at most {row.upper:g} {row.scale} at this force"
-        raise StudyError([Mistake(name, f"{contact.shape[name]:g}", allowed)])
+        raise refused(name, f"{contact.shape[name]:g}", allowed)
     # Hertz's depth, and from there outwards.
     hertz = (2.0 / 3.0) * math.log(0.75 * force / (contact.moduli.normal * math.sqrt(contact.radius)))
     low = high = max(hertz, math.log(least)) if least > 0.0 else hertz
@@ -248,21 +279,3 @@ def depth_at(contact: Contact, force: float) -> float:
     while excess(high) < 0.0:
         high += 1.0
     return math.exp(brentq(excess, low, high, xtol=1e-14)) if high > low else math.exp(low)
-
-
-def refuse_beyond(table: TabulatedProfile, depth: float) -> None:
-    """Raise if the contact of a table in lengths is no full disc up to a depth, or larger than the table."""
-    wrong = table.refused_at(depth)
-    if wrong is not None:
-        raise StudyError([Mistake("profile", str(table), f"a lower load, or another table: {wrong}")])
-
-
-def _refuse_at_any_depth(contact: Contact) -> None:
-    """Raise if the contact is not compact however small its depth."""
-    limit = too_small(str(contact.profile), contact.shape_parameters, 0.0)
-    if limit is None:
-        return
-    name, number = limit
-    least = f"at least {length_of(name, number, contact):.4g}"
-    allowed = f"{least}: with less no contact is compact, at whatever depth"
-    raise StudyError([Mistake(name, f"{contact.shape[name]:g}", allowed)])

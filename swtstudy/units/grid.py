@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,12 +18,13 @@ from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
-from swtstudy.units.at_rest import Contact, Moduli, depth_at, refuse_beyond
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import StudyError
+from swtstudy.vocabulary.mistakes import StudyError, refused
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES, PARAMETERS, STRAIN_SHARE
 from swtstudy.vocabulary.quantities import Request
@@ -201,23 +202,18 @@ class PhysicalGrid(ContactDetails, Grid):
         """The contacts at rest over these dimensions; where there is none, the StudyError that says why."""
         import xarray as xr
 
-        dims = self.at_rest_dims
-        shape = tuple(size for dim, size in zip(self.dims, self.shape, strict=True) if dim in dims)
-        values = {name: self.values(name) for name in AT_REST_NAMES if self.values(name)}
-        along = {name: self.dimension(name) for name in values}
-        known: dict[tuple[Value, ...], Contact | StudyError] = {}
-        contacts = np.empty(shape, object)
-        for place in np.ndindex(shape):
-            at = dict(zip(dims, place, strict=True))
-            own = {name: each[at[dim] if (dim := along[name]) else 0] for name, each in values.items()}
-            key = tuple(own.values())
-            if key not in known:
-                try:
-                    known[key] = self._contact(own)
-                except StudyError as error:
-                    known[key] = error
-            contacts[place] = known[key]
-        return xr.DataArray(contacts, dims=dims)
+        names = [name for name in AT_REST_NAMES if self.values(name)]
+
+        @cache
+        def contact(*values: Value) -> Contact | StudyError:
+            try:
+                return self._contact(dict(zip(names, values, strict=True)))
+            except StudyError as error:
+                return error
+
+        values = [self.over_dimension(name, np.array(self.values(name), object)) for name in names]
+        found = xr.apply_ufunc(contact, *values, vectorize=True, output_dtypes=[object])
+        return found.transpose(*self.at_rest_dims)
 
     @property
     def distinct(self) -> list[Contact]:
@@ -247,8 +243,9 @@ class PhysicalGrid(ContactDetails, Grid):
         )
         if "normal_force" in own:
             contact = replace(contact, depth=depth_at(contact, own["normal_force"]))
-        if isinstance(profile, Definition):
-            refuse_beyond(contact.profile, contact.depth)  # type: ignore[arg-type]
+        # No full disc up to its depth, or larger than the table.
+        if isinstance(profile, TabulatedProfile) and (wrong := profile.refused_at(contact.depth)):
+            raise refused("profile", str(profile), f"a lower load, or another table: {wrong}")
         return contact
 
     @property
@@ -272,7 +269,7 @@ class PhysicalGrid(ContactDetails, Grid):
         import xarray as xr
 
         dim = self.dimension(name)
-        return xr.DataArray(numbers, dims=dim) if dim else xr.DataArray(numbers[0])
+        return xr.DataArray(numbers, dims=dim) if dim else xr.DataArray(numbers[:1].reshape(()))
 
     @property
     def bodies(self) -> xr.DataArray:

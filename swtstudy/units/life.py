@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from swtstudy.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
@@ -30,20 +30,22 @@ UNCOUNTED = (
 )
 
 
-def check_constants(constants: object) -> None:
-    """Check the constants of a material, whose exponents alone are negative; they become plain numbers."""
-    report = Report()
-    for name, value in vars(constants).items():
-        sign = -1.0 if name.endswith("exponent") else 1.0
-        allowed = "a negative number" if sign < 0.0 else "a positive number"
-        report += wrong_size(name, value, allowed, sign)
-    report.refuse()
-    for name, value in vars(constants).items():
-        object.__setattr__(constants, name, plain_number(value))
+class _Constants:
+    """Strain–life constants, of which the exponents alone are negative; they become plain numbers."""
+
+    def __post_init__(self) -> None:
+        report = Report()
+        for name, value in vars(self).items():
+            negative = name.endswith("exponent")
+            allowed = "a negative number" if negative else "a positive number"
+            report += wrong_size(name, value, allowed, -1.0 if negative else 1.0)
+        report.refuse()
+        for name, value in vars(self).items():
+            object.__setattr__(self, name, plain_number(value))
 
 
 @dataclass(frozen=True)
-class FatigueConstants:
+class FatigueConstants(_Constants):
     """Strain–life constants of a material, after Basquin, Coffin and Manson.
 
     ε_a = (σf′/E) (2N)^b + εf′ (2N)^c
@@ -65,9 +67,6 @@ class FatigueConstants:
     strength_exponent: float
     ductility: float
     ductility_exponent: float
-
-    def __post_init__(self) -> None:
-        check_constants(self)
 
     @property
     def _terms(self) -> tuple[FloatArray, FloatArray]:
@@ -190,7 +189,7 @@ def not_negative(name: str, values: object) -> FloatArray:
     """Read numbers ≥ 0, or NaN, that a user gave; a StudyError if any is negative."""
     numbers = read_numbers(name, values, "numbers ≥ 0")
     if (numbers < 0.0).any():
-        raise StudyError([Mistake(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")])
+        raise refused(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")
     return numbers
 
 
@@ -221,7 +220,7 @@ def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray
 
 
 @dataclass(frozen=True)
-class ShearConstants:
+class ShearConstants(_Constants):
     """Strain–life constants of a material in torsion.
 
     γ_a (1 + k σ_n/σ_y) = (τf′/G) (2N)^b + γf′ (2N)^c
@@ -243,9 +242,6 @@ class ShearConstants:
     strength_exponent: float
     ductility: float
     ductility_exponent: float
-
-    def __post_init__(self) -> None:
-        check_constants(self)
 
     @classmethod
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:

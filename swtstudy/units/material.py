@@ -11,56 +11,24 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from swtstudy.points.values import read_exact
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.units.rows import KNOWN, OF_BODIES, UNIT_KINDS, Units, read_units, wrong_size
+from swtstudy.units.rows import KNOWN, OF_BODIES, TABLES, UNIT_KINDS, Units, read_units, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
-
-class Property(NamedTuple):
-    """A property of a material: words for its values, and what it is."""
-
-    allowed: str
-    meaning: str
-
-
-_STRESS, _NUMBER, _EXPONENT = "a positive stress in {}", "a positive number", "a negative number"
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
 RANGES = ("threshold_stress_intensity_range", "fatigue_limit_range")
 LOAD_RATIO = "load_ratio"
 #: Above which von Mises stress it yields; and what the Findley stress is compared with.
 STRENGTH, LIMIT = "yield_strength", "findley_limit"
 _YOUNG, _MODULUS = "young_modulus", "shear_modulus"
-#: Properties by their keys; both moduli are the body's unless they are given.
-PROPERTIES = {
-    _YOUNG: Property(_STRESS, "Young's modulus of the constants, if it is not that of the body."),
-    "strength": Property(_STRESS, "σf′ of the strain–life constants, a stress."),
-    "strength_exponent": Property(_EXPONENT, "b, below 0."),
-    "ductility": Property(_NUMBER, "εf′."),
-    "ductility_exponent": Property(_EXPONENT, "c, below 0."),
-    _MODULUS: Property(_STRESS, "G of the shear constants, if it is not that of the body."),
-    "shear_strength": Property(
-        _STRESS, "τf′ of the constants in torsion, a stress: for lives by Fatemi and Socie."
-    ),
-    "shear_strength_exponent": Property(_EXPONENT, "b in torsion, below 0."),
-    "shear_ductility": Property(_NUMBER, "γf′."),
-    "shear_ductility_exponent": Property(_EXPONENT, "c in torsion, below 0."),
-    STRENGTH: Property(
-        _STRESS, "Stress above which the body yields: for von Mises stresses, and marks of validity."
-    ),
-    LIMIT: Property(_STRESS, "What the Findley stress is compared with, a stress: for findley_usage."),
-    RANGES[0]: Property(_NUMBER, "ΔK_th, a range, in stress times √length; for the critical distance."),
-    RANGES[1]: Property(_STRESS, "Δσ_0, a range of stress; for the critical distance."),
-    LOAD_RATIO: Property(
-        "a number below 1: the least over the largest",
-        "Least over largest load at which both ranges were found; not used, but said.",
-    ),
-}
+#: Properties by their keys: words for their values, and meanings. Both moduli are the body's unless given.
+PROPERTIES: dict[str, dict[str, str]] = TABLES["properties"]
 #: The other way: names from a file.
 BY_NAME = {
     "file": "Path of a TOML file with a table of properties for each material, relative to the study.",
@@ -208,7 +176,7 @@ def _both(
 
 def _allowed(key: str, units: Units) -> str:
     """Words for the values that a property may have."""
-    return PROPERTIES[key].allowed.format(units.stress)
+    return PROPERTIES[key]["allowed"].format(units.stress)
 
 
 def _number(raw: object) -> object:

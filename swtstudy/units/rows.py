@@ -11,9 +11,11 @@ import difflib
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number
+from swtstudy.vocabulary.files import parse_toml, read_text
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES, STRAIN_SHARE
 
@@ -23,29 +25,16 @@ if TYPE_CHECKING:
 #: Kinds of numbers that have a unit of their own.
 UNIT_KINDS = ("length", "force", "stress")
 
-#: Labels that are known, in m, N and Pa: a set of them that is not consistent is a mistake.
-KNOWN: dict[str, dict[str, float]] = {
-    "length": {
-        "m": 1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9,
-        "in": 0.0254, "ft": 0.3048,
-    },
-    "force": {
-        "N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "µN": 1e-6, "μN": 1e-6, "uN": 1e-6,
-        "lbf": 4.4482216152605, "kip": 4448.2216152605, "kgf": 9.80665,
-    },
-    "stress": {
-        "Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "N/mm²": 1e6, "N/mm2": 1e6,
-        "psi": 6894.757293168, "ksi": 6894757.293168,
-    },
-}  # fmt: skip
-#: Their names as people write them out, and in labels.
-_PREFIXES = {"": "", "kilo": "k", "mega": "M", "giga": "G"}
-_PREFIXES |= {"centi": "c", "milli": "m", "micro": "µ", "nano": "n"}
+#: Units by kind and label, in m, N and Pa, and properties of materials.
+TABLES = parse_toml(read_text(Path(__file__).with_name("tables.toml")))
+#: Labels that are known: a set of them that is not consistent is a mistake.
+KNOWN: dict[str, dict[str, float]] = TABLES["known"]
+#: Names of units as people write them out, and their labels.
 _WRITTEN_OUT = {
-    f"{prefix}{name}": f"{letter}{label}"
-    for name, label in {"meter": "m", "metre": "m", "newton": "N", "pascal": "Pa"}.items()
-    for prefix, letter in _PREFIXES.items()
-} | {"micron": "µm", "inch": "in", "foot": "ft", "pound": "lbf"}
+    prefix + name: letter + label
+    for name, label in TABLES["prefixed"].items()
+    for prefix, letter in TABLES["prefixes"].items()
+} | TABLES["written_out"]
 
 #: Relative rounding of the numbers above.
 _ROUNDING = 1e-9
@@ -163,38 +152,13 @@ SCALES: dict[str, Scale] = {
     "μ E* δ0/G*": Scale(lambda contact: contact.slip_scale, 1.0),
     "E* δ0/a_H": Scale(lambda contact: contact.stress_scale, 0.5, kind="stress"),
     "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
-    "μ F0": Scale(lambda contact: contact.friction * contact.normal_force, None, kind="force"),
+    "μ F0": Scale(lambda contact: contact.friction_force, None, kind="force"),
     "√(hR)": Scale(
         lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * (contact.radius or math.nan)),
         0.0,
         made_of="waviness_amplitude",
     ),
 }
-
-
-def number_of(name: str, value: Any, contact: Contact) -> Any:
-    """The non-dimensional parameter from its length; what is no length stays as it is."""
-    if not PARAMETERS[name].scale:
-        return value
-    unit = SCALES[PARAMETERS[name].scale].of(contact)
-    if unit == 0.0:
-        return math.inf if value else 0.0
-    return value / unit
-
-
-def length_of(name: str, number: Any, contact: Contact) -> Any:
-    """The inverse of `number_of`."""
-    scale = PARAMETERS[name].scale
-    return number * SCALES[scale].of(contact) if scale else number
-
-
-def least_depths(contact: Contact) -> dict[str, float]:
-    """The depths below which shape parameters are beyond their range, for those that grow as it falls."""
-    return {
-        name: contact.depth * (number_of(name, length, contact) / PARAMETERS[name].upper) ** (1.0 / power)
-        for name, length in contact.shape.items()
-        if PARAMETERS[name].scale and (power := SCALES[PARAMETERS[name].scale].power)
-    }
 
 
 #: Parameters that a real contact needs: it has no usual friction.
@@ -291,7 +255,7 @@ def checked_body(body: object, key: str = "body", names: Sequence[str] = ()) -> 
     """
     number = names.index(body) + 1 if isinstance(body, str) and body in names else plain_number(body)
     if number not in LABELS:
-        raise StudyError([Mistake(key, literal(body), labels_or(names))])
+        raise refused(key, literal(body), labels_or(names))
     return int(number)
 
 

@@ -227,6 +227,15 @@ def test_units_of_depths_and_displacements_are_lengths(tmp_path: Path) -> None:
     Study.from_text(text, "s", tmp_path)
 
 
+def test_a_stress_that_is_a_quotient_is_compared_with_the_units(tmp_path: Path) -> None:
+    rows = [(200 + n / 10, q, t) for t, n, q in ROWS]
+    (tmp_path / "rig.csv").write_text(table("normal,tangential,bulk\nN,N,N/mm²", rows=rows), encoding="utf-8")
+    text = RIG.replace('length = "mm"', 'length = "m"').replace('stress = "MPa"', 'stress = "Pa"')
+    words = r"in N/mm² as bulk, while \[units\] has stress in Pa .*; allowed: scale = { bulk = 1e.06 }"
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(text + "units_row = true\n", "s", tmp_path)
+
+
 def test_samples_are_named_by_the_lines_of_the_file(tmp_path: Path) -> None:
     """Also below settings, a row of units, an empty line and rows that are left out."""
     wave = 60.0 * np.sin(2.0 * np.pi * np.arange(40) / 40)

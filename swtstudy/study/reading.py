@@ -1,0 +1,331 @@
+"""From the tables of a study file to its points: loops, profiles, blocks, contacts, samples and axes."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from swtstudy.loads.load_path import LoadPath
+from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.reading import Range, read_distances, read_grid, warn_of_degrees
+from swtstudy.points.values import read_angle
+from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.study.columns import read_columns
+from swtstudy.study.figure import check_figure
+from swtstudy.study.keys import (
+    BlockTable,
+    FileTable,
+    LoadTable,
+    ProfileTable,
+    SignalTable,
+    read_study,
+    sound_keys,
+    under,
+)
+from swtstudy.study.sample import Sample, read_sample
+from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
+from swtstudy.study.trace import trace_from
+from swtstudy.study.writing import to_toml
+from swtstudy.units.grid import ContactDetails
+from swtstudy.units.life import Block, Scatter, wrong_rounds
+from swtstudy.units.material import read_given
+from swtstudy.units.reading import ANY, ANY_MEASURED, doubts_of_units, read_contacts
+from swtstudy.units.rows import read_units, rows
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.derived import NAMES
+from swtstudy.vocabulary.files import parse_toml
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, refused
+from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, YIELD, Request, read_quantities
+
+#: Keys beside the definition of a loop.
+_BESIDE = {
+    "vertices": ("absolute", "mean_normal"),
+    "normal": ("mean_normal",),
+    "file": (*SignalTable.model_fields, "keep_cycles"),
+}
+#: Columns of the file of a profile.
+PROFILE_COLUMNS = ("radius", "height")
+#: Stands for a wrong profile: its use is no mistake of its own.
+_ANY_PROFILE = TabulatedProfile("any", np.linspace(0.0, 1e3, 9), np.linspace(0.0, 1e3, 9) ** 2)
+
+
+class StudyReader:
+    """Reads the tables of a study, one part after another; every mistake goes into its report."""
+
+    def __init__(self, raw: Mapping[str, Any], source: str, folder: Path) -> None:
+        self.raw, self.folder, self.source = raw, folder, source
+        #: The tables that parameters are given in, for their keys in messages.
+        self.places: dict[str, str] = {}
+        self.report = Report(source, lambda name: f"{self.places.get(name, 'fixed')}.{name}")
+        self.parts, self.of_structure = read_study(raw, source)
+        self.report += self.of_structure
+
+    def fields(self, text: str) -> dict[str, Any]:
+        """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
+        parts, report = self.parts, self.report
+        known = {"load": self._loads(), "profile": self._profiles()}
+        blocks = self._blocks(known["load"])
+        fixed, axes = self.fixed_and_axes(blocks)
+        contacts, fixed = self._contacts(fixed, axes)
+        self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
+        own = rows(contacts.units) if contacts else PARAMETERS
+        sample, sampled, scatter = self._sample(own, known, contacts)
+        is_sampled = "sample" in self.raw and (bool(sampled) or scatter is None)
+        self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
+        self.places |= {"load": "blocks"} if blocks else {}
+        samples = {name: sample.values[name] if sample else None for name in sampled}
+        distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
+        asked = Request(read_quantities(parts.quantities, "quantities", report), *distances)
+        if contacts is not None:
+            contacts = replace(contacts, blocks=tuple(blocks), scatter=scatter)
+            strong = (YIELD,) if contacts.yield_strengths and YIELD not in asked.names else ()
+            counts = bool(contacts.materials or contacts.shear_materials)
+            asked = replace(asked, names=(*asked.names, *strong), counts=counts)
+            wrong_material = any(mistake.key.startswith("material") for mistake in report)
+            if blocks and not counts and "material" in self.raw and not wrong_material:
+                found = "blocks with a [material] without lives"
+                report("blocks", found, "constants of lives: Miner's sum needs them")
+        grid: Grid | None = None
+        if not is_sampled or sampled:  # else what is sampled is unknown: nothing else is missing
+            given = report.key, self.source
+            if contacts is None:
+                grid, wrong = read_grid(fixed, axes, *given, (DISTANCE,), samples, known)
+            else:
+                grid, wrong = read_contacts(fixed, axes, contacts, *given, samples, known, asked.distances)
+            report += wrong
+        if parts.figure is not None:
+            # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
+            dims = [name if name in AXES else meant(name, AXES) or name for name in axes]
+            dims += [dim for dim in (grid.dims if grid else ()) if dim not in (*dims, SAMPLE)]
+            unsure = {*NAMES, *EVERY_VARIABLE} if contacts and report else set()
+            check_figure(parts.figure, [SAMPLE] * is_sampled + dims, grid, asked, report, unsure)
+        if report or grid is None:
+            told = {mistake.key for mistake in self.of_structure}  # once
+            raise StudyError(dict.fromkeys(m for m in report if m in self.of_structure or m.key not in told))
+        tables = [parts.sample, *parts.loads.values(), *parts.profiles.values()]
+        if "file" in (parts.material or ()) or any(table.file for table in tables if table):
+            # An archive and what a killed run leaves are read in other folders, when files may be gone.
+            text = to_toml(parts.title, parts.rtol, grid, parts.figure, asked)
+        names = ("title", "grid", "rtol", "asked", "figure", "text", "sample")
+        values = (parts.title, grid, parts.rtol, asked, parts.figure, text, sample)
+        return dict(zip(names, values, strict=True))
+
+    def _loads(self) -> dict[str, Definition]:
+        """The loops by name; a wrong one stands for any, so that its use is no mistake of its own."""
+        loads: dict[str, Definition] = {}
+        for name, table in self.parts.loads.items():
+            given = self.raw["loads"][name]
+            measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
+            loads[name] = ANY_MEASURED if measured else ANY
+            if table is not None:
+                part = next((each for each in ("vertices", "file") if getattr(table, each) is not None), "")
+                with under(self.report, f"loads.{name}", part):
+                    loads |= self._load(name, table)
+        return loads
+
+    def _load(self, name: str, table: LoadTable) -> dict[str, Definition]:
+        """The loop of a table, and the loops of cycles that are kept; a StudyError with what is wrong."""
+        own = _given(table)
+        kinds = [each for each in ("vertices", "file", *COLUMNS, BULK) if each in own]
+        if kinds not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
+            allowed = "vertices, file, or normal and tangential, with or without bulk"
+            raise refused("", " and ".join(kinds) or "nothing", allowed)
+        if strange := [each for each in own if each not in (*kinds, *_BESIDE[kinds[0]])]:
+            of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kinds[0]]
+            allowed = f"with {of} only {', '.join(_BESIDE[kinds[0]])}"
+            raise refused("", f"{', '.join(strange)} beside {of}", allowed)
+        if kinds[0] == "normal":
+            columns = [_harmonics(getattr(table, each) or (), each) for each in (*COLUMNS, BULK)]
+            return {name: LoadPath.harmonic_sum(name, *columns, mean_normal=table.mean_normal)}
+        if kinds == ["vertices"]:
+            if table.absolute and table.mean_normal is not None:
+                raise refused("absolute", "absolute and mean_normal", "true or false; without mean_normal")
+            if table.absolute:
+                return {name: LoadPath.absolute(name, table.vertices)}
+            return {name: LoadPath(name, table.vertices, table.mean_normal)}
+        if table.keep_cycles and table.harmonics is not None:
+            allowed = "one of the two: kept cycles are as they were recorded"
+            raise refused("", "keep_cycles and harmonics", allowed)
+        # A depth and a displacement are recorded beside amplitudes of these.
+        parts = self.parts
+        sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
+        given, columns_of = {*parts.fixed, *parts.axes, *sampled}, dict(KINDS)
+        if "normal_amplitude" in given:
+            columns_of["normal"] = "length"
+            columns_of["tangential"] = "force" if "tangential_force_amplitude" in given else "length"
+        if "tangential_amplitude" in given:
+            columns_of["tangential"] = "length"
+        signal = signal_from(self.folder / str(table.file), name, table, parts.units, columns_of)
+        kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
+        for each in (each for each in kept if each in parts.loads):
+            self.report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
+        return {name: signal.loop, **kept}
+
+    def _profiles(self) -> dict[str, Definition]:
+        """The profiles that are tables, by name; a wrong one stands for any."""
+        profiles: dict[str, Definition] = dict.fromkeys(self.parts.profiles, _ANY_PROFILE)
+        for name, table in self.parts.profiles.items():
+            if table is None:
+                continue
+            with under(self.report, f"profiles.{name}"):
+                own = _given(table)
+                kinds = [each for each in (*PROFILE_COLUMNS, "file") if each in own]
+                if kinds not in (["file"], [*PROFILE_COLUMNS]):
+                    raise refused("", " and ".join(kinds) or "nothing", "radius and height, or file")
+                of_files: tuple[str, ...] = (
+                    (*FileTable.model_fields, "two_sided") if kinds != ["file"] else ()
+                )
+                strange = [each for each in (*of_files, "level") if each in own]
+                if strange and not (table.file and table.two_sided):
+                    words = "a file" if of_files else "two_sided"
+                    raise refused("", ", ".join(strange), f"{strange[0]} with {words} only")
+                profiles[name] = profile_from(name, table, self.folder, self.parts.units)
+        return profiles
+
+    def _blocks(self, names: Iterable[str]) -> list[Block]:
+        """The blocks; of a signal that keeps its cycles one for each. The names are those of the loops."""
+        raw, parts, report = self.raw, self.parts, self.report
+        if parts.blocks and not ("units" in raw and "material" in raw):
+            report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
+        for part in ("fixed", "axes"):
+            if parts.blocks and "load" in getattr(parts, part):
+                found = literal(raw[part]["load"])
+                report(f"{part}.load", found, "nothing: the loads are those of [[blocks]]")
+        blocks: list[Block] = []
+        for number, block in enumerate(parts.blocks):
+            wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
+            for mistake in wrong:
+                report(mistake.key, mistake.found, mistake.allowed)
+            table = parts.loads.get(block.load)
+            cycles = kept_cycles(block.load, names) if table and table.keep_cycles else []
+            blocks += [Block(each, 1.0 if wrong else float(block.rounds)) for each in cycles or [block.load]]
+        return blocks
+
+    def _contacts(
+        self, fixed: dict[str, Any], axes: Mapping[str, Any]
+    ) -> tuple[ContactDetails | None, dict[str, Any]]:
+        """Units and materials, None without units; the fixed values with the materials' critical distance."""
+        parts, report = self.parts, self.report
+        if parts.units is None:
+            if "material" in self.raw and "units" not in self.raw:
+                allowed = "with [units] only: a life needs a real contact"
+                report("material", "constants without [units]", allowed)
+            return None, fixed
+        contacts, distance = read_given(parts.units, parts.material, fixed, self.folder, report)
+        if distance is None:
+            return contacts, fixed
+        if DISTANCE in {*fixed, *axes}:
+            report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
+        return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
+
+    def _sample(
+        self,
+        own: Mapping[str, Parameter],
+        known: Mapping[str, Mapping[str, Definition]],
+        contacts: ContactDetails | None = None,
+    ) -> tuple[Sample | None, list[str], Scatter | None]:
+        """The sample, the names of what is sampled, and draws of constants; nothing without a sample."""
+        if self.parts.sample is None:
+            return None, [], None
+        single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
+        given = self.raw["sample"]
+        return read_sample(self.parts.sample, given, self.folder, self.report, known, single, contacts)
+
+    def firsts(self) -> dict[str, object]:
+        """First values along axes, and of what is sampled; None for those with mistakes."""
+        found = {
+            name: axis.start if isinstance(axis, Range) else (axis or [None])[0]
+            for name, axis in self.fixed_and_axes(self.parts.blocks)[1].items()
+        }
+        units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
+        sample, sampled, _ = self._sample(rows(units) if units else PARAMETERS, {})
+        return found | {name: sample.values[name][0] if sample else None for name in sampled}
+
+    def fixed_and_axes(self, blocks: Sequence[Block | BlockTable]) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Fixed values and axes; the loads of blocks are the last axis if there are several."""
+        loads = list(dict.fromkeys(block.load for block in blocks))
+        given = self.parts.fixed, self.parts.axes
+        fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in given)
+        if len(loads) > 1:
+            return fixed, {**axes, "load": loads}
+        return ({**fixed, "load": loads[0]} if loads else fixed), axes
+
+
+def _given(table: FileTable) -> list[str]:
+    """The keys of a table that have a value, in their order."""
+    return [name for name in type(table).model_fields if name in table.model_fields_set]
+
+
+def _harmonics(rows: Any, column: str) -> Any:
+    """Rows of order, amplitude and phase, which may be a text as in studies."""
+    read = list(rows) if isinstance(rows, list | tuple) else rows
+    for number, row in enumerate(read if isinstance(read, list) else ()):
+        if isinstance(row, list | tuple) and len(row) == 3:
+            warn_of_degrees(column, row[-1])
+            if isinstance(row[-1], str):
+                try:
+                    read[number] = (*row[:-1], float(read_angle(row[-1])))
+                except ValueError as error:
+                    key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
+                    raise refused(key, found, "a phase") from None
+    return read
+
+
+def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
+    """The names that stand for kept cycles of a load."""
+    return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]
+
+
+def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
+    """The signal that a load of a sound study is; None for one that comes from no file."""
+    table = sound_keys(LoadTable, parse_toml(text).get("loads", {}).get(name, {}))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # told when the study was read
+        return signal_from(folder / table.file, name, table) if table.file else None
+
+
+def profile_from(
+    name: str, table: ProfileTable, folder: Path, labels: Mapping[str, Any] | None = None
+) -> TabulatedProfile:
+    """A profile from its table."""
+    if table.file is None:
+        radius, height = table.radius, table.height
+    elif table.two_sided:
+        return trace_from(folder / table.file, name, table, labels)
+    else:
+        kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels)[0].T
+    return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
+
+
+def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
+    """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
+    report = Report(source)
+    for parameter in ("load", "profile"):
+        used, tables = {*map(str, grid.values(parameter))}, raw.get(f"{parameter}s", {})
+        # Cycles that are kept one by one are loads of their own.
+        kept = (kept_cycles(name, used) for name, table in tables.items() if table.get("keep_cycles"))
+        for name in tables if used.isdisjoint(tables) and not any(kept) else ():
+            words = f"a {parameter} that is not used"
+            report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
+    return report
+
+
+def doubts(grid: Grid, has_units: bool) -> Iterator[str]:
+    """Axes of phases and frequencies of what stands still, or of loops, which have their own; odd units."""
+    harmonic = len(grid.loops) < len(grid.values("load"))
+    moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
+    pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
+    idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
+    for name in (name for name, still in idle.items() if still and name in grid.axes):
+        yield f"axes.{name} has no effect: what it is of does not oscillate"
+    if has_units:
+        yield from doubts_of_units(grid)  # type: ignore[arg-type]
