@@ -41,7 +41,7 @@ def by_section(names: Iterable[str]) -> dict[str, list[str]]:
 class InSections(click.Command):
     """A command whose many parameters are listed by what they are a part of, a line each."""
 
-    #: Whether each has a line, or is only named.
+    #: False where parameters are only named.
     explains = True
 
     def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:

@@ -129,8 +129,9 @@ def show(
     A profile and its shape alone are drawn as a profile, which may be a CSV file with the columns radius and
     height, in a_H and δ0.
 
-    With a STUDY: its contact in its units, at single values of axes and blocks; alone, one of its profiles or
-    a CSV file, pressed by the mean load, or one of its loads, with recorded cycles, path and friction.
+    With a STUDY, its contact is drawn in its units, at single values of axes and blocks; alone, one of its
+    profiles or a CSV file pressed by the mean load, or one of its loads with recorded cycles, path and
+    friction.
 
     A parameter is an option, such as --phase "2*pi"; see swtstudy list --parameters.
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
@@ -15,9 +15,6 @@ from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import place_words
-
-if TYPE_CHECKING:
-    pass
 
 
 @click.command()

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from io import BytesIO
 from typing import Any, Literal
 
 import matplotlib.figure
@@ -22,7 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from swtstudy.figures.style import stroke
+from swtstudy.figures.style import picture, stroke
 from swtstudy.loads.loop import Loop
 from swtstudy.vocabulary.mistakes import literal, refused
 
@@ -39,9 +38,7 @@ class Figure(matplotlib.figure.Figure):
     width: Any = None
 
     def _repr_png_(self) -> bytes:
-        picture = BytesIO()
-        self.savefig(picture, format="png", dpi=self.get_dpi())
-        return picture.getvalue()
+        return picture(self, "png", dpi="figure")
 
 
 #: Uses of a figure in print; on a screen a figure grows with its panels.

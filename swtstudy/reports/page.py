@@ -355,7 +355,7 @@ def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
 
 
 def _course(loop: Any) -> str:
-    """What a load is: a loop, or None for the built-in one."""
+    """Words for a loop, or for None, the built-in load."""
     if loop is None:
         return "two oscillations"
     vertices = getattr(loop, "vertices", None)

@@ -123,7 +123,7 @@ def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterato
             else:
                 entries.append(made)
                 yield folder / f"{path.stem}.html", ""
-    if not entries:
+    if problems and not entries:
         raise problems[0]
     write_text(folder / INDEX, listing(entries))
     yield folder / INDEX, ""
@@ -147,17 +147,13 @@ def entry(dataset: xr.Dataset, name: str) -> Entry:
 
 def listing(entries: Sequence[Entry]) -> str:
     """The page that lists archives: a picture and a sentence of each, in groups."""
-    groups = _cards(entries, lambda name: quote(f"{name}.html"))
-    return rendered(
-        "list.html", title="Parameter studies", entries=entries, groups=groups, version=__version__
-    )
+    gallery = Markup(gallery_of(entries, lambda name: quote(f"{name}.html")))
+    count, title = len(entries), "Parameter studies"
+    return rendered("list.html", title=title, count=count, gallery=gallery, version=__version__)
 
 
 def gallery_of(entries: Sequence[Entry], address: Callable[[str], str]) -> str:
     """Cards in groups, as HTML; each leads to the address of its name."""
-    return rendered("gallery.html", groups=_cards(entries, address))
-
-
-def _cards(entries: Sequence[Entry], address: Callable[[str], str]) -> dict[str, list[tuple[Entry, str]]]:
     own = {each.name: each for each in entries}
-    return {title: [(own[name], address(name)) for name in names] for title, names in in_groups(own).items()}
+    groups = {group: [(own[n], address(n)) for n in names] for group, names in in_groups(own).items()}
+    return rendered("gallery.html", groups=groups)

@@ -24,7 +24,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import NUMERIC
 from swtstudy.solving import solve_grid
-from swtstudy.vocabulary.arrays import Columns, FloatArray
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
@@ -160,8 +160,7 @@ _FRACTIONS = (1.0, 0.3)
 _BENT = 0.2
 
 
-@dataclass(frozen=True)
-class Planes(Columns):
+class Planes(NamedTuple):
     """Points, values and gradients of m tangent planes, shapes (m, d), (m,) and (m, d)."""
 
     points: FloatArray
@@ -272,8 +271,9 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
         around = best + distance * rng.uniform(-1.0, 1.0, (_PLANES_EACH * dimensions, dimensions))
         around = np.clip(around, 0.0, 1.0)
         found = planes_from(around, distance, (yield probes(around, distance)))
-        known = Planes.joined([known, found])
-        known = known[(np.abs(known.points - best) <= _NEAR * distance).all(axis=1)]
+        known = Planes(*map(np.concatenate, zip(known, found, strict=True)))
+        near = (np.abs(known.points - best) <= _NEAR * distance).all(axis=1)
+        known = Planes(*(each[near] for each in known))
         moved = 0.0
         if len(known.values):
             steps = np.array([*lowest_of(known, best, value, distance), newton(known, best, distance)])
