@@ -273,7 +273,7 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
         found = planes_from(around, distance, (yield probes(around, distance)))
         known = Planes(*map(np.concatenate, zip(known, found, strict=True)))
         near = (np.abs(known.points - best) <= _NEAR * distance).all(axis=1)
-        known = Planes(*(each[near] for each in known))
+        known = Planes(*(column[near] for column in known))
         moved = 0.0
         if len(known.values):
             steps = np.array([*lowest_of(known, best, value, distance), newton(known, best, distance)])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -25,8 +26,27 @@ class Columns:
         """The values at an index of NumPy's, repetitions allowed."""
         return type(self)(*(_at(getattr(self, name), index) for name in self.__match_args__))
 
+    def __setitem__(self, index: Any, other: Self) -> None:
+        """Write others at an index of NumPy's; they consist of arrays alone."""
+        for name in self.__match_args__:
+            getattr(self, name)[index] = getattr(other, name)
+
+    @classmethod
+    def joined(cls, several: Sequence[Self]) -> Self:
+        """Several, one after another; common values are taken from the first."""
+        return cls(*(_joined([getattr(one, name) for one in several]) for name in cls.__match_args__))
+
 
 def _at(value: Any, index: Any) -> Any:
     if isinstance(value, dict):
         return {name: _at(each, index) for name, each in value.items()}
     return value[index] if isinstance(value, np.ndarray | Columns) else value
+
+
+def _joined(several: list[Any]) -> Any:
+    first = several[0]
+    if isinstance(first, dict):
+        return {name: _joined([each[name] for each in several]) for name in first}
+    if isinstance(first, Columns):
+        return first.joined(several)
+    return np.concatenate(several) if isinstance(first, np.ndarray) else first
