@@ -11,7 +11,7 @@ import click
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli.options import study_completion, with_results, with_studies, with_width, with_workers
 from swtstudy.cli.terminal import line_length, of_markdown, say, table
-from swtstudy.study.shipped import shipped_studies
+from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.wording import number_words, unit_words
 
@@ -39,33 +39,25 @@ def sensitivity(
     Examples:
       swtstudy sensitivity sensitivity
     """
-    from swtstudy.study.definition import read_studies
+    import swtstudy
+    from swtstudy.figures.evaluated import draw_sensitivity
+    from swtstudy.figures.style import save_figure
+    from swtstudy.results.sensitivity import check_design
 
-    defined = read_studies([study])
-    if len(defined) > 1:
-        raise ValueError(f"{study}: found {len(defined)} studies; allowed: one")
-    (source, one), *_ = defined.items()
+    one, file = swtstudy.Study.from_toml(study), find_study(study)
     design = one.sample.design if one.sample else None
-    if design is None or design.name != "saltelli":
-        found = f"the design {design.name}" if design else "no design"
-        raise ValueError(
-            f'{source}: sample.design: found {found}; allowed: "saltelli": Sobol indices need its points'
-        )
-    target = archive_paths(defined, results)[source]
+    check_design(design.name if design else None, study)
+    target = archive_paths([study], results)[study]
     stem = "_".join((target.stem, "indices", *(re.sub(r"\W+", "_", each) for each in y)))
     targets = {end: target.with_name(f"{stem}{end}") for end in (".nc", ".md", ".png")}
     for path in (target, *targets.values()):
         check_writable(path)
 
     from swtstudy.archive.netcdf import save
-    from swtstudy.figures.evaluated import draw_sensitivity
-    from swtstudy.figures.style import save_figure
     from swtstudy.paper.statements.indices import table
-    from swtstudy.results.sensitivity import sensitivity as indices_of
-    from swtstudy.runner.run import run
 
-    indices = indices_of(run(one, target, workers=workers), y, confidence, seed)
-    text = table(indices, Path(source).resolve() in map(Path.resolve, shipped_studies().values()))
+    indices = swtstudy.sensitivity(swtstudy.run(one, target, workers=workers), y, confidence, seed)
+    text = table(indices, file.resolve() in map(Path.resolve, shipped_studies().values()))
     save(indices, targets[".nc"])
     write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
@@ -97,15 +89,15 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     Examples:
       swtstudy fit rig.toml tests.csv
     """
+    import swtstudy
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.evaluated import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
-    from swtstudy.results.fitting import fit as fitted_to
 
     targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
     for path in targets.values():
         check_writable(path)
-    found = fitted_to(study, tests, y=y, friction=friction, confidence=confidence)
+    found = swtstudy.fit(study, tests, y=y, friction=friction, confidence=confidence)
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
@@ -178,6 +170,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     Examples:
       swtstudy audit figure3 --points 100
     """
+    import swtstudy
     from swtstudy.paper.audit import AUDIT_PREFIX
     from swtstudy.study.definition import read_studies
 
@@ -186,13 +179,11 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.paper.audit.audit import audit_study
     from swtstudy.paper.audit.report import report
 
     for source, study in defined.items():
         target = targets[source]
-        dataset = audit_study(study, target, points, seed, workers, dense)
-        text = report(dataset)
+        text = report(swtstudy.audit_study(study, target, points, seed, workers, dense))
         write_text(target.with_suffix(".md"), text)
         click.echo(of_markdown(text, line_length()))
         click.echo(f"{target}\n{target.with_suffix('.md')}")
@@ -217,11 +208,12 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
     Examples:
       swtstudy history rig.toml stresses.csv -o lives.vtu
     """
-    from swtstudy.fields.elements import evaluate_history, read_history, write_history
+    import swtstudy
+    from swtstudy.fields.elements import write_history
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
     check_writable(target)
-    found = evaluate_history(read_history(file, order=order), study, body)
+    found = swtstudy.evaluate_history(swtstudy.read_history(file, order=order), study, body)
     write_history(found, target)
     for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
         if name in found:

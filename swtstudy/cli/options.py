@@ -41,16 +41,28 @@ def by_section(names: Iterable[str]) -> dict[str, list[str]]:
 class InSections(click.Command):
     """A command whose many parameters are listed by what they are a part of, a line each."""
 
+    #: False where parameters are only named.
+    explains = True
+
     def format_options(self, context: click.Context, formatter: click.HelpFormatter) -> None:
         records = {}
         for each in self.get_params(context):
-            if record := each.get_help_record(context):
+            if isinstance(each, click.Option) and (record := each.get_help_record(context)):
                 records[str(each.name)] = (record[0].removesuffix(f" {each.metavar}"), record[1])
         formatter.write_paragraph()
         for title, names in by_section(records).items():
             formatter.write_heading(title)
             with formatter.indentation():
-                formatter.write_dl([records[name] for name in names], col_max=32)
+                if self.explains or title == "Options":
+                    formatter.write_dl([records[name] for name in names], col_max=32)
+                else:
+                    formatter.write_text(", ".join(names))
+
+
+class NamesInSections(InSections):
+    """A command whose parameters are only named there: another one explains them."""
+
+    explains = False
 
 
 def check_options(context: click.Context, command: click.Command, args: list[str]) -> None:
@@ -112,7 +124,10 @@ with_results = click.option(
 with_width = click.option(
     "--width",
     type=click.Choice(["column", "page"]),
-    help="For print: 8.5 or 17.5 cm wide, letters of 8 pt; by default for a screen.",
+    help="For print: 8.5 or 17.5 cm wide; else for a screen.",
+)
+with_style = click.option(
+    "--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file."
 )
 with_workers = click.option(
     "--workers", default=2, show_default=True, type=click.IntRange(1), help="Threads, or processes."

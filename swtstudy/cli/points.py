@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import SEVERAL, InSections, study_completion, with_width
+from swtstudy.cli.options import (
+    SEVERAL,
+    InSections,
+    NamesInSections,
+    study_completion,
+    with_style,
+    with_width,
+)
 from swtstudy.cli.terminal import fitted, line_length, say
 from swtstudy.study.shipped import find_study
 from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, literal, refused
 from swtstudy.vocabulary.parameter import Parameter, short
 from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
-
-#: Height of the text of a page in cm.
-OF_PAGE = 25.0
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -43,12 +47,10 @@ _FORMATS = {
 }  # fmt: skip
 
 
-def with_parameters(
-    metavar: str, parameters: Iterable[Parameter]
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+def with_parameters(metavar: str, parameters: Iterable[Parameter]) -> Callable[[Any], Any]:
     """Decorate a command with one option for each parameter."""
 
-    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+    def decorate(command: Any) -> Any:
         for parameter in reversed([*parameters]):
             option = f"--{parameter.name.replace('_', '-')}"
             command = click.option(option, metavar=metavar, help=parameter.brief)(command)
@@ -76,9 +78,12 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
     dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
+
+    def places(dims: list[str]) -> Iterator[tuple[str, ...]]:
+        return itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in dims))
+
     dims = [*map(str, dataset.s.dims)]
-    places = itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in dims))
-    found = dict(zip(dims, zip(*places, strict=True), strict=True))
+    found = dict(zip(dims, zip(*places(dims), strict=True), strict=True))
     for name, form in _FORMATS.items():
         found[name] = tuple(f"{value:{form}}" for value in dataset[name].values.ravel())
     found["regime"] = tuple(REGIMES[int(value)] for value in dataset.regime.values.ravel())
@@ -86,8 +91,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
         # A quantity with dimensions of its own has a column for each place in them.
         own = [str(dim) for dim in dataset[name].dims if dim not in dims]
         values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
-        beside = itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in own))
-        for place, column in zip(beside, values.T, strict=True):
+        for place, column in zip(places(own), values.T, strict=True):
             found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{each:.6g}" for each in column)
     lines, room = [*zip(*found.values(), strict=True)], line_length()
     if room is None:  # for programs
@@ -103,15 +107,13 @@ def _values(text: str) -> str | list[str]:
     return parts if len(parts) > 1 else parts[0]
 
 
-@click.command(cls=InSections)
+@click.command(cls=NamesInSections)
 @click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
 @with_parameters("VALUE", (*PARAMETERS.values(), *_SIZES))
 @click.option("--body", metavar="BODY", help="1 or 2, or its name.  [default: 1]")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
-@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
-@click.option(
-    "--smoothing", type=float, help="What the fit may miss of a profile that is a table; in its lengths."
-)
+@with_style
+@click.option("--smoothing", type=float, help="Largest misfit of a table, in its lengths.")
 @with_width
 def show(
     study: str | None,
@@ -124,50 +126,44 @@ def show(
 ) -> None:
     """Draw one parameter point: load path, slip, tractions, stress cycle and swt.
 
-    With a profile and its shape alone, draw the profile itself, its coordinates and its pressure. It may be a
-    CSV file with the columns radius and height, in a_H and δ0.
+    A profile and its shape alone are drawn as a profile, which may be a CSV file with the columns radius and
+    height, in a_H and δ0.
 
-    With a STUDY its contact is drawn in its units, with single values of what are axes or blocks there; with
-    one of its profiles or a CSV file alone, that profile in its lengths, pressed by the mean load; with the
-    name of one of its loads alone, that load: its course with the recorded cycles, its path, and how near
-    friction comes to its end.
+    With a STUDY, its contact is drawn in its units, at single values of axes and blocks; alone, one of its
+    profiles or a CSV file pressed by the mean load, or one of its loads with recorded cycles, path and
+    friction.
 
-    The same figures come from swtstudy.inspect, swtstudy.draw_profile and swtstudy.draw_load in Python.
-
-    VALUE is a single value: "3/2", "2*pi" and "sqrt(20)" are numbers too.
-    `swtstudy list --parameters` explains the parameters.
+    A parameter is an option, such as --phase "2*pi"; see swtstudy list --parameters.
 
     \b
     Examples:
       swtstudy show --phase pi/6 --frequency-ratio 3/2 -o point.pdf
       swtstudy show --profile rounded_punch --flat-radius 0.5
-      swtstudy show --profile worn.csv
-      swtstudy show rig.toml --tangential-force-amplitude 60
       swtstudy show rig.toml --profile worn.csv --smoothing 0.0002
       swtstudy show --load square loops
     """
-    values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
-    from swtstudy.figures.sheet import INCH
+    from swtstudy.figures.sheet import INCH, TALLEST
     from swtstudy.figures.style import save_figure
 
     check_writable(output)
-    words = ""
+    values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
+    look, words = dict[str, Any](style=style, width=width), ""
     if study is None:
-        figure = _point_or_profile(values, smoothing or 0.0, style, width)
+        figure = _point_or_profile(values, smoothing or 0.0, look)
     elif [*values] == ["load"] and body is None:
-        figure, words = _load(study, str(values["load"]), style, width)
+        figure, words = _load(study, str(values["load"]), look)
     else:
-        figure = _of_study(study, values, smoothing, body, style, width)
+        figure = _of_study(study, values, smoothing, body, look)
     save_figure(figure, output, style)
-    height = INCH * figure.get_figheight()
-    if width == "column" and height > OF_PAGE:
-        say(f"{output} is {height:.0f} cm high, more than a page: --width page draws it lower", err=True)
+    if width == "column" and figure.get_figheight() > TALLEST:
+        height = f"{output} is {INCH * figure.get_figheight():.0f} cm high, more than a page"
+        say(f"{height}: --width page draws it lower", err=True)
     if words:
         click.echo(words)
     click.echo(output)
 
 
-def _point_or_profile(values: dict[str, object], smoothing: float, style: str | None, width: Any) -> Figure:
+def _point_or_profile(values: dict[str, object], smoothing: float, look: dict[str, Any]) -> Figure:
     """A point, or a profile where its shape alone is given."""
     from swtstudy.figures.point import inspect
     from swtstudy.figures.profile import draw_profile
@@ -178,16 +174,12 @@ def _point_or_profile(values: dict[str, object], smoothing: float, style: str | 
     if path.suffix == ".csv":
         table = ProfileTable(file=path.name, smoothing=smoothing)
         values = {**values, "profile": profile_from(path.stem, table, path.parent)}
-    return (draw_profile if _of_shape(values) else inspect)(style=style, width=width, **values)
+    draw: Any = draw_profile if _of_shape(values) else inspect
+    return draw(**look, **values)
 
 
 def _of_study(
-    study: str,
-    values: dict[str, object],
-    smoothing: float | None,
-    body: str | None,
-    style: str | None,
-    width: Any,
+    study: str, values: dict[str, object], smoothing: float | None, body: str | None, look: dict[str, Any]
 ) -> Figure:
     """The one contact of a study, in its units if it has them, or a profile of it alone."""
     from swtstudy.contacts import PhysicalContact
@@ -196,15 +188,13 @@ def _of_study(
 
     of_shape = _of_shape(values)
     grid = one_of_study(study, values, smoothing, of_shape)
-    if not isinstance(grid, PhysicalGrid):
-        if body is not None:
-            raise StudyError([Mistake("body", literal(body), "no body in a study without units")])
-        names = [name for name in grid.fixed if not of_shape or PARAMETERS[name].part == "shape"]
-        return _point_or_profile({name: grid.fixed[name] for name in names}, 0.0, style, width)
-    contact = PhysicalContact(grid)
-    if of_shape:
-        return contact.draw_profile(style, width)
-    return contact.inspect(int(body) if body in ("1", "2") else body or 1, style, width)
+    if isinstance(grid, PhysicalGrid):
+        contact, one = PhysicalContact(grid), int(body) if body in ("1", "2") else body or 1
+        return contact.draw_profile(**look) if of_shape else contact.inspect(one, **look)
+    if body is not None:
+        raise refused("body", literal(body), "no body in a study without units")
+    names = [name for name in grid.fixed if not of_shape or PARAMETERS[name].part == "shape"]
+    return _point_or_profile({name: grid.fixed[name] for name in names}, 0.0, look)
 
 
 def _of_shape(values: dict[str, object]) -> bool:
@@ -212,13 +202,13 @@ def _of_shape(values: dict[str, object]) -> bool:
     return "profile" in values and all(AXES[name].part in ("shape", "contact") for name in values)
 
 
-def _load(source: str, name: str, style: str | None, width: Any) -> tuple[Figure, str]:
+def _load(source: str, name: str, look: dict[str, Any]) -> tuple[Figure, str]:
     """A load of a study, and what its record is like in words."""
     from swtstudy.figures.load import draw_load
     from swtstudy.study.definition import Study
     from swtstudy.study.reading import read_signal_of
 
-    study, path = Study.from_toml(source), find_study(source)
+    path = find_study(source)
     signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
-    figure = draw_load(study, name, signal, style=style, width=width)
+    figure = draw_load(Study.from_toml(source), name, signal, **look)
     return figure, "" if signal is None else f"{name}: {signal.words}"

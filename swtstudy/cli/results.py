@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from swtstudy.archive.paths import check_archive_path, locked
-from swtstudy.cli.options import archive_completion, with_width
+from swtstudy.cli.options import archive_completion, with_style, with_width
 from swtstudy.cli.terminal import say
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import place_words
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @click.command()
@@ -51,7 +48,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
 @click.command()
 @click.argument("archive", shell_complete=archive_completion)
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
-@click.option("--style", metavar="STYLE", help="A matplotlib style: its name, or a .mplstyle file.")
+@with_style
 @with_width
 @click.option("--x", help="The axis along the horizontal axis.")
 @click.option("--hue", help="The axis whose values are the lines.")
@@ -84,17 +81,22 @@ def plot(
       swtstudy plot results/figure4.nc --at normal_amplitude=0.75
       swtstudy plot results/contour.nc --kind heatmap --y critical_angle
     """
-    from swtstudy.archive.archive import open_results
+    import swtstudy
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
     from swtstudy.study.figure import FigureLayout
     from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
-    dataset = open_results(archive)
+    dataset = swtstudy.open_results(archive)
     check_writable(target)
     if at:
-        dataset, own["title"] = _at(dataset, at, own["title"])
+        if wrong := [each for each in at if "=" not in each]:
+            raise refused("--at", literal(wrong[0]), "an axis and a value, such as friction=0.6")
+        places = {name.strip(): value.strip() for name, _, value in (each.partition("=") for each in at)}
+        dataset = dataset.swt.slice(**places)
+        words = (place_words(name, dataset[name].item(), dataset[name].attrs) for name in places)
+        own["title"] = own["title"] or ",  ".join(words)
     given = {key: value for key, value in own.items() if value not in (None, ())}
     layout = FigureLayout(**given) if own["x"] else replace(layout_of(dataset), **given)
     save_figure(draw(dataset, layout, style, width), target, style)
@@ -102,19 +104,6 @@ def plot(
     if missing:
         click.echo(f"{archive}: {missing} of {dataset.s.size} points are missing", err=True)
     click.echo(str(target))
-
-
-def _at(dataset: xr.Dataset, at: tuple[str, ...], title: str | None) -> tuple[xr.Dataset, str]:
-    """The part of results at single values of some axes, and the title of its figure."""
-    from swtstudy.results.evaluate import slice_at
-
-    places = {name.strip(): value.strip() for name, _, value in (each.partition("=") for each in at)}
-    for each in at:
-        if "=" not in each:
-            raise StudyError([Mistake("--at", literal(each), "an axis and a value, such as friction=0.6")])
-    part = slice_at(dataset, places)
-    words = (place_words(name, part[name].item(), part[name].attrs) for name in places)
-    return part, title or ",  ".join(words)
 
 
 @click.command()
@@ -170,7 +159,7 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     target = Path(output)
     check_archive_path(target)
     if target.suffix != ".nc":
-        raise StudyError([Mistake("--output", literal(output), "a file that ends with .nc")])
+        raise refused("--output", literal(output), "a file that ends with .nc")
     check_writable(target)
     with locked(parts_folder(target)):
         before = known_points(target)

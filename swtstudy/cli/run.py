@@ -60,10 +60,8 @@ def run(
     results: str,
     formats: tuple[str, ...],
     width: Width | None,
-    workers: int,
-    processes: bool,
     scheduler: str | None,
-    retry_failed: bool,
+    **options: Any,
 ) -> None:
     """Compute each STUDY, and write its archive and its figure.
 
@@ -113,8 +111,7 @@ def run(
 
     pairs = [(study, targets[source]) for source, study in defined.items()]
     with _stopped_once():
-        how: dict[str, Any] = {"workers": workers, "processes": processes, "client": client}
-        run_several(pairs, done, formats, width, retry_failed=retry_failed, **how)
+        run_several(pairs, done, formats, width, client=client, **options)
     if any(failed):
         sys.exit(POINTS_FAILED)
     if len(targets) == 1:
@@ -174,9 +171,9 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     """Print a summary of a run; return whether points failed."""
     from swtstudy.archive.describe import failures, outcome, relative_errors
 
-    relative = relative_errors(dataset)
-    none = "s finite and positive at none of them"
-    worst = f"relative error up to {number_words(relative.max(), 2)}" if relative.size else none
+    relative, worst = relative_errors(dataset), "s finite and positive at none of them"
+    if relative.size:
+        worst = f"relative error up to {number_words(relative.max(), 2)}"
     click.echo(f"{target}: {number_of(dataset.s.size, 'point')} {effort}, {worst}")
     for line in outcome(dataset):
         say(line, 2)

@@ -13,7 +13,7 @@ from swtstudy.cli.options import by_section, with_studies, with_workers
 from swtstudy.cli.terminal import say, say_next
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.mistakes import Report, literal, refused
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 from swtstudy.vocabulary.wording import duration, number_of, unit_words
@@ -41,7 +41,7 @@ def new(name: str, units: bool) -> None:
     from swtstudy.study.template import template, template_with_units
 
     if Path(name).name in ("", ".toml"):
-        raise StudyError([Mistake("NAME", literal(name), "a name for the study, such as mine")])
+        raise refused("NAME", literal(name), "a name for the study, such as mine")
     target = Path(name if name.endswith(".toml") else f"{name}.toml")
     check_writable(target)
     try:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from swtstudy.fields.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
@@ -21,7 +22,7 @@ from swtstudy.units.material import read_given, two_of
 from swtstudy.units.rows import OF_BODIES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 
 #: The stress components in our order, and in Abaqus' order.
 OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
@@ -59,24 +60,21 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     """
     given = sound_keys(FileTable, form)
     if order not in (None, *ORDERS):
-        raise StudyError([Mistake("order", literal(order), nearest(str(order), ORDERS, {}))])
+        raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
     table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)
     stress = _components(table, order)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
     names = table.texts(ID) if table.has(ID) else list(map(str, map(tuple, place.tolist())))
-    labels, point = np.unique(names, return_inverse=True)
-    first = np.unique(point, return_index=True)[1]
-    rank = np.argsort(np.argsort(first))[point]  # points in the order of the file
+    rank, labels = pd.factorize(np.array(names))  # points in the order of the file
     counts = np.bincount(rank)
     if counts.min() != counts.max():
-        few = labels[np.argsort(first)][counts.argmin()]
-        found = f"{counts.min()} steps at the point {few}, {counts.max()} at others"
-        raise StudyError([Mistake("", found, "as many steps at each point", str(path))])
+        found = f"{counts.min()} steps at the point {labels[counts.argmin()]}, {counts.max()} at others"
+        raise refused("", found, "as many steps at each point", str(path))
     rows = np.lexsort([table.numbers([STEP])[:, 0], rank]).reshape(len(counts), -1)
     coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
     if table.has(ID):
-        coords[ID] = "point", labels[np.argsort(first)]
+        coords[ID] = "point", labels
     variables = {"stress": (("point", STEP, "component"), stress[rows])}
     return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
 
@@ -89,10 +87,10 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
         every = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
         allowed = f"columns {every}; of plane elements without those across; "
         allowed += "with other headers an order of the last six columns (--order abaqus or swtstudy)"
-        raise StudyError([Mistake(f"line {table.line}", ", ".join(table.headers), allowed, table.source)])
+        raise refused(f"line {table.line}", ", ".join(table.headers), allowed, table.source)
     if found is not None and order not in (None, found):
         allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
-        raise StudyError([Mistake("order", literal(order), allowed, table.source)])
+        raise refused("order", literal(order), allowed, table.source)
     if found is None:
         values, found = table.numbers(table.headers[-len(OURS) :]), order
     else:
@@ -139,32 +137,30 @@ def evaluate_history(
     unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 
-    def add(names: tuple[str, str], value: FloatArray, normal: FloatArray, words: Any = None) -> None:
-        found[names[0]], found[names[1]] = ("point", value, words), (("point", "axis"), normal)
+    def add(name: str, value: FloatArray, normal: FloatArray, words: Any = None) -> None:
+        found[name], found[f"{name}_normal"] = ("point", value, words), (("point", "axis"), normal)
 
-    def add_lives(name: str, constants: Any, value: FloatArray, shares: list[FloatArray]) -> None:
-        one = np.zeros((1, 1))
-        lives = [float(constants.rounds(v, one + n, one + 1.0)) for v, n in zip(value, shares, strict=True)]
+    def add_lives(name: str, constants: Any, of: str, criterion: str, **parameters: float) -> None:
+        counted = cycle_shares(stress, found[f"{of}_normal"].values, criterion, poisson, **parameters)
+        one, pairs = np.zeros((1, 1)), zip(found[of].values, counted, strict=True)
+        lives = [float(constants.rounds(value, one + shares, one + 1.0)) for value, shares in pairs]
         found[name] = "point", np.array(lives)
 
-    value, normal = swt_of_history(stress, poisson, young, gamma)
-    add(("SWT", "SWT_normal"), value, normal, unit)
+    add("SWT", *swt_of_history(stress, poisson, young, gamma), unit)
     if details.materials:
-        counted = cycle_shares(stress, normal, SWT, poisson, walker_exponent=gamma)
-        add_lives("cycles", details.materials[body - 1], value, counted)
+        add_lives("cycles", details.materials[body - 1], "SWT", SWT, walker_exponent=gamma)
     if sensitivity is None:
         return found
-    add(("findley_stress", "findley_normal"), *criterion_of_history(stress, FINDLEY, sensitivity), unit)
+    value, normal = criterion_of_history(stress, FINDLEY, sensitivity)
+    found["findley_stress"], found["findley_normal"] = ("point", value, unit), (("point", "axis"), normal)
     if details.findley_limits:
         found["findley_usage"] = found.findley_stress / details.findley_limits[body - 1]
     if details.yield_strengths:
         kappa = sensitivity / details.yield_strengths[body - 1]
         value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)
-        strain = value * (2.0 + 2.0 * poisson) / young
-        add(("FS", "FS_normal"), strain, normal)
+        add("FS", value * (2.0 + 2.0 * poisson) / young, normal)
         if torsion := details.constants(FATEMI_SOCIE, (poisson, poisson)):
-            counted = cycle_shares(stress, normal, FATEMI_SOCIE, poisson, normal_sensitivity=kappa)
-            add_lives("FS_cycles", torsion[body - 1], strain, counted)
+            add_lives("FS_cycles", torsion[body - 1], "FS", FATEMI_SOCIE, normal_sensitivity=kappa)
     return found
 
 
@@ -180,7 +176,7 @@ def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, 
     else:
         details, _ = read_given(labels, material, fixed, Path(study).parent, report)
     if body not in (1, 2):
-        raise StudyError([Mistake("body", literal(body), "1 or 2")])
+        raise refused("body", literal(body), "1 or 2")
     own: dict[str, float] = {}
     for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
         value = two_of(fixed.get(name))[body - 1]
@@ -242,15 +238,13 @@ def write_history(found: xr.Dataset, path: Path) -> None:
         for k in range(each.sizes.get("axis", 0)):
             columns[f"{name}_{POSITION[k]}"] = each.values[:, k]
     if path.suffix != ".vtu":
-        import pandas as pd
-
         pd.DataFrame(columns).to_csv(path, index=False)
         return
     try:
         import meshio
     except ImportError:
         allowed = "pip install meshio, which writes it; or a .csv file"
-        raise StudyError([Mistake("output", str(path), allowed)]) from None
+        raise refused("output", str(path), allowed) from None
     places = np.stack([columns.get(name, np.zeros(found.sizes["point"])) for name in POSITION], axis=1)
     fields = {str(name): each.values for name, each in found.data_vars.items()}
     meshio.Mesh(places, [("vertex", np.arange(len(places))[:, None])], fields).write(path)

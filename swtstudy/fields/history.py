@@ -165,12 +165,8 @@ def _over_all_planes(
     own = ask(poisson_ratio, 0.0, TOLERANCE, criterion, **parameters)
     value, normal, unsettled = planes_of(history.reshape(-1, *history.shape[-2:]) / size, own, TOLERANCE)
     if unsettled:
-        warnings.warn(
-            f"the search over planes ended early at {unsettled} of {len(value)} histories: "
-            "their values may be low",
-            RuntimeWarning,
-            stacklevel=3,
-        )
+        words = f"the search over planes ended early at {unsettled} of {len(value)} histories"
+        warnings.warn(f"{words}: their values may be low", RuntimeWarning, stacklevel=3)
     normal[value == 0.0] = np.nan
     value *= factor * size ** (2.0 if criterion == SWT else 1.0)
     return CriticalPlane(value.reshape(batch), one_of_both(normal).reshape(*batch, 3))

@@ -29,9 +29,8 @@ _SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
 _MARKED, _APART = 4, 0.08
 #: Letters of the curves at whose extremes instants are marked, those that come first before the others.
-_LETTERS_OF_PLANE = {"normal_stress": "σ_n", NORMAL_STRAIN.name: "ε_n", SHEAR_STRESS.name: "τ"}
-_LETTERS_OF_LOAD = {"depth": "δ", "displacement": "u"}
-_LETTERS_OF_FORCE = {"normal_force": "F_N", "tangential_force": "F_x"}
+_OF_PLANE = {"normal_stress": "σ_n", NORMAL_STRAIN.name: "ε_n", SHEAR_STRESS.name: "τ"}
+_LETTERS = {"depth": "δ", "displacement": "u", "normal_force": "F_N", "tangential_force": "F_x", **_OF_PLANE}
 _OF_NO_MATTER = (("normal_stress", "smallest"), (NORMAL_STRAIN.name, "largest"))
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
@@ -262,9 +261,8 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
         Depth and displacement over it, or without them the forces; if stress and strain, or shear stress, on
         the critical plane are there, they come first.
     """
-    normal, tangential = _LETTERS_OF_LOAD if "depth" in curves else _LETTERS_OF_FORCE
-    of_plane = [name for name in _LETTERS_OF_PLANE if name in curves]
-    letters = _LETTERS_OF_PLANE | _LETTERS_OF_LOAD | _LETTERS_OF_FORCE
+    normal, tangential, *_ = (name for name in _LETTERS if name in curves)
+    of_plane = [name for name in _OF_PLANE if name in curves]
     touching = curves[normal] > 0.0
     distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
     marked: dict[int, str] = {}
@@ -279,7 +277,7 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
         free = len(marked) < _MARKED and distance[index] >= _APART
         # What makes s is the largest normal stress, and the swing of the strain up to it.
         if free and (name in of_plane or touching[index]) and (name, end) not in _OF_NO_MATTER:
-            mark(index, f"{letters[name]} {end}")
+            mark(index, f"{_LETTERS[name]} {end}")
     moving = curves[of_plane[-1] if of_plane else tangential]
     while len(marked) < _MARKED and np.ptp(moving) > 0.0:
         mark(int(np.where(touching, distance, -1.0).argmax()), "in between")

@@ -15,7 +15,7 @@ from swtstudy.solver.margins import margins_of
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal
+from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, refused
 from swtstudy.vocabulary.parameters import PAIRS
 
 
@@ -125,13 +125,13 @@ def read_places(
     report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
-        raise StudyError([Mistake("z", found, "depths z ≥ 0 into the body")])
+        raise refused("z", found, "depths z ≥ 0 into the body")
     try:
         placed = xr.broadcast(*xr.align(*arrays, join="exact"))
     except ValueError as error:
         found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
         allowed = "the same coordinates along the dimensions that they share"
-        raise StudyError([Mistake("x, y, z", found, allowed)]) from None
+        raise refused("x, y, z", found, allowed) from None
     given = dict(zip("xyz", arrays, strict=True))
     return given, placed[0].dims, np.stack([place.values for place in placed], axis=-1)
 
@@ -140,7 +140,7 @@ def read_finite(name: str, values: object, allowed: str) -> FloatArray:
     """A finite number, or a one-dimensional sequence of them, one at least; the sign is not checked."""
     array = read_numbers(name, values, allowed)
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
-        raise StudyError([Mistake(name, literal(values), allowed)])
+        raise refused(name, literal(values), allowed)
     return array
 
 
@@ -151,10 +151,10 @@ def _coordinate(name: str, values: object, allowed: str) -> xr.DataArray:
         array = read_numbers(name, values, allowed)
         if array.ndim > 1:
             found = f"{array.ndim} dimensions"
-            raise StudyError([Mistake(name, found, "a number, a sequence or a DataArray")])
+            raise refused(name, found, "a number, a sequence or a DataArray")
         values = xr.DataArray(array, dims=(name,) * array.ndim)
     if values.size == 0 or not bool(np.isfinite(values).all()):
-        raise StudyError([Mistake(name, "no or not finite values", allowed)])
+        raise refused(name, "no or not finite values", allowed)
     long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
     return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 

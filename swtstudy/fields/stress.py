@@ -27,7 +27,7 @@ from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
-from swtstudy.vocabulary.mistakes import Mistake, StudyError
+from swtstudy.vocabulary.mistakes import refused
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.
 _OF_INSTANTS, _OF_FIELD = 1e-5, 1e-3
@@ -83,7 +83,7 @@ def stress_field(
     taken = sorted({"time", "instant"}.intersection(map(str, own)))
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
-        raise StudyError([Mistake("x, y, z", found, "other names: these belong to the instants")])
+        raise refused("x, y, z", found, "other names: these belong to the instants")
     rounds = turns_of(points)
     if time is None:
         instants, history = _at_own_instants(points, opened, own, places)

@@ -9,7 +9,7 @@ import xarray as xr
 from swtstudy.archive.attributes import defined_in
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.samples import draw_histogram, draw_scatter
-from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, check_width, wrap_texts
+from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
@@ -19,7 +19,7 @@ from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
 from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.choices import FIGURES
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, refused
+from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.variables import require
 from swtstudy.vocabulary.wording import axis_words
@@ -62,14 +62,9 @@ def draw(
     ValueError
         With every mistake in the layout; or if there is no such width, no layout, or the results are empty.
     """
-    check_width(width)
     layout = layout or layout_of(dataset)
-    if layout.kind != "heatmap" and not _axes_of_numbers(dataset):
-        raise refused("figure", "results with no axis of numbers", NO_AXIS)
     require_points(dataset)
-    mistakes = list(dict.fromkeys(_mistakes(dataset, layout)))
-    if mistakes:
-        raise StudyError(mistakes)
+    _check(dataset, layout)
     with styled(style, width):
         figure = _DRAWN.get(layout.kind, _draw_rows)(dataset.compute(), layout, width)
         if layout.title:
@@ -90,7 +85,8 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
         If the results come from no study, or from one without a figure.
     """
     if "figure" not in dataset.attrs:
-        known = ", ".join(_axes_of_numbers(dataset))
+        numbers = (SAMPLE, *(name for name, row in AXES.items() if row.kind != "name"))
+        known = ", ".join(str(dim) for dim in dataset.dims if dim in numbers)
         allowed = f"a layout of your own, with x one of {known}" if known else NO_AXIS
         raise ValueError(f"these results have no figure of a study; allowed: {allowed}")
     layout = FigureLayout.from_json(dataset.attrs["figure"])
@@ -98,13 +94,8 @@ def layout_of(dataset: xr.Dataset) -> FigureLayout:
     return replace(layout, hue=hue, panels=panels)
 
 
-def _axes_of_numbers(dataset: xr.Dataset) -> list[str]:
-    """Names of the dimensions that a line can go along."""
-    numbers = (SAMPLE, *(name for name, row in AXES.items() if row.kind != "name"))
-    return [str(dim) for dim in dataset.dims if dim in numbers]
-
-
-def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
+def _check(dataset: xr.Dataset, layout: FigureLayout) -> None:
+    """Raise a StudyError with every mistake in a layout for these results."""
     found = [Mistake(*each) for each in wrong_layout(layout)]
     for y in layout.y:
         try:
@@ -120,7 +111,8 @@ def _mistakes(dataset: xr.Dataset, layout: FigureLayout) -> list[Mistake]:
         found += [Mistake(*each) for each in wrong_axes(layout, sizes, "these results")]
     if layout.regimes and not ("regime" in dataset and flag_words(dataset.regime)):
         found.append(Mistake("figure.regimes", "true", "false for results without regime"))
-    return found
+    if found:
+        raise StudyError(dict.fromkeys(found))
 
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:

@@ -44,8 +44,7 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
                 error, places = np.maximum([value - low, high - value], 0.0), at + 0.4 * (number - 0.5)
                 # A legend would not know the line style of a container of bars.
                 panel.bar(places, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
-                look = stroke(dashes="none", elinewidth=1.2, capsize=2.5)
-                panel.errorbar(places, value, error, **look)
+                panel.errorbar(places, value, error, **stroke(dashes="none", elinewidth=1.2, capsize=2.5))
             panel.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
             panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
             panel.grid(False, axis="x")
@@ -82,16 +81,16 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
             if factor > 1:
                 axes.plot(ends, ends / factor, **look)
         survived = fitted.runout.values == 1
+        look = {"color": COLOURS[0], "linestyle": "none"}
         for some, words, marker in (
             (~survived, "tests with a crack" if survived.any() else "tests", {"marker": "o"}),
             (survived, "run-outs: no crack so far", {"marker": ">", "fillstyle": "none"}),
         ):
             if some.any():
-                look = {"color": COLOURS[0], "linestyle": "none", "label": words, **marker}
-                axes.plot(fitted.observed[some], fitted.predicted[some], **look)
+                axes.plot(fitted.observed[some], fitted.predicted[some], label=words, **look, **marker)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")
-        axes.legend(loc="upper left")
+        add_legend(figure)
         figure.suptitle("\n".join(fit_lines(fitted, math=True)))
         wrap_texts(figure)
     return figure

@@ -235,10 +235,10 @@ def mark_points(axes: Axes, x: ArrayLike, y: ArrayLike, words: str) -> None:
 def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, layout: FigureLayout) -> None:
     """Set limits, logarithmic axes and ticks that suit the curves; of lives x is upright."""
     upright = layout.kind == "life"
-    own, other = (axes.yaxis, axes.xaxis) if upright else (axes.xaxis, axes.yaxis)
+    own, other = ("y", "x") if upright else ("x", "y")
     low, high = float(x.min()), float(x.max())
     margin = 0.0 if high > low else 0.1 * abs(low) or 1.0
-    (axes.set_ylim if upright else axes.set_xlim)(low - margin, high + margin)
+    axes.set(**{f"{own}lim": (low - margin, high + margin)})
     words = flag_words(values)
     if not upright:
         tick_flags(axes, words)
@@ -246,11 +246,11 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, layout: Figur
     positive = not words and float(values.min()) >= 0.0
     decades = upright or (is_life(values.attrs) and float(values.min()) > 0.0)
     if in_equal_ratios(x):
-        (axes.set_yscale if upright else axes.set_xscale)("log")
-        tick_in_ratios(own, low, high)
+        axes.set(**{f"{own}scale": "log"})
+        tick_in_ratios(getattr(axes, f"{own}axis"), low, high)
         decades |= positive and (most / least > _LOG_RATIO or layout.x == DISTANCE)
     if decades:
-        (axes.set_xscale if upright else axes.set_yscale)("log")
-        tick_in_ratios(other, least, most)
+        axes.set(**{f"{other}scale": "log"})
+        tick_in_ratios(getattr(axes, f"{other}axis"), least, most)
     if AXES[layout.x].units == "rad":
-        tick_in_pi(own, low, high)
+        tick_in_pi(getattr(axes, f"{own}axis"), low, high)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swtstudy.figures.sheet import Sheet, Width, wrap_texts
@@ -15,7 +13,7 @@ from swtstudy.figures.style import Style, stroke, styled
 from swtstudy.loads.loop import Loop
 from swtstudy.points.values import as_number
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import literal, nearest, refused
 from swtstudy.vocabulary.parameters import Control
 from swtstudy.vocabulary.wording import as_text
 
@@ -58,7 +56,7 @@ def draw_load(
     """
     loops = {str(load): load for load in study.grid.loops}
     if name not in loops:
-        raise StudyError([Mistake("load", literal(name), nearest(name, loops, {}) if loops else "a loop")])
+        raise refused("load", literal(name), nearest(name, loops, {}) if loops else "a loop")
     grid = study.grid
     # Loads are drawn as forces or displacements; one that rests is what its mean is given as.
     moves = any(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
@@ -68,11 +66,12 @@ def draw_load(
     labels = (grid.row(each).units for each in (*names, "bulk_stress_amplitude"))
     units = ["" if label in ("", "1") else f" ({as_text(label)})" for label in labels]
     loads = _loads(study, loops[name], "normal_force" if control.normal_force else "depth")
-    if signal is not None and signal.is_absolute:
+    record = signal if signal is not None and signal.is_absolute else None
+    if record is not None:
         # A polygon begins at another vertex than its record: it is turned to the begin of a mean cycle.
-        size = np.ptp(loads, axis=0) + (np.ptp(loads, axis=0) == 0.0)
-        first = int((((loads[:-1] - signal.mean_cycle[0]) / size) ** 2).sum(axis=1).argmin())
-        rolled = np.roll(loads[:-1], -first, axis=0)
+        span = np.ptp(loads, axis=0)
+        distance = (loads[:-1] - record.mean_cycle[0]) / np.where(span > 0.0, span, 1.0)
+        rolled = np.roll(loads[:-1], -int((distance**2).sum(axis=1).argmin()), axis=0)
         loads = np.concatenate([rolled, rolled[:1]])
     phase, forces = np.linspace(0.0, 1.0, len(loads)), control == Control(True, True)
     # Tangential over normal load where friction ends: μ; 1 where loads are over μ F0 and F0.
@@ -81,7 +80,14 @@ def draw_load(
         sheet = Sheet(1, 3 if forces else 2, width)
         figure = sheet.figure()
         course, path, *margin = sheet.panels(figure, share_x="none", share_y="none")[0]
-        _draw_course(course, phase, loads, signal, units)
+        for column, cycles in enumerate([] if record is None else np.moveaxis(record.cycles, 2, 0)):
+            share = np.arange(cycles.shape[1]) / cycles.shape[1]
+            course.plot(share, cycles.T, **stroke(f"C{column}", linewidth=0.5, alpha=0.25))
+        for column, each in enumerate(("normal", "tangential", "bulk stress")[: loads.shape[1]]):
+            course.plot(phase, loads[:, column], **stroke(f"C{column}", label=each + units[column]))
+        course.set(xlabel="share of a cycle", ylabel="loads")
+        course.set_title("course", loc="left")
+        course.legend(frameon=False)
         path.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
         path.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
         path.set_title("path", loc="left")
@@ -118,20 +124,3 @@ def _loads(study: Study, loop: Loop, mean_name: str) -> FloatArray:
     shift = np.array([mean, 0.0, _first(study, "bulk_stress_mean", 0.0)])
     columns = 2 if loop.bulk_ends is None else 3
     return np.asarray(shift[:columns] + np.array(factors)[:columns] * course[:, :columns])
-
-
-def _draw_course(
-    axes: Axes, phase: FloatArray, loads: FloatArray, signal: Signal | None, units: Sequence[str]
-) -> None:
-    """Both loads and the bulk stress over the cycle, and the record as far as it is the load itself."""
-    if signal is not None and signal.is_absolute:
-        cycles = signal.cycles
-        share = np.arange(cycles.shape[1]) / cycles.shape[1]
-        for column in range(cycles.shape[2]):
-            axes.plot(share, cycles[..., column].T, **stroke(f"C{column}", linewidth=0.5, alpha=0.25))
-    names = ("normal", "tangential", "bulk stress")
-    for column, (values, name, unit) in enumerate(zip(loads.T, names, units, strict=False)):
-        axes.plot(phase, values, **stroke(f"C{column}", label=name + unit))
-    axes.set(xlabel="share of a cycle", ylabel="loads")
-    axes.set_title("course", loc="left")
-    axes.legend(frameon=False)

@@ -49,7 +49,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
         whole = quantity(dataset, y)
         for one, name in zip(axes[row], names, strict=True):
             for index, (label, part) in enumerate(_by(dataset, layout.hue)):
-                _draw_points(one, part, quantity(part, y), name, label, index, layout.validity)
+                _draw_points(one, part, y, name, label, index, layout.validity)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
             tick_flags(one, flag_words(whole))
             if AXES[name].units == "rad":
@@ -62,16 +62,11 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
 
 
 def _draw_points(
-    axes: Axes,
-    part: xr.Dataset,
-    drawn: xr.DataArray,
-    name: str,
-    label: str | None,
-    index: int,
-    validity: bool,
+    axes: Axes, part: xr.Dataset, y: str, name: str, label: str | None, index: int, validity: bool
 ) -> None:
     """The points of one value of hue: in grey a marker and a shade tell them apart."""
-    values, x = drawn.values, part[name].values
+    drawn, x = quantity(part, y), part[name].values
+    values = drawn.values
     if x.dtype.kind not in "fiu":
         words, x = np.unique(x.astype(str), return_inverse=True)
         axes.set_xticks(range(len(words)), [place_words(name, str(word)) for word in words])
@@ -104,7 +99,12 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 # An entry of the legend is for all panels: of several each has its own percentiles above.
                 alone = axes.size == 1 and label is not None
                 lines += [] if alone else [words]
-                _draw_bars(one, values, edges, places, words if alone else label, index)
+                colour, hatch = COLOURS[index % len(COLOURS)], _HATCHES[index % len(_HATCHES)]
+                look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour}
+                look |= {"histtype": "stepfilled", "linestyle": "-", "hatch": hatch}
+                one.hist(values, edges, label=words if alone else label, **look)
+                for place, dashes in zip(places, _PERCENTILES.values(), strict=False):
+                    one.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
             one.set_title("\n".join(filter(None, lines)), loc="left")
             one.set_xlabel(quantity_words(whole, y))
             if is_life(whole.attrs):
@@ -115,17 +115,6 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
             first.set_ylabel("points")
             first.yaxis.get_major_locator().set_params(integer=True)
     return figure
-
-
-def _draw_bars(
-    axes: Axes, values: NDArray[Any], edges: list[float], places: Any, label: str | None, index: int
-) -> None:
-    """One histogram, with lines at its percentiles; colours and hatches differ within a panel."""
-    colour, hatch = COLOURS[index % len(COLOURS)], _HATCHES[index % len(_HATCHES)]
-    look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour, "hatch": hatch}
-    axes.hist(values, edges, histtype="stepfilled", linestyle="-", label=label, **look)
-    for place, dashes in zip(places, _PERCENTILES.values(), strict=False):
-        axes.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
 
 
 def _finite(values: xr.DataArray) -> NDArray[Any]:

@@ -9,12 +9,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
-from io import BytesIO
 from typing import Any, Literal
 
 import matplotlib.figure
 import numpy as np
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
@@ -23,9 +21,9 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from swtstudy.figures.style import stroke
+from swtstudy.figures.style import picture, stroke
 from swtstudy.loads.loop import Loop
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import literal, refused
 
 
 class Figure(matplotlib.figure.Figure):
@@ -40,9 +38,7 @@ class Figure(matplotlib.figure.Figure):
     width: Any = None
 
     def _repr_png_(self) -> bytes:
-        picture = BytesIO()
-        self.savefig(picture, format="png", dpi=self.get_dpi())
-        return picture.getvalue()
+        return picture(self, "png", dpi="figure")
 
 
 #: Uses of a figure in print; on a screen a figure grows with its panels.
@@ -52,7 +48,7 @@ Width = Literal["column", "page"]
 INCH = 2.54
 #: Widths of a journal's column and page, inches, and the height that a page has for figures.
 WIDTHS: dict[str, float] = {"column": 8.5 / INCH, "page": 17.5 / INCH}
-_TALLEST = 23.0 / INCH
+TALLEST = 23.0 / INCH
 #: Panels side by side in print, where they are no more than fit.
 _ACROSS = {"column": 1, "page": 3}
 #: Size of a panel on a screen, and the width that panels side by side have there at most, inches.
@@ -96,17 +92,9 @@ class Sheet:
         most = max(1, int(_SCREEN / self.panel[0])) if self.width is None else _ACROSS[self.width]
         # No more side by side than the lines need: four panels are two by two.
         across = -(-self.count // -(-self.count // most))
-        if self.width is not None and self.fold and self._height(across) > _TALLEST:
+        if self.width is not None and self.fold and self._height(across) > TALLEST:
             across = min(self.count, max(across, most + 1))
         return across
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """Width and height, inches."""
-        across = self.across
-        if self.width is None:
-            return self.panel[0] * across, self.panel[1] * self.rows * -(-self.count // across)
-        return WIDTHS[self.width], self._height(across)
 
     def _height(self, across: int) -> float:
         """Height in print with so many panels side by side: flatter where they are wide, 8 cm at most."""
@@ -115,8 +103,11 @@ class Sheet:
 
     def figure(self, beside: float = 0.0) -> Figure:
         """An empty figure; on a screen it has so many inches more in width, for scales beside the panels."""
-        width, height = self.size
-        return new_figure((width + beside if self.width is None else width, height), self.width)
+        across = self.across
+        if self.width is not None:
+            return new_figure((WIDTHS[self.width], self._height(across)), self.width)
+        height = self.panel[1] * self.rows * -(-self.count // across)
+        return new_figure((self.panel[0] * across + beside, height))
 
     def panels(
         self, figure: Figure, share_x: str = "all", share_y: str = "row", projection: str | None = None
@@ -165,7 +156,7 @@ def check_width(width: object) -> None:
     """
     if width is not None and width not in WIDTHS:
         allowed = ", ".join(f'"{name}"' for name in WIDTHS)
-        raise StudyError([Mistake("width", literal(width), f"{allowed}, or None for a screen")])
+        raise refused("width", literal(width), f"{allowed}, or None for a screen")
 
 
 def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
@@ -186,38 +177,29 @@ _LONG = 30
 
 def wrap_texts(figure: Figure) -> None:
     """Break titles and labels that are longer than their panels, or than the figure; a word stays whole."""
-    whole: Text | None = figure._suptitle  # type: ignore[attr-defined]
-    texts: list[tuple[Text, Axes, str]] = []
+    whole: Any = figure._suptitle  # type: ignore[attr-defined]
+    texts: list[tuple[Text, Any]] = []
     for axes in figure.axes:
-        titles = (axes.title, axes._left_title)  # type: ignore[attr-defined]
-        texts += [(title, axes, "title") for title in titles]
-        texts += [(axes.xaxis.label, axes, "across"), (axes.yaxis.label, axes, "up")]
-    texts = [each for each in texts if each[0].get_text()]
-    longest = max(
-        (len(text.get_text()) for text in [*(each for each, *_ in texts), whole] if text), default=0
-    )
-    if figure.width is None and longest <= _LONG:
+        own = axes.title, axes._left_title, axes.xaxis.label, axes.yaxis.label  # type: ignore[attr-defined]
+        texts += [(text, axes) for text in own if text.get_text()]
+    letters = [len(text.get_text()) for text in (whole, *(text for text, _ in texts)) if text]
+    if figure.width is None and max(letters, default=0) <= _LONG:
         return
-    _place_panels(figure)
-    for text, axes, place in texts:
-        box = axes.bbox
-        if place == "title":
-            _wrap(text, _title_room(text, axes, figure.bbox.width), "width")
-        elif place == "across":
-            _wrap(text, (1.0 if figure.width is None else 1.15) * box.width, "width")
-        else:
-            _wrap(text, box.height, "height")
-    if whole:
-        _wrap(whole, 0.98 * figure.bbox.width, "width")
-
-
-def _place_panels(figure: Figure) -> None:
-    """Give all panels their places; drawing the figure would also do that, in twice the time."""
+    # Panels get their places; drawing the figure would also do that, in twice the time.
     if engine := figure.get_layout_engine():
         engine.execute(figure)
     for axes in figure.axes:
         locator: Any = axes.get_axes_locator()
         axes.apply_aspect(locator(axes, None) if locator else None)
+    for text, axes in texts:
+        if text is axes.yaxis.label:
+            _wrap(text, axes.bbox.height, "height")
+        elif text is axes.xaxis.label:
+            _wrap(text, (1.0 if figure.width is None else 1.15) * axes.bbox.width)
+        else:
+            _wrap(text, _title_room(text, axes, figure.bbox.width))
+    if whole:
+        _wrap(whole, 0.98 * figure.bbox.width)
 
 
 def _title_room(title: Text, axes: Axes, width: float) -> float:
@@ -229,31 +211,22 @@ def _title_room(title: Text, axes: Axes, width: float) -> float:
     return min(max(box.width, (ticks.x1 if ticks else 0.0) - box.x0), width - box.x0)
 
 
-def _wrap(text: Text, room: float, along: str) -> None:
-    """Break a text into lines that are no longer than there is room."""
-    lines: list[str] = []
-    for given in text.get_text().splitlines():
-        lines += _broken(text, given, room, along)
-    text.set_text("\n".join(lines))
-
-
-def _broken(text: Text, given: str, room: float, along: str) -> list[str]:
-    """Lines that are no longer than there is room; a line that fits is measured as a whole."""
+def _wrap(text: Text, room: float, along: str = "width") -> None:
+    """Break each line of a text that is longer than there is room."""
 
     def fits(line: str) -> bool:
         text.set_text(line)
         return bool(getattr(text.get_window_extent(), along) <= room)
 
-    words = _WORD.findall(given)
-    if fits("".join(words)):
-        return ["".join(words)]
-    lines = [""]
-    for word in words:
-        if lines[-1] and not fits(lines[-1] + word):
-            lines.append(word.lstrip())
-        else:
-            lines[-1] += word
-    return lines
+    lines: list[str] = []
+    for given in text.get_text().splitlines():
+        lines.append("")
+        for word in [given] if fits(given) else _WORD.findall(given):
+            if lines[-1] and not fits(lines[-1] + word):
+                lines.append(word.lstrip())
+            else:
+                lines[-1] += word
+    text.set_text("\n".join(lines))
 
 
 class LoopHandler(HandlerLine2D):
@@ -263,20 +236,13 @@ class LoopHandler(HandlerLine2D):
         super().__init__()
         self._loops = loops
 
-    def create_artists(  # type: ignore[override]
-        self,
-        legend: Legend,
-        handle: Line2D,
-        left: float,
-        down: float,
-        width: float,
-        height: float,
-        *more: Any,
-    ) -> list[Artist]:
+    def create_artists(
+        self, legend: Any, handle: Any, left: Any, down: Any, width: Any, height: Any, *more: Any
+    ) -> Any:
         sample = super().create_artists(legend, handle, left, down, 0.52 * width, height, *more)
         loop, side = self._loops.get(str(handle.get_label())), 0.85 * height
         if loop is None:
-            return [*sample]
+            return sample
         path = loop.course()[:, 1::-1]  # tangential across
         spread = np.ptp(path, axis=0)
         # A load that rests is in the middle.
@@ -303,11 +269,11 @@ def add_legend(figure: Figure, loops: Mapping[str, Loop] | None = None) -> None:
             handles.setdefault(label, handle)
     if not handles:
         return
-    ranks = {
-        label: (each.get_linestyle() == "None", each.get_zorder() < Line2D.zorder)
-        for label, each in handles.items()
-    }
-    labels = sorted(handles, key=ranks.__getitem__)
+
+    def rank(label: str) -> tuple[bool, bool]:
+        return handles[label].get_linestyle() == "None", handles[label].get_zorder() < Line2D.zorder
+
+    labels = sorted(handles, key=rank)
     look: dict[str, Any] = {}
     if loops:
         look = {"handler_map": {Line2D: LoopHandler(loops)}}
@@ -318,23 +284,22 @@ def add_legend(figure: Figure, loops: Mapping[str, Loop] | None = None) -> None:
 def place_legend(figure: Figure, handles: list[Any], labels: list[str], **look: Any) -> None:
     """Add a legend of these entries in as many columns as fit; see `add_legend`."""
     look |= {"handles": handles, "labels": labels, "loc": "outside lower center"}
+
+    def placed(**own: Any) -> tuple[Legend, float, float]:
+        """A legend with its width and height, inches, padding included."""
+        legend = figure.legend(**look, **own)
+        around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / 72.0
+        box = legend.get_window_extent()
+        return legend, box.width / figure.dpi + around, box.height / figure.dpi + around
+
     room = figure.get_figwidth()
     for columns in range(len(labels), 0, -1):
-        legend = figure.legend(ncols=columns, **look)
-        width, height = _size(legend)
+        legend, width, height = placed(ncols=columns)
         if width <= room or columns == 1:
             break
         legend.remove()
     if width > room and figure.width is not None:
         size = float(legend.get_texts()[0].get_fontsize()) * room / width
         legend.remove()
-        width, height = _size(figure.legend(fontsize=size, **look))
+        _, width, height = placed(fontsize=size)
     figure.set_size_inches(room if figure.width else max(room, width), figure.get_figheight() + height)
-
-
-def _size(legend: Legend) -> tuple[float, float]:
-    """Width and height of a legend, inches, padding included."""
-    dots = legend.figure.dpi
-    around = 2.0 * legend.borderaxespad * float(legend.get_texts()[0].get_fontsize()) / 72.0
-    box = legend.get_window_extent()
-    return box.width / dots + around, box.height / dots + around

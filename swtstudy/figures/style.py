@@ -22,7 +22,7 @@ from matplotlib import rcParamsDefault
 from matplotlib.figure import Figure
 
 from swtstudy.vocabulary.files import read_text, replacing
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import literal, nearest, refused
 
 #: Types that matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
 Style = str | Path | dict[str, Any] | list[str | Path | dict[str, Any]]
@@ -86,12 +86,11 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
         if style is not None:
             try:
                 stack.enter_context(matplotlib.style.context(style))
-            except OSError:
-                allowed = f"{nearest(str(style), matplotlib.style.available, {})}; or a .mplstyle file"
-                raise StudyError([Mistake("style", literal(style), allowed)]) from None
-            except (KeyError, ValueError):
+            except (OSError, KeyError, ValueError) as error:
                 allowed = "rcParams of matplotlib and their values"
-                raise StudyError([Mistake("style", literal(style), allowed)]) from None
+                if isinstance(error, OSError):
+                    allowed = f"{nearest(str(style), matplotlib.style.available, {})}; or a .mplstyle file"
+                raise refused("style", literal(style), allowed) from None
         yield
 
 
@@ -105,7 +104,7 @@ def _check_file(path: str | Path) -> None:
                 matplotlib.RcParams({name: value.strip('"')})
         except (KeyError, ValueError):
             allowed = "a line of a matplotlib style, such as lines.linewidth: 2"
-            raise StudyError([Mistake(f"line {number}", literal(line), allowed, str(path))]) from None
+            raise refused(f"line {number}", literal(line), allowed, str(path)) from None
 
 
 #: Time stamps, left out so that the same results give the same file.

@@ -61,20 +61,20 @@ def draw_maps(
     name, words
         The quantity, and its label at the colour bar.
     """
+    is_contour = layout.kind == "contour"
     panels = [panel.transpose(layout.vertical, layout.x) for panel in panels]
+    if is_contour:
+        panels = [panel.sortby([layout.vertical, layout.x]) for panel in panels]
     surfaces = [panel.value.rename(name) for panel in panels]
-    names, first = flag_words(surfaces[0]), surfaces[0]
+    names, life = flag_words(surfaces[0]), is_life(surfaces[0].attrs)
     ends = np.array([[float(surface.min()), float(surface.max())] for surface in surfaces])
     whole = np.nanmax(ends) - np.nanmin(ends) if np.isfinite(ends).any() else 0.0
     if not names and np.any(ends[:, 1] - ends[:, 0] < _COMMON * whole):
         for one, panel in zip(axes, panels, strict=True):
             draw_maps(figure, np.array([one]), [panel], layout, name, words)
         return
-    look: dict[str, Any] = {"norm": _scale_of(surfaces, layout.kind), "cmap": _colours(first)}
-    if names:  # a colour for each flag, in order from dark to light
-        look = {"cmap": colormaps[rcParams["image.cmap"]].resampled(len(names))}
-        look["norm"] = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
-    draw = _draw_cells if layout.kind == "heatmap" else _draw_areas if names else draw_contours
+    look = _colours(surfaces, layout.kind)
+    draw = _draw_cells if not is_contour else _draw_areas if names else draw_contours
     for one, panel, surface in zip(axes, panels, surfaces, strict=True):
         one.set_facecolor("0.8")  # where nothing is known
         one.grid(False)
@@ -82,52 +82,51 @@ def draw_maps(
             mark_borders(one, panel.regime)
         filled = draw(one, surface, look)
         if layout.validity:
-            mark_cells(one, panel, layout.kind)
+            mark_cells(one, panel.outside, is_contour)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
-    if is_life(first.attrs) and layout.kind == "contour":
+    if life and is_contour:
         bar.ax.yaxis.set_major_formatter(lambda value, _: power_words(value))
     if names:
         bar.set_ticks(range(len(names)), labels=names)
         bar.ax.tick_params(which="both", length=0)
 
 
-def _colours(surface: xr.DataArray) -> str:
-    """The colour map of a quantity: dark is kind, so that long lives are; a ratio is pale where it is 1."""
-    if _is_ratio(surface):
-        return "PuOr_r"
-    own = str(rcParams["image.cmap"])
-    return (own[:-2] if own.endswith("_r") else f"{own}_r") if is_life(surface.attrs) else own
+def _colours(surfaces: list[xr.DataArray], kind: str) -> dict[str, Any]:
+    """The colour map of a row and its scale, in steps for contours.
 
-
-def _is_ratio(surface: xr.DataArray) -> bool:
-    """Return whether a quantity is s over s at one place."""
-    return str(surface.attrs.get("symbol", "")) == "s/s_0"
-
-
-def _scale_of(surfaces: list[xr.DataArray], kind: str) -> Normalize:
-    """One colour scale for all panels of a row, in steps for contours; of lives in decades."""
+    Dark is kind: long lives are dark, and their scale is logarithmic. A ratio is pale where it is 1.
+    Flags have colours from dark to light in their order.
+    """
+    scale = str(rcParams["image.cmap"])
+    if names := flag_words(surfaces[0]):
+        norm = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
+        return {"norm": norm, "cmap": colormaps[scale].resampled(len(names))}
     values = np.concatenate([surface.values.ravel() for surface in surfaces])
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    if is_life(surfaces[0].attrs) and low > 0.0:
-        if kind == "heatmap":
-            return LogNorm(low, high)
-        first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
-        digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
-        levels = np.array([digit * 10.0**power for power in range(first, last + 1) for digit in digits])
-        begin, end = np.searchsorted(levels, low, "right") - 1, np.searchsorted(levels, high)
-        return BoundaryNorm(levels[max(begin, 0) : end + 1], 256)
-    if _is_ratio(surfaces[0]):
+    levels: Any = None
+    if is_life(surfaces[0].attrs):
+        scale = scale.removesuffix("_r") if scale.endswith("_r") else f"{scale}_r"
+        if low > 0.0 and kind == "heatmap":
+            return {"norm": LogNorm(low, high), "cmap": scale}
+        if low > 0.0:
+            first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+            digits = (1.0, 2.0, 5.0) if 3 * (last - first) <= _LEVELS else (1.0,)
+            levels = np.array([digit * 10.0**power for power in range(first, last + 1) for digit in digits])
+            begin, end = np.searchsorted(levels, low, "right") - 1, np.searchsorted(levels, high)
+            levels = levels[max(begin, 0) : end + 1]
+    elif str(surfaces[0].attrs.get("symbol")) == "s/s_0":
         most = max(high - 1.0, 1.0 - low, 1e-3)
-        low, high = 1.0 - most, 1.0 + most
+        scale, low, high = "PuOr_r", 1.0 - most, 1.0 + most
     if kind == "heatmap":
-        return Normalize(low, high)
-    return BoundaryNorm(MaxNLocator(_LEVELS).tick_values(low, high), 256)
+        return {"norm": Normalize(low, high), "cmap": scale}
+    levels = MaxNLocator(_LEVELS).tick_values(low, high) if levels is None else levels
+    return {"norm": BoundaryNorm(levels, 256), "cmap": scale}
 
 
 def _draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Draw areas of flags over (vertical, x), with borders half way between points."""
-    at, up, surface = _sorted(surface)
+    """Draw areas of flags over (vertical, x), ascending, with borders half way between points."""
+    up, at = (surface[dim].values for dim in surface.dims)
     mesh = axes.pcolormesh(at, up, surface, shading="nearest", rasterized=True, **look)
     axes.set(xlim=at[[0, -1]], ylim=up[[0, -1]])
     _tick_angles(axes, surface)
@@ -135,9 +134,9 @@ def _draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scal
 
 
 def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:
-    """Draw contours of a surface over (vertical, x); for s also where it is least and greatest along x."""
+    """Draw contours over (vertical, x), ascending; for s also where it is least and greatest along x."""
     levels, life = look["norm"].boundaries, is_life(surface.attrs)
-    at, up, surface = _sorted(surface)
+    up, at = (surface[dim].values for dim in surface.dims)
     filled = axes.contourf(at, up, surface, levels=levels, **look)
     lines = axes.contour(at, up, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
     if bool(surface.notnull().all()):
@@ -146,8 +145,10 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     if surface.name == "s":
         _draw_extrema(axes, at, up, surface)
     shown = levels if life else levels[::2]
-    inks = [_ink(filled, float(level)) for level in shown]
-    labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small", "colors": inks}
+    # Black or white, whichever is read on the colours beside a level.
+    light = filled.to_rgba(shown)[:, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722]
+    labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small"}
+    labels["colors"] = ["black" if each > 0.18 else "white" for each in light]
     tried = axes.clabel(lines, shown, inline=False, **labels)
     if places := _apart(axes, tried):
         for words in axes.clabel(lines, shown, manual=places, **labels):
@@ -192,19 +193,6 @@ def _apart(axes: Axes, tried: list[Text]) -> list[tuple[float, float]]:
     return kept
 
 
-def _sorted(surface: xr.DataArray) -> tuple[FloatArray, FloatArray, xr.DataArray]:
-    """Places across and up of a surface, ascending, and the surface."""
-    vertical, x = map(str, surface.dims)
-    surface = surface.sortby([vertical, x])
-    return surface[x].values, surface[vertical].values, surface
-
-
-def _ink(colours: ScalarMappable, level: float) -> str:
-    """Black or white, whichever is read on the colours beside a level."""
-    red, green, blue, _ = colours.to_rgba(level)  # type: ignore[arg-type]
-    return "black" if 0.2126 * red**2.2 + 0.7152 * green**2.2 + 0.0722 * blue**2.2 > 0.18 else "white"
-
-
 def _draw_extrema(axes: Axes, at: FloatArray, up: FloatArray, surface: xr.DataArray) -> None:
     """Lines where the surface is least and greatest along x; with a gap where another extremum takes over."""
     width = 1.2 * rcParams["lines.linewidth"]
@@ -236,26 +224,23 @@ def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
         Shape (ny,): NaN where a row is flat, and for runs of few rows between two jumps.
     """
     known = np.where(np.isfinite(values), values, np.inf)
-    heights = np.array([np.ptp(row[np.isfinite(row)]) if np.isfinite(row).any() else 0.0 for row in values])
-    whole, turn, last = float(heights.max(initial=0.0)), float(x[-1] - x[0]), len(x) - 1
-    closed = angle and last >= 2 and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= 1e-3 * whole))
-    places = np.full(len(values), np.nan)
-    for k in np.flatnonzero(heights > 0.02 * whole):
-        least = int(known[k].argmin())
-        places[k] = x[least]
-        if 0 < least < last:
-            at, (a, b, c) = x[least - 1 : least + 2], known[k, least - 1 : least + 2]
-        elif closed:
-            at = np.array([x[-2] - turn, x[0], x[1]]) + (turn if least == last else 0.0)
-            a, b, c = known[k, [-2, least, 1]]
-        else:
-            continue
-        left, right = (b - a) / (at[1] - at[0]), (c - b) / (at[2] - at[1])
-        if np.isfinite(left) and np.isfinite(right) and right > left:
-            # The slope of the parabola falls linearly from the middle of one step to the middle of the other.
-            first, second = 0.5 * (at[:-1] + at[1:])
-            vertex = float(np.clip(first - left * (second - first) / (right - left), first, second))
-            places[k] = x[0] + (vertex - x[0]) % turn if closed else vertex
+    heights = np.ma.masked_invalid(values).ptp(axis=1).filled(0.0)
+    whole, turn = float(heights.max(initial=0.0)), float(x[-1] - x[0])
+    closed = angle and len(x) > 2 and bool(np.all(np.abs(values[:, 0] - values[:, -1]) <= 1e-3 * whole))
+    # One place more at either end: the neighbour across the turn, or a wall.
+    beyond = known[:, [-2, 1]] if closed else np.full((len(known), 2), np.inf)
+    padded = np.column_stack([beyond[:, 0], known, beyond[:, 1]])
+    three = 1 + known.argmin(axis=1)[:, None] + np.array([-1, 0, 1])
+    at = np.array([x[-2] - turn, *x, x[1] + turn])[three]
+    # The slope of the parabola rises linearly from the middle of one step to the middle of the other.
+    middle = 0.5 * (at[:, :-1] + at[:, 1:])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = np.diff(np.take_along_axis(padded, three, axis=1)) / np.diff(at)
+        bent = np.isfinite(slope).all(axis=1) & (slope[:, 0] < slope[:, 1])
+        share = slope[:, 0] / (slope[:, 1] - slope[:, 0])
+        vertex = np.clip(middle[:, 0] - share * (middle[:, 1] - middle[:, 0]), *middle.T)
+    places = np.where(bent, x[0] + (vertex - x[0]) % turn if closed else vertex, at[:, 1])
+    places[heights <= 0.02 * whole] = np.nan
     for begin, end in pairwise([*_jumps(places, turn), len(places)]):
         if end - begin < 0.08 * len(places):
             places[begin:end] = np.nan
@@ -287,17 +272,12 @@ def _draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scal
     return mesh
 
 
-def mark_cells(axes: Axes, panel: xr.Dataset, kind: str) -> None:
-    """Dots on the points of a panel over (vertical, x) that are outside, thinned where they are many."""
-    outside = panel.outside
-    up, across = (
-        np.arange(size) if kind == "heatmap" else panel[name].values for name, size in outside.sizes.items()
-    )
+def mark_cells(axes: Axes, outside: xr.DataArray, is_contour: bool) -> None:
+    """Dots on the points over (vertical, x) that are outside of the model, thinned where they are many."""
+    up, across = (outside[n].values if is_contour else np.arange(size) for n, size in outside.sizes.items())
     rows, columns = np.nonzero(outside.values)
-    blocks = np.stack(
-        [places // -(-n // _MOST) for places, n in zip((rows, columns), outside.shape, strict=True)]
-    )
-    _, kept = np.unique(blocks, axis=1, return_index=True)
+    steps = [-(-size // _MOST) for size in outside.shape]
+    _, kept = np.unique([rows // steps[0], columns // steps[1]], axis=1, return_index=True)
     mark_points(axes, across[columns[kept]], up[rows[kept]], outside.attrs["long_name"])
 
 
@@ -309,11 +289,11 @@ def mark_borders(axes: Axes, regime: xr.DataArray) -> None:
     axes
         A panel with contours.
     regime
-        Flags, NaN where unknown.
+        Flags, ascending along both dimensions; NaN where unknown.
     """
     from scipy.ndimage import distance_transform_edt, gaussian_filter
 
-    at, up, regime = _sorted(regime)
+    up, at = (regime[dim].values for dim in regime.dims)
     names = flag_words(regime)
     width = 1.6 * rcParams["lines.linewidth"]
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1.0}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -25,7 +25,6 @@ from swtstudy.figures.style import picture
 from swtstudy.figures.words import is_life
 from swtstudy.paper.statements.check import about_archive
 from swtstudy.points.grid import SAMPLE
-from swtstudy.points.validity import outside_words, validity_lines
 from swtstudy.points.values import index_at
 from swtstudy.reports.findings import (
     extreme_places,
@@ -133,9 +132,8 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
         ds=dataset,
         name=name,
         home=home,
-        title=str(dataset.attrs["title"]),
+        title=dataset.attrs["title"],
         sentences=sentences(dataset, indices),
-        outside=outside_words(dataset),
         tiles=tiles(dataset, ends),
         contact=read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None,
         stress=str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else "",
@@ -146,7 +144,6 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
         indices=_indices(dataset, indices),
         points=points_of(dataset, ends),
         settings=_settings(dataset),
-        validity=validity_lines(dataset, inside=True),
         paper=[each for each in about_archive(name, dataset) if each.finding is not None],
         own=name if shipped and shipped.read_text("utf-8") == text else f"{name}.toml",
         about=htmlsafe_json_dumps(known, separators=(",", ":"), ensure_ascii=False),
@@ -223,7 +220,7 @@ def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
 
 def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[tuple[Any, str, Any]]:
     """The numbers that one asks for first: what each is, its value, and a note."""
-    relative, values = describe.relative_errors(dataset), measured(dataset)
+    values = measured(dataset)
     beside = [dim for dim in values.dims if dim not in dataset.s.dims]
     known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(beside)
     shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
@@ -234,6 +231,7 @@ def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[t
         for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:
             label = Markup("{} {}").format(end, symbol_of(value)).strip()
             yield label, with_unit(number_words(float(value)), value), _where(dataset, one)
+    relative = describe.relative_errors(dataset)
     if relative.size:
         largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
         words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
@@ -289,8 +287,7 @@ def _indices(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> An
     axes = [str(dim) for dim in indices.total.dims if dim not in ("quantity", "parameter")]
     flat = indices.isel(quantity=0).stack(row=[*axes, "parameter"]).transpose("row", ...)
     rows = []
-    for k in range(flat.sizes["row"]):
-        one = flat.isel(row=k)
+    for one in (flat.isel(row=k) for k in range(flat.sizes["row"])):
         cells = [along(dataset[name].sel({name: one[name].item()})) for name in axes]
         cells += [symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning]
         for name in ("first_order", "total"):
@@ -350,21 +347,17 @@ def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
                 said = [f"{' to '.join(ends)} ({len(np.unique(known))} values)"]
             meaning = AXES[name].meaning
             if name == "load":
-                said, meaning = [*map(_course(dataset), said)], meaning.partition(":")[0]
+                loops = defined_in(dataset.attrs).get("load", {}).items()
+                of_name = {value_text("load", each): loop for each, loop in loops}
+                said = [f"{each}: {_course(of_name.get(each))}" for each in said]
+                meaning = meaning.partition(":")[0]
             yield values, meaning, with_unit(", ".join(said), values)
 
 
-def _course(dataset: xr.Dataset) -> Callable[[str], str]:
-    """Say of the name of a load what it is."""
-    loops = {
-        value_text("load", name): loop for name, loop in defined_in(dataset.attrs).get("load", {}).items()
-    }
-
-    def words(name: str) -> str:
-        if name not in loops:
-            return f"{name}: two oscillations"
-        vertices = getattr(loops[name], "vertices", None)
-        form = "of harmonics" if vertices is None else f"of {len(vertices)} vertices"
-        return f"{name}: a {'measured ' * (getattr(loops[name], 'mean_normal', None) is not None)}loop {form}"
-
-    return words
+def _course(loop: Any) -> str:
+    """Words for a loop, or for None, the built-in load."""
+    if loop is None:
+        return "two oscillations"
+    vertices = getattr(loop, "vertices", None)
+    measured = "measured " if getattr(loop, "mean_normal", None) is not None else ""
+    return f"a {measured}loop of {'harmonics' if vertices is None else f'{len(vertices)} vertices'}"

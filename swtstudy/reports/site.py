@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -108,28 +109,24 @@ def write_reports(
 def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[tuple[Path, str]]:
     """A page for each archive, and one that lists them; see `write_reports`."""
     entries: list[Entry] = []
-    problem: ArchiveError | None = None
-    for path, made in zip(paths, _made(paths, folder, workers), strict=True):
-        if isinstance(made, ArchiveError):
-            problem = problem or made
-            yield path, str(made)
-        else:
-            entries.append(made)
-            yield folder / f"{path.stem}.html", ""
-    if not entries and problem:
-        raise problem
+    problems: list[ArchiveError] = []
+    with ExitStack() as stack:
+        pages: Iterator[Entry | ArchiveError] = (_write_one(path, folder) for path in paths)
+        if workers > 1 and len(paths) >= _SEVERAL:
+            pool = stack.enter_context(LocalPool(workers))
+            tasks = [pool.submit(_write_one, path, folder) for path in paths]
+            pages = (task.result() for task in tasks)
+        for path, made in zip(paths, pages, strict=True):
+            if isinstance(made, ArchiveError):
+                problems.append(made)
+                yield path, str(made)
+            else:
+                entries.append(made)
+                yield folder / f"{path.stem}.html", ""
+    if problems and not entries:
+        raise problems[0]
     write_text(folder / INDEX, listing(entries))
     yield folder / INDEX, ""
-
-
-def _made(paths: Sequence[Path], folder: Path, workers: int) -> Iterator[Entry | ArchiveError]:
-    """Write the page of each archive, one after another or side by side."""
-    if workers < 2 or len(paths) < _SEVERAL:
-        yield from (_write_one(path, folder) for path in paths)
-        return
-    with LocalPool(workers) as pool:
-        for task in [pool.submit(_write_one, path, folder) for path in paths]:
-            yield task.result()
 
 
 def _write_one(path: Path, folder: Path) -> Entry | ArchiveError:
@@ -150,17 +147,13 @@ def entry(dataset: xr.Dataset, name: str) -> Entry:
 
 def listing(entries: Sequence[Entry]) -> str:
     """The page that lists archives: a picture and a sentence of each, in groups."""
-    groups = _cards(entries, lambda name: quote(f"{name}.html"))
-    return rendered(
-        "list.html", title="Parameter studies", entries=entries, groups=groups, version=__version__
-    )
+    gallery = Markup(gallery_of(entries, lambda name: quote(f"{name}.html")))
+    count, title = len(entries), "Parameter studies"
+    return rendered("list.html", title=title, count=count, gallery=gallery, version=__version__)
 
 
 def gallery_of(entries: Sequence[Entry], address: Callable[[str], str]) -> str:
     """Cards in groups, as HTML; each leads to the address of its name."""
-    return rendered("gallery.html", groups=_cards(entries, address))
-
-
-def _cards(entries: Sequence[Entry], address: Callable[[str], str]) -> dict[str, list[tuple[Entry, str]]]:
     own = {each.name: each for each in entries}
-    return {title: [(own[name], address(name)) for name in names] for title, names in in_groups(own).items()}
+    groups = {group: [(own[n], address(n)) for n in names] for group, names in in_groups(own).items()}
+    return rendered("gallery.html", groups=groups)

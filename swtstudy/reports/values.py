@@ -21,6 +21,7 @@ from swtstudy.archive import describe
 from swtstudy.figures.lines import in_equal_ratios
 from swtstudy.figures.words import flag_words
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.validity import outside_words, validity_lines
 from swtstudy.results.evaluate import dims_beside, to_table
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import coordinate_words, number_words, printable
@@ -47,7 +48,7 @@ def symbol_html(latex: str) -> Markup:
     """
     text = _TOKEN.sub(_token, str(escape(latex)).replace("-", "−"))
     text = re.sub(r"√\{([^{}]*)\}", r"√(\1)", text)
-    text = _RAISED.sub(lambda found: _under(found, found[2] or found[3]), text)
+    text = _RAISED.sub(_under, text)
     return Markup(re.sub(r"[\\{}^_$]", "", text))
 
 
@@ -63,9 +64,9 @@ def _token(found: re.Match[str]) -> str:
         return f"{command} "  # a function, such as max
 
 
-def _under(found: re.Match[str], inner: str) -> str:
+def _under(found: re.Match[str]) -> str:
     name = "sub" if found[1] == "_" else "sup"
-    return f"<{name}>{_RAISED.sub(lambda each: _under(each, each[2] or each[3]), inner)}</{name}>"
+    return f"<{name}>{_RAISED.sub(_under, found[2] or found[3])}</{name}>"
 
 
 def symbol_of(values: xr.DataArray) -> Markup:
@@ -226,6 +227,7 @@ def _templates() -> jinja2.Environment:
     room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
     of_page = files("swtstudy.reports")
     own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
-    ours = (along, is_number, number_words, place_html, share, symbol_of, unit_of, value_text)
+    ours: tuple[Any, ...] = (along, is_number, number_words, outside_words, place_html, share, symbol_of)
+    ours += (unit_of, validity_lines, value_text)
     room.globals |= {"describe": describe, **own} | {each.__name__: each for each in ours}
     return room

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
 from swtstudy.vocabulary.variables import COMPUTED
@@ -117,12 +117,12 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
         place = reference(str(y))
     except ValueError as error:
         allowed = f"a data variable of these results, or {QUANTITY}"
-        raise StudyError([Mistake("figure.y", f"{literal(y)} ({error})", allowed)]) from None
+        raise refused("figure.y", f"{literal(y)} ({error})", allowed) from None
     if place is None:
         name = y.strip()
         if name not in dataset.data_vars:
             known = f"{nearest(name, map(str, dataset.data_vars))}, {QUANTITY}"
-            raise StudyError([Mistake("figure.y", f"{literal(y)} (not a quantity)", known)])
+            raise refused("figure.y", f"{literal(y)} (not a quantity)", known)
         return known_regime(dataset) if name == "regime" else dataset[name]
     name, value = place
     ratio = dataset.s / slice_at(dataset, {name: value}).s.drop_vars(name)
@@ -157,7 +157,7 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
     require_points(dataset)
     values = quantity(dataset, y).compute()  # xarray indexes by arrays in memory only
     if "flag_values" in values.attrs:
-        raise StudyError([Mistake("y", f"{literal(y)}, whose values are flags", "numbers, such as 's'")])
+        raise refused("y", f"{literal(y)}, whose values are flags", "numbers, such as 's'")
     if dim not in values.dims:
         raise ValueError(
             f"found {dim!r}, not a dimension of {y}; allowed: {nearest(dim, map(str, values.dims))}"
@@ -193,8 +193,11 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
         for index, place in enumerate(places):
             values = dataset[name].isel({own: index}, drop=True) if own else dataset[name]
             whole = values.broadcast_like(rows) if dims else values
-            flat = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
-            columns[f"{name}[{place}]" if own else name] = _as_words(flat, values.attrs)
+            flat: Any = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
+            if "flag_meanings" in values.attrs:
+                meanings = values.attrs["flag_meanings"].split()
+                flat = pd.Categorical.from_codes(_flags(flat, values.attrs), meanings)
+            columns[f"{name}[{place}]" if own else name] = flat
     return pd.DataFrame(columns).rename_axis("point")
 
 
@@ -212,17 +215,10 @@ def words_of(dataset: xr.Dataset, name: str) -> xr.DataArray:
     """Flags as words: see ``words`` of the accessor."""
     flags = [str(each) for each, values in dataset.data_vars.items() if "flag_meanings" in values.attrs]
     if name not in flags:
-        raise StudyError([Mistake("name", literal(name), f"a variable of flags: {', '.join(flags)}")])
+        raise refused("name", literal(name), f"a variable of flags: {', '.join(flags)}")
     words = np.array([*dataset[name].attrs["flag_meanings"].split(), ""], dtype=object)
     found = dataset[name].copy(data=words[_flags(dataset[name].values, dataset[name].attrs)])
     return found.drop_attrs(deep=False).assign_attrs(long_name=dataset[name].attrs.get("long_name", name))
-
-
-def _as_words(flat: NDArray, attributes: Mapping[Any, Any]) -> NDArray:
-    """Flags by their meanings."""
-    if "flag_meanings" not in attributes:
-        return flat
-    return pd.Categorical.from_codes(_flags(flat, attributes), attributes["flag_meanings"].split())
 
 
 def _flags(values: NDArray, attributes: Mapping[Any, Any]) -> NDArray:

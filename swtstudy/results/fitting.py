@@ -10,7 +10,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -19,6 +19,7 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.points.values import as_number
+from swtstudy.results.sensitivity import check_confidence
 from swtstudy.solving import solve_grid
 from swtstudy.study.columns import number, read_table
 from swtstudy.study.definition import Study, study_from, tables_of
@@ -30,19 +31,16 @@ from swtstudy.vocabulary.mistakes import (
     Mistake,
     Report,
     StudyError,
-    is_number,
     literal,
     more_like_it,
     nearest,
     plain_number,
+    refused,
 )
 from swtstudy.vocabulary.parameters import AXES, DIRECTIONS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 from swtstudy.vocabulary.wording import number_of
-
-if TYPE_CHECKING:
-    from scipy.interpolate import CubicSpline
 
 #: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
 LIFE, RUNOUT = "life", "runout"
@@ -115,31 +113,30 @@ def fit(
         A ValueError with every mistake; also if the best distance is at an end of those that were tried.
     """
     if y not in NONLOCAL_LIVES:
-        raise StudyError([Mistake("y", literal(y), nearest(str(y), NONLOCAL_LIVES))])
-    if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
-        raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
+        raise refused("y", literal(y), nearest(str(y), NONLOCAL_LIVES))
+    check_confidence(confidence)
     grid, observed, runout = _read(study, tests, 2 if friction else 1)
     known = [name for name in NONLOCAL_LIVES if name in grid.made(_asked(DISTANCES))]
     if y not in known:
-        raise StudyError([Mistake("y", literal(y), f"one of {', '.join(known)}")])
+        raise refused("y", literal(y), f"one of {', '.join(known)}")
     own = plain_number(grid.values("friction")[0])
     if friction and not 0.0 < own < MOST_FRICTION:
         allowed = f"a positive number below {MOST_FRICTION:g}, with which the fit begins"
-        raise StudyError([Mistake("friction", f"{own:g}", allowed)])
+        raise refused("friction", f"{own:g}", allowed)
     ratio = _force_ratio(grid)
     with Progress(None, "fit"):
-        tests_of = _Tests.of(grid, np.log10(observed), runout, y)
+        tests_of = _Tests(grid, np.log10(observed), runout, y)
         # The least friction that bears the tangential forces.
         best = _likeliest(tests_of, max(1.001 * ratio * own, 1e-3) if friction else None)
     low, high = np.log(tests_of.distances[[0, -1]])
     if not low + STEP < best[0] < high - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low, high))
         words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
-        raise StudyError([Mistake(DISTANCE, words, "tests whose lives depend on it within that range")])
+        raise refused(DISTANCE, words, "tests whose lives depend on it within that range")
     return _labelled(tests_of, best, float(confidence))
 
 
-class _Tests(NamedTuple):
+class _Tests:
     """Observed and predicted lives of n tests.
 
     Attributes
@@ -153,48 +150,37 @@ class _Tests(NamedTuple):
     y
         The data variable.
     distances
-        Critical distances at which lives are computed.
+        Critical distances at which lives are computed: up to the first at which a test has no finite life at
+        the study's friction, since deep beneath the surface there may be no tension.
     known
         log10 of the lives over the logarithm of the distance, by friction; None is the study's. Of a trial
         friction as far as all lives are finite, and None if they are so at fewer than four distances.
     """
 
-    grid: PhysicalGrid
-    observed: FloatArray
-    runout: BoolArray
-    y: str
-    distances: FloatArray
-    known: dict[float | None, CubicSpline | None]
+    def __init__(self, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> None:
+        self.grid, self.observed, self.runout, self.y = grid, observed, runout, y
+        self.distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
+        lives = self._lives(None)
+        wrong = np.flatnonzero(~np.isfinite(lives[:, :_LEAST_OF_SPLINE]).all(axis=1))
+        if wrong.size:
+            found = f"no finite life of test {', '.join(map(str, (wrong + 1).tolist()))}"
+            raise refused("tests", found, "tests with equilibrium and tension")
+        self.known: dict[float | None, Any] = {None: self._spline(lives)}
+        self.distances = self.distances[: self.known[None].x.size]
 
-    @classmethod
-    def of(cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> _Tests:
-        """Distances are those up to the first at which a test has no finite life at the study's friction.
-
-        Deep beneath the surface there may be no tension.
-        """
-        distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
-        found = cls(grid, observed, runout, y, distances, {})
-        lives = found.lives(None)
-        many = max(int(np.append(np.isfinite(lives).all(axis=0), False).argmin()), _LEAST_OF_SPLINE)
-        found = found._replace(distances=distances[:many])
-        found.known[None] = found.spline(lives[:, :many])
-        return found
-
-    def lives(self, friction: float | None) -> FloatArray:
+    def _lives(self, friction: float | None) -> FloatArray:
         """log10 of lives at the distances, shape (n, k); lives of tests that survived may be unbounded."""
         lives = _lives(self.grid, self.y, self.distances, friction)
         return np.where(self.runout[:, None], np.minimum(lives, UNBOUNDED), lives)
 
-    def spline(self, lives: FloatArray) -> CubicSpline:
-        """Lives, shape (n, k), between the distances; a StudyError unless all are finite."""
+    def _spline(self, lives: FloatArray) -> Any:
+        """Lives, shape (n, k), between the distances up to which all are finite; None if these are few."""
         from scipy.interpolate import CubicSpline
 
-        wrong = ~np.isfinite(lives).all(axis=1)
-        if wrong.any():
-            numbers = ", ".join(map(str, (np.flatnonzero(wrong) + 1).tolist()))
-            found = f"no finite life of test {numbers}"
-            raise StudyError([Mistake("tests", found, "tests with equilibrium and tension")])
-        return CubicSpline(np.log(self.distances), lives, axis=1)
+        many = int(np.append(np.isfinite(lives).all(axis=0), False).argmin())
+        if many < _LEAST_OF_SPLINE:
+            return None
+        return CubicSpline(np.log(self.distances[:many]), lives[:, :many], axis=1)
 
     def residuals(self, logarithms: Any) -> FloatArray:
         """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction.
@@ -203,10 +189,7 @@ class _Tests(NamedTuple):
         """
         own = math.exp(logarithms[1]) if len(logarithms) > 1 else None
         if own not in self.known:
-            lives = self.lives(own)
-            many = int(np.append(np.isfinite(lives).all(axis=0), False).argmin())
-            near = self._replace(distances=self.distances[:many])
-            self.known[own] = near.spline(lives[:, :many]) if many >= _LEAST_OF_SPLINE else None
+            self.known[own] = self._spline(self._lives(own))
         known = self.known[own]
         if known is None or logarithms[0] > known.x[-1]:  # unlike any test
             return np.full(len(self.observed), np.inf)
@@ -226,20 +209,24 @@ def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
     """Arguments of the least misfit; ``least`` is the least friction, None if it is not fitted."""
     from scipy.optimize import minimize, minimize_scalar
 
-    ends = np.log(tests.distances[[0, -1]])
+    distances = np.log(tests.distances)
 
     def at(own: list[float]) -> Any:
         """The best distance and scatter at a friction."""
-        residuals = [(each, tests.residuals([each, *own])) for each in np.log(tests.distances)]
-        starts = [
-            (each, math.log(max(float(np.std(off)) if np.isfinite(off).all() else 0.0, LEAST_SCATTER)))
-            for each, off in residuals
-        ]
+
+        def misfit(x: Any) -> float:
+            return tests.misfit([x[0], *own, x[1]])
+
+        starts = []
+        for each in distances:
+            off = tests.residuals([each, *own])
+            scatter = float(np.std(off)) if np.isfinite(off).all() else 0.0
+            starts.append((each, math.log(max(scatter, LEAST_SCATTER))))
         return minimize(
-            lambda x: tests.misfit([x[0], *own, x[1]]),
-            min(starts, key=lambda x: tests.misfit([x[0], *own, x[1]])),
+            misfit,
+            min(starts, key=misfit),
             method="Nelder-Mead",
-            bounds=[ends, (math.log(LEAST_SCATTER), 5.0)],
+            bounds=[distances[[0, -1]], (math.log(LEAST_SCATTER), 5.0)],
             options={"xatol": 1e-6, "fatol": 1e-9, "maxiter": 4000},
         )
 
@@ -247,11 +234,12 @@ def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
     if least is not None:
         if not least < MOST_FRICTION:
             found = f"tangential forces that need {least:.3g} at least"
-            raise StudyError([Mistake("friction", found, f"forces that {MOST_FRICTION:g} bears")])
+            raise refused("friction", found, f"forces that {MOST_FRICTION:g} bears")
         bounds = np.log([least, MOST_FRICTION])
-        own = [
-            minimize_scalar(lambda x: at([x]).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}).x
-        ]
+        best = minimize_scalar(
+            lambda x: at([x]).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}
+        )
+        own = [best.x]
     distance, scatter = at(own).x
     return np.array([distance, *own, scatter])
 
@@ -268,7 +256,7 @@ def _force_ratio(grid: PhysicalGrid) -> float:
         least = ratios[k] * plain_number(friction[k if len(friction) > 1 else 0])
         found = f"test {k + 1}, whose tangential force is {ratios[k]:.3g} times the friction limit: it slides"
         allowed = f"a friction of {least:.3g} at least for this test, or less force"
-        raise StudyError([Mistake("tests", found + more_like_it(len(wrong)), allowed)])
+        raise refused("tests", found + more_like_it(len(wrong)), allowed)
     return float(ratios.max())
 
 
@@ -335,7 +323,14 @@ def _read(
     columns, lines = _columns(tests)
     report = Report()
     lives, runout = _observed(columns, parameters, report, str(tests) if lines else "", lines)
-    columns = _of_parameters(columns)
+    own = {name: values for name, values in columns.items() if name not in (LIFE, RUNOUT)}
+    # Misspelt names of parameters stay, and are reported as such.
+    others = [name for name in own if name not in AXES and not get_close_matches(name, AXES, 1, MISSPELT)]
+    if others:
+        warnings.warn(
+            f"tests: columns that are no parameters are left alone: {', '.join(others)}", stacklevel=3
+        )
+    columns = {name: values for name, values in own.items() if name not in others}
     if not columns and not report:
         report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
     grid = None
@@ -345,9 +340,9 @@ def _read(
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
-        raise StudyError([Mistake("", "neither", allowed, str(study))])
+        raise refused("", "neither", allowed, str(study))
     if grid.dimension("friction") and parameters > 1:
-        raise StudyError([Mistake("friction", "a column of the tests", "one value to fit, from the study")])
+        raise refused("friction", "a column of the tests", "one value to fit, from the study")
     return grid, np.array(lives), np.array(runout, bool)
 
 
@@ -391,20 +386,6 @@ def _observed(
     return numbers, runout
 
 
-def _of_parameters(columns: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
-    """The columns of parameters, and those with misspelt names, which are reported as such."""
-    others = [
-        name
-        for name in columns
-        if name not in (*AXES, LIFE, RUNOUT) and not get_close_matches(name, AXES, 1, MISSPELT)
-    ]
-    if others:
-        warnings.warn(
-            f"tests: columns that are no parameters are left alone: {', '.join(others)}", stacklevel=3
-        )
-    return {name: values for name, values in columns.items() if name not in (*others, LIFE, RUNOUT)}
-
-
 def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study:
     """The study with the tests as its sample; mistakes in these are named as theirs."""
     raw = tables_of(path)
@@ -431,7 +412,7 @@ def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
             raise StudyError([Mistake(f"tests.{name}", literal(tests[name]), allowed) for name in lone])
         return {str(name): list(values) for name, values in tests.items()}, []
     if not isinstance(tests, str | PathLike):
-        raise StudyError([Mistake("tests", literal(tests), "a CSV file, or columns by name")])
+        raise refused("tests", literal(tests), "a CSV file, or columns by name")
     try:
         table = read_table(Path(tests), (LIFE,), AXES, FileTable(), LONGEST_AXIS)
     except StudyError as error:
@@ -440,6 +421,6 @@ def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
         cut = (replace(each, allowed=re.sub(keys, "", each.allowed)) for each in error.mistakes)
         raise StudyError(cut) from None
     if not table.cells:
-        raise StudyError([Mistake("", "no tests", "a row for each test", str(tests))])
+        raise refused("", "no tests", "a row for each test", str(tests))
     columns = {name: table.values(name) for name in table.headers if name}
     return columns, [line for line, _ in table.cells]

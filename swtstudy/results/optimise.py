@@ -15,7 +15,7 @@ import itertools
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -37,6 +37,7 @@ from swtstudy.vocabulary.mistakes import (
     is_seed,
     literal,
     nearest,
+    refused,
 )
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -89,7 +90,7 @@ class Box:
 def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], Report]:
     """The ranges by name, ``(low, high)`` each, of parameters of some names, None for one that is none."""
     if not isinstance(over, Mapping) or not over:
-        raise StudyError([Mistake("over", literal(over), 'ranges by name, such as {"phase": (0, "2*pi")}')])
+        raise refused("over", literal(over), 'ranges by name, such as {"phase": (0, "2*pi")}')
     report = Report()
     axes: dict[str, list[object] | None] = {}
     for name, ends in over.items():
@@ -148,40 +149,6 @@ _BEYOND = 0.1
 _GENERATIONS = 100
 #: A population has converged when its values differ by this fraction of their mean: the polish does the rest.
 _SPREAD = 0.01
-
-
-def search(function: Objective, dimensions: int, seed: int) -> tuple[FloatArray, bool]:
-    """Search the unit cube for the least value of a function, which keeps where that is.
-
-    Returns
-    -------
-    progress
-        Least value after each generation, the first population included.
-    converged
-        Whether the population has converged.
-    """
-    from scipy.optimize import OptimizeResult, differential_evolution
-
-    lowest: list[float] = []
-
-    def batch(columns: FloatArray) -> FloatArray:
-        values = function(np.clip(columns.T, 0.0, 1.0))
-        lowest.append(float(values.min()))
-        return values
-
-    found: OptimizeResult = differential_evolution(
-        batch,
-        [(-_BEYOND, 1.0 + _BEYOND)] * dimensions,
-        popsize=max(_POINTS_EACH, _LEAST // dimensions),
-        init="sobol",
-        maxiter=_GENERATIONS,
-        tol=_SPREAD,
-        seed=seed,
-        polish=False,
-        updating="deferred",
-        vectorized=True,
-    )
-    return np.minimum.accumulate(lowest), bool(found.success)
 
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
@@ -354,22 +321,42 @@ class Least(NamedTuple):
 
 
 def least(objective: Objective, dimensions: int, seed: int) -> Least:
-    """The least value of an objective.
+    """The least value of an objective in the unit cube: a search of the whole, then a polish.
 
     Raises
     ------
     StudyError
         If it has no finite value anywhere.
     """
-    progress, converged = search(objective, dimensions, seed)
+    from scipy.optimize import differential_evolution
+
+    lowest: list[float] = []
+
+    def batch(columns: FloatArray) -> FloatArray:
+        values = objective(np.clip(columns.T, 0.0, 1.0))
+        lowest.append(float(values.min()))
+        return values
+
+    found = differential_evolution(
+        batch,
+        [(-_BEYOND, 1.0 + _BEYOND)] * dimensions,
+        popsize=max(_POINTS_EACH, _LEAST // dimensions),
+        init="sobol",
+        maxiter=_GENERATIONS,
+        tol=_SPREAD,
+        seed=seed,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+    )
     searched = float(objective.values.min())
     if not np.isfinite(searched):
         words = f"no finite value at any of {len(objective.values)} points"
-        raise StudyError([Mistake("over", words, "ranges in which the quantity is finite somewhere")])
+        raise refused("over", words, "ranges in which the quantity is finite somewhere")
     _polish_together(objective, seed)
-    unit = objective.points[objective.values.argmin()]
-    sign = objective.sign
-    return Least(unit, sign * searched, sign * progress, converged, len(objective.values))
+    unit, sign = objective.points[objective.values.argmin()], objective.sign
+    progress = sign * np.minimum.accumulate(lowest)
+    return Least(unit, sign * searched, progress, bool(found.success), len(objective.values))
 
 
 def _polish_together(objective: Objective, seed: int) -> None:
@@ -416,22 +403,19 @@ def dataset_of(
     optima = [*found.values()]
     units = np.array([each.unit for each in optima])
     cases = solve(box.sample(units)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
-    cases = cases.assign_coords(case=[*found])
     own = {key: words for key, words in cases[quantity].attrs.items() if key in ("units", "symbol")}
-    rows = itertools.zip_longest(*(each.progress for each in optima), fillvalue=np.nan)
-    how: dict[str, Any] = {
-        "searched": ("case", [each.searched for each in optima], f"{quantity} before the polish", own),
-        "progress": (("case", "generation"), np.array([*rows]).T, f"{quantity} after each generation", own),
-        "converged": (
-            "case",
-            np.array([each.converged for each in optima], np.int8),
-            "whether the search converged",
-            {},
-        ),
-        "evaluations": ("case", [each.evaluations for each in optima], "number of points solved", {}),
-    }
-    own_words = {n: (dims, v, {"long_name": words, **more}) for n, (dims, v, words, more) in how.items()}
-    return cases.assign(own_words).merge(_neighbourhood(box, units, quantity, own, solve))
+    searched = {"long_name": f"{quantity} before the polish", **own}
+    progress = {"long_name": f"{quantity} after each generation", **own}
+    rows = [*itertools.zip_longest(*(each.progress for each in optima), fillvalue=np.nan)]
+    converged = np.array([each.converged for each in optima], np.int8)
+    evaluations = [each.evaluations for each in optima]
+    cases = cases.assign_coords(case=[*found]).assign(
+        searched=("case", [each.searched for each in optima], searched),
+        progress=(("case", "generation"), np.array(rows).T, progress),
+        converged=("case", converged, {"long_name": "whether the search converged"}),
+        evaluations=("case", evaluations, {"long_name": "number of points solved"}),
+    )
+    return cases.merge(_neighbourhood(box, units, quantity, own, solve))
 
 
 def _neighbourhood(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,15 +14,7 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.sample import saltelli
 from swtstudy.units.results import measures
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_SEED,
-    Mistake,
-    Report,
-    StudyError,
-    is_number,
-    is_seed,
-    literal,
-)
+from swtstudy.vocabulary.mistakes import ALLOWED_SEED, Report, is_seed, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.wording import value_words
@@ -71,10 +64,9 @@ def sensitivity(
     -----
     Computed by `scipy.stats.sobol_indices`, the confidence intervals by `scipy.stats.bootstrap`.
     """
-    if not is_number(confidence) or not 0.0 < float(confidence) < 1.0:
-        raise StudyError([Mistake("confidence", literal(confidence), "a number between 0 and 1")])
+    check_confidence(confidence)
     if not is_seed(seed):
-        raise StudyError([Mistake("seed", literal(seed), ALLOWED_SEED)])
+        raise refused("seed", literal(seed), ALLOWED_SEED)
     names, size = _design(dataset)
     own = measures(dataset)
     quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])
@@ -99,9 +91,9 @@ def _of_one(values: xr.DataArray, count: int, size: int, confidence: float, seed
     with Progress(len(rows) * (_RESAMPLES + 2), "sensitivity", "resamples") as progress:
         found = np.array([_indices(row, confidence, seed, progress) for row in rows])
     variables: dict[str, Any] = {}
-    for i, (name, end) in enumerate((name, end) for end in _ENDS for name in _MEANINGS):
-        words = {"long_name": f"Sobol index, {name}{_ENDS[end]}".replace("_", " ")}
-        words |= {"comment": _MEANINGS[name], "units": "1"}
+    for i, (end, name) in enumerate(itertools.product(_ENDS, _MEANINGS)):
+        long_name = f"Sobol index, {name}{_ENDS[end]}".replace("_", " ")
+        words = {"long_name": long_name, "comment": _MEANINGS[name], "units": "1"}
         variables[f"{name}{end}"] = (*axes, "parameter"), found[:, i].reshape(*flat.shape[:-1], -1), words
     both = flat[..., : 2 * size]  # independent points; the others are mixed from these
     variables["mean"] = axes, both.mean(-1), {"long_name": "mean of the quantity"}
@@ -109,21 +101,32 @@ def _of_one(values: xr.DataArray, count: int, size: int, confidence: float, seed
     return xr.Dataset(variables, {axis: values[axis] for axis in axes})
 
 
+def check_confidence(level: object) -> None:
+    """Raise a StudyError unless a value is the level of a confidence interval."""
+    if not 0.0 < plain_number(level) < 1.0:
+        raise refused("confidence", literal(level), "a number between 0 and 1")
+
+
+def check_design(design: str | None, source: str = "") -> None:
+    """Raise a StudyError unless a sample has the design that Sobol indices need."""
+    if design != "saltelli":
+        found = f"the design {design}" if design else "no design"
+        raise refused("sample.design", found, '"saltelli": Sobol indices need its points', source)
+
+
 def _design(dataset: xr.Dataset) -> tuple[list[str], int]:
     """The sampled parameters and the size of the base of a Saltelli design."""
     attributes = dataset[SAMPLE].attrs if SAMPLE in dataset.coords else {}
-    if attributes.get("design") != "saltelli":
-        found = f"the design {attributes['design']}" if "design" in attributes else "no design"
-        raise StudyError([Mistake("sample.design", found, '"saltelli": Sobol indices need its points')])
+    check_design(attributes.get("design"))
     names, size = str(attributes["parameters"]).split(), int(attributes["size"])
     if len(names) < 2:
-        raise StudyError([Mistake("sample.ranges", names[0], "at least two parameters")])
+        raise refused("sample.ranges", names[0], "at least two parameters")
     if dataset.sizes.get(SAMPLE) == size * (len(names) + 2):
         table = np.stack([dataset[name].values for name in names], axis=-1)
         if np.array_equal(table, saltelli(table[:size], table[size : 2 * size])):
             return names, size
     found = f"{dataset.sizes.get(SAMPLE)} of its points, or in another order"
-    raise StudyError([Mistake("sample", found, "all points of a saltelli design, as they were computed")])
+    raise refused("sample", found, "all points of a saltelli design, as they were computed")
 
 
 def _check(name: str, values: xr.DataArray, dataset: xr.Dataset, report: Report) -> None:
@@ -162,19 +165,13 @@ def _indices(rows: NDArray[Any], confidence: float, seed: int, progress: Progres
     n = rows.shape[1]
 
     def both(chosen: NDArray[np.int64]) -> NDArray[Any]:
-        some = rows[:, chosen]
         progress.add()
+        some = rows[:, chosen]
         found = sobol_indices(func={"f_A": some[0], "f_B": some[1], "f_AB": some[2:, None]}, n=n)
         return np.array([found.first_order, found.total_order])
 
     every = np.arange(n)
-    spread = bootstrap(
-        (every,),
-        both,
-        n_resamples=_RESAMPLES,
-        vectorized=False,
-        confidence_level=confidence,
-        method="percentile",
-        random_state=seed,
-    ).confidence_interval
-    return np.concatenate([both(every), spread.low, spread.high])
+    how: dict[str, Any] = {"vectorized": False, "method": "percentile", "random_state": seed}
+    found = bootstrap((every,), both, n_resamples=_RESAMPLES, confidence_level=confidence, **how)
+    ends = found.confidence_interval
+    return np.concatenate([both(every), ends.low, ends.high])

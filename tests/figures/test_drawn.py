@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from solved import REGIMES
 
 import swtstudy
-from swtstudy.figures.lines import _mark_regimes as mark_regimes
 from swtstudy.figures.lines import hue_scale, in_equal_ratios
 from swtstudy.figures.point import draw_slip_map
 from swtstudy.figures.words import tick_in_pi
@@ -81,21 +80,22 @@ def test_equal_ratios():
     assert not in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2))
 
 
-def test_a_regime_is_marked_where_it_begins(axes):
-    x, s = np.arange(7.0), 10.0 * np.arange(7)
-    regimes = ["stick", "partial_slip", None, "gross_slip", "lift_off", "not_finite", "not_finite"]
-    mark_regimes(axes, x, s, regimes)
-    marks = [
-        (line.get_marker(), *map(float, (line.get_xdata()[0], line.get_ydata()[0]))) for line in axes.lines
-    ]
+def test_a_regime_is_marked_where_it_begins():
+    dataset = results(lambda friction: 10.0 * friction, friction=np.arange(7.0))
+    numbers = [*map(REGIMES.index, ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite"))]
+    unknown = [*numbers[:2], np.nan, *numbers[2:], numbers[-1]]
+    dataset["regime"] = dataset.regime.copy(data=unknown)
+    (axes,) = draw(dataset, keys("friction", regimes=True)).axes
+    lines = [line for line in axes.lines if line.get_label().endswith(("begins", "from here on"))]
+    marks = [(line.get_marker(), *map(float, (line.get_xdata()[0], line.get_ydata()[0]))) for line in lines]
     # What is not known begins nowhere; "not finite" is marked at the last point before it.
     assert marks == [("^", 1.0, 10.0), ("s", 4.0, 40.0), ("x", 4.0, 40.0)]
-    words = [line.get_label() for line in axes.lines]
+    words = [line.get_label() for line in lines]
     assert words == ["partial slip begins", "lift-off begins", "not finite from here on"]
-    assert {line.get_color() for line in axes.lines} == {"0.25"}  # of no line: the legend has one for all
+    assert {line.get_color() for line in lines} == {"0.25"}  # of no line: the legend has one for all
     # On white, above lines: they are not buried where many come together.
-    assert {line.get_markerfacecolor() for line in axes.lines} == {"white"}
-    assert min(line.get_zorder() for line in axes.lines) > 2
+    assert {line.get_markerfacecolor() for line in lines} == {"white"}
+    assert min(line.get_zorder() for line in lines) > 2
 
 
 @pytest.mark.parametrize(("end", "rotation"), [(4, 0), (5, 90)])

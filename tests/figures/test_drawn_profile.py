@@ -141,7 +141,7 @@ def test_the_command_draws_a_table_with_a_study(tmp_path, monkeypatch):
     Path("rig.toml").write_text(STUDY, encoding="utf-8")
     drawn = []
     monkeypatch.setattr(
-        PhysicalContact, "draw_profile", lambda contact, *_: drawn.append(contact) or Figure()
+        PhysicalContact, "draw_profile", lambda contact, **_: drawn.append(contact) or Figure()
     )
     arguments = ["show", "rig.toml", "--profile", "tip.csv", "--smoothing", "2e-5"]
     done = CliRunner().invoke(main, arguments)

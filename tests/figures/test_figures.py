@@ -12,7 +12,6 @@ from made_up import PANELS
 from swtstudy import Study, StudyError, run
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import save_figure, style_of
-from swtstudy.figures.surfaces import _colours
 from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.wording import value_words
 
@@ -158,10 +157,11 @@ def test_a_heat_map_has_a_cell_for_each_point(surface):
 
 @pytest.mark.parametrize(("scale", "turned"), [("cividis", "cividis_r"), ("cividis_r", "cividis")])
 def test_long_lives_are_dark_as_a_small_s_is(surface, scale, turned):
-    life = surface.s.isel(phase=0).assign_attrs(surface.s.attrs | {"symbol": "N"})
+    surface["cycles"] = surface.s.assign_attrs(surface.s.attrs | {"symbol": "N"})
+    layout = keys("phase", y=("s", "cycles"), kind="heatmap", vertical="normal_amplitude")
     with mpl.rc_context({"image.cmap": scale}):
-        assert _colours(surface.s) == scale
-        assert _colours(life) == turned
+        meshes = [axes.collections[0] for axes in draw(surface.isel(friction=0), layout).axes[:2]]
+    assert [mesh.get_cmap().name for mesh in meshes] == [scale, turned]
 
 
 @pytest.mark.parametrize(

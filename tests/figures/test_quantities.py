@@ -280,7 +280,7 @@ def test_a_single_point_has_no_figure(dataset):
         ):
             draw()
     names = point.assign_coords(load="two").expand_dims("load")
-    with pytest.raises(ValueError, match="found results with no axis of numbers; allowed: a figure needs"):
+    with pytest.raises(ValueError, match=r"figure\.x: found 'load'; allowed: an axis of numbers"):
         names.swt.panels("load")
 
 

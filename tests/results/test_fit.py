@@ -197,12 +197,13 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     assert float(found.scatter) == pytest.approx(np.exp(best.x[1]) * np.sqrt(8 / 7), rel=5e-3)
     assert found.runout.values.tolist() == runout.astype(int).tolist()
     # In the figure they are open marks that point to longer lives, with a word in the legend.
-    axes = draw_fit(found).axes[0]
+    figure = draw_fit(found)
+    (axes,), (legend,) = figure.axes, figure.legends
     cracked, survived = axes.lines[-2:]
     np.testing.assert_allclose(cracked.get_xdata(), bounds[~runout])
     np.testing.assert_allclose(survived.get_xdata(), bounds[runout])
     assert (survived.get_marker(), survived.get_fillstyle()) == (">", "none")
-    assert [text.get_text() for text in axes.get_legend().texts][-2:] == [
+    assert [text.get_text() for text in legend.get_texts()][-2:] == [
         "tests with a crack",
         "run-outs: no crack so far",
     ]

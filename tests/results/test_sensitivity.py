@@ -9,7 +9,6 @@ from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
 from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.paper.statements.indices import table
-from swtstudy.results.sensitivity import _design
 
 STUDY = """
 title = "Ishigami"
@@ -250,4 +249,4 @@ def test_one_parameter_has_no_share():
     design = {"design": "saltelli", "parameters": "friction", "size": 2}
     dataset = xr.Dataset(coords={"sample": ("sample", np.arange(6), design)})
     with pytest.raises(StudyError, match=r"^sample\.ranges: found friction; allowed: at least two par"):
-        _design(dataset)
+        sensitivity(dataset)
