@@ -94,13 +94,13 @@ def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedPr
 
 @dataclass(frozen=True, repr=False)
 class PhysicalContact:
-    """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
+    """A real contact, or contacts on the grid that sequences of values span, in any consistent set of units.
 
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
     at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
     at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
     ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale``, the unit of the work of friction,
-    and ``force_factor``, the force over E* δ0 a_H. Of several contacts these are DataArrays over the
+    and ``force_factor``, the force over E* δ0 a_H. For several contacts these are DataArrays over the
     dimensions on which they depend.
 
     Attributes
@@ -172,7 +172,7 @@ class PhysicalContact:
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
-        """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
+        """The same bodies at the same R and δ0 with other non-dimensional parameters, which give its lengths.
 
         Raises
         ------
@@ -403,7 +403,7 @@ class PhysicalContact:
             the values of this contact.
         minimise
             A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
-            best is the longest. Of both bodies, and of both directions, that counts which is worse.
+            best is the longest. The worse of both bodies, and of both directions, counts.
         rtol, seed
             As for `swtstudy.optimise`.
         critical_distance, constants, yield_strength
@@ -584,7 +584,7 @@ class PhysicalContact:
 def _labelled(
     name: str, values: FloatArray, like: ArrayLike | xr.DataArray, attributes: dict[str, str]
 ) -> Values:
-    """The values with the dimensions and coordinates of others, if those have any."""
+    """The values with the dimensions and coordinates of others, if there are any."""
     import xarray as xr
 
     if not isinstance(like, xr.DataArray):

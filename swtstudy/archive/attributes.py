@@ -76,7 +76,7 @@ def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
 
 
 def _read(kind: Any, text: object) -> Any:
-    """The value of a type that is written as JSON; a ValueError with the first thing that is wrong in it."""
+    """Read a value of a type from JSON; a ValueError names the first mistake in it."""
     from pydantic import ValidationError
 
     try:
@@ -100,7 +100,7 @@ _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 
 @cache
 def versions() -> str:
-    """Versions of Python, of this package and of those that affect its numbers and files."""
+    """Versions of Python, of this package and of packages that affect its numbers and files."""
     found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
     for name in _PACKAGES:
         try:

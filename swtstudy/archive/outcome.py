@@ -121,7 +121,7 @@ def asked_means(dataset: xr.Dataset, life: str) -> list[str]:
     dataset
         Results.
     life
-        Name of the life at the worst point, which those begin with.
+        Name of the life at the worst point; the names of nonlocal lives begin with it.
     """
     means = [name for name in LIVES if name in dataset and name.startswith(f"{life}_")]
     return [y for y in shown_in(dataset) if y in means] or [n for n in means if n == f"{life}_volume"]
@@ -145,7 +145,7 @@ def _over(life: xr.DataArray) -> Iterator[tuple[str, FloatArray]]:
 
 
 def _ends(lives: FloatArray) -> str:
-    """The longest life and the shortest: those of the least and of the greatest value of the criterion."""
+    """The longest and the shortest life: at the smallest and at the largest value of the criterion."""
     known = lives[~np.isnan(lives)]
     if not known.size:
         return "unknown"

@@ -28,7 +28,7 @@ Variables = dict[str, tuple[Any, Any, dict[str, Any]]]
 _SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
 _MARKED, _APART = 4, 0.08
-#: Letters of the curves at whose extremes instants are marked, those that come first before the others.
+#: Letters of the curves at whose extremes instants are marked, in the order of their importance.
 _LETTERS_OF_PLANE = {"normal_stress": "σ_n", NORMAL_STRAIN.name: "ε_n", SHEAR_STRESS.name: "τ"}
 _LETTERS_OF_LOAD = {"depth": "δ", "displacement": "u"}
 _LETTERS_OF_FORCE = {"normal_force": "F_N", "tangential_force": "F_x"}
@@ -45,7 +45,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     Parameters
     ----------
     **parameters
-        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are those of
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are as in
         Table 1.
 
     Returns
@@ -187,7 +187,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
 
 
 def _instants(cycle: LoadCycle, x: float | None = None) -> FloatArray:
-    """Instants of the cycle for smooth curves, as angles of its period: with events, also those at x/a_H."""
+    """Instants of the cycle for smooth curves, as angles of its period, with events, also at x/a_H."""
     count = max(_UNIFORM * min(cycle.oscillations, _FEW), _SPARSE * cycle.oscillations)
     return np.union1d(cycle.instants(_STEPS, x), 2.0 * np.pi * np.arange(count + 1) / count)
 
@@ -277,7 +277,7 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
     for name, end in itertools.product((*of_plane, normal, tangential), ("largest", "smallest")):
         index = int(curves[name].argmax() if end == "largest" else curves[name].argmin())
         free = len(marked) < _MARKED and distance[index] >= _APART
-        # What makes s is the largest normal stress, and the swing of the strain up to it.
+        # The largest normal stress, and the swing of the strain up to it, make s.
         if free and (name in of_plane or touching[index]) and (name, end) not in _OF_NO_MATTER:
             mark(index, f"{letters[name]} {end}")
     moving = curves[of_plane[-1] if of_plane else tangential]

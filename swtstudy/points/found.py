@@ -64,7 +64,7 @@ class Found:
     arrays
         By name: ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the solver finds;
         ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point failed;
-        ``seconds`` of computing; and quantities, those over critical distances with ``distance``, shape
+        ``seconds`` of computing; and quantities, nonlocal ones with their critical ``distance``, shape
         (n, k), in a_H: NaN where nothing is known of it.
     runs
         The runs that made them.
@@ -136,10 +136,10 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
 
 
 def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
-    """All that is known of each of some points: "missing" where that is nothing.
+    """Known values of each of some points: "missing" where there are none.
 
-    One row may stand for contacts of several sizes, each of which has critical distances of its own: what is
-    about these is looked up by row and distance.
+    One row may stand for contacts of several sizes, each with critical distances of its own: values
+    at these are looked up by row and distance.
     """
     found, at = Found.blank(points.rows), look_up(points.rows, known, candidates)
     found.runs, there = known.runs, np.flatnonzero(at >= 0)

@@ -1,4 +1,4 @@
-"""A table of a profile f(r), and what is made of it once."""
+"""A table of a profile f(r), and its fit, which is computed once."""
 
 from __future__ import annotations
 

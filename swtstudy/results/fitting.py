@@ -81,13 +81,13 @@ def fit(
     """The critical distance with which predicted lives are nearest to the tests' lives.
 
     Maximum likelihood with normally distributed log10 N: least squares of log10 of predicted over observed
-    life if all tests ended with a crack. The life of a run-out is known to be above its number of cycles: it
+    life if all tests ended with a crack. The life of a run-out is above its number of cycles, and
     counts by the probability of that.
 
     Parameters
     ----------
     study
-        A study file with units and constants: what all tests have in common. Its axes, sample and figure do
+        A study file with units and constants, common to all tests. Its axes, sample and figure do
         not count, nor what the table of tests gives.
     tests
         A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the load
@@ -113,7 +113,7 @@ def fit(
     Raises
     ------
     StudyError
-        A ValueError with every mistake; also if the best distance is at an end of those that were tried.
+        A ValueError with every mistake; also if the best distance is at an end of the tried distances.
     """
     if y not in NONLOCAL_LIVES:
         raise StudyError([Mistake("y", literal(y), nearest(str(y), NONLOCAL_LIVES))])
@@ -156,7 +156,7 @@ class _Tests(NamedTuple):
     distances
         Critical distances at which lives are computed.
     known
-        log10 of the lives over the logarithm of the distance, by friction; None is the study's. Of a trial
+        log10 of the lives over the logarithm of the distance, by friction; None is the study's. For a trial
         friction as far as all lives are finite, and None if they are so at fewer than four distances.
     """
 
@@ -169,7 +169,7 @@ class _Tests(NamedTuple):
 
     @classmethod
     def of(cls, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> _Tests:
-        """Distances are those up to the first at which a test has no finite life at the study's friction.
+        """Distances reach up to the first at which a test has no finite life at the study's friction.
 
         Deep beneath the surface there may be no tension.
         """
@@ -393,7 +393,7 @@ def _observed(
 
 
 def _of_parameters(columns: Mapping[str, list[Any]]) -> dict[str, list[Any]]:
-    """The columns of parameters, and those with misspelt names, which are reported as such."""
+    """The columns of parameters, and columns with misspelt names, which are reported as such."""
     others = [
         name
         for name in columns

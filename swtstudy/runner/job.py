@@ -1,4 +1,4 @@
-"""One study on its way to its archive: what is known, what is computed and saved, and the file."""
+"""One run of a study: its known, computed and saved points, and its archive."""
 
 from __future__ import annotations
 

@@ -142,7 +142,7 @@ def run_and_draw(
     width: Width | None = None,
     **options: Any,
 ) -> None:
-    """Run studies with the same workers, and draw the figures of those that have one beside their archives.
+    """Run studies with the same workers, and draw the figures that they have beside their archives.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Workers: threads of this process, local processes with one BLAS thread each, or workers of a dask cluster.
 
 Each kind is used in a with block. It has ``submit`` as an executor has; ``size``, the number of tasks that
-run at the same time; ``lost``, the exceptions of tasks that were lost with a worker; ``gone``, those that say
+run at the same time; ``lost``, the exceptions of tasks that a worker lost; ``gone``, errors that say
 that all workers are lost; and ``renew``, which drops all tasks after a loss.
 """
 

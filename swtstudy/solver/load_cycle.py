@@ -132,7 +132,7 @@ class LoadCycle:
         return found
 
     def instants(self, steps: int, x: float | None = None) -> FloatArray:
-        """Cosine-spaced angles φ between the events of the cycle, those at x/a_H among them, ascending."""
+        """Cosine-spaced angles φ between the events of the cycle, also the events at x/a_H, ascending."""
         cycle, growth, _, history, _, tables = self.memory
         load = self.load
         times = cycle.time[: cycle.stretches]

@@ -108,7 +108,7 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> Mea
             for kind, means in _largest(opened, critical, s, float(each)).items():
                 for end, own in zip(ENDS, means.T, strict=True):
                     found[f"{kind}{end}"][row, k] = own[0] if kind == "volume" else own
-    # Where s is 0, or the bulk stress alone makes it far from the contact, no mean anywhere is larger.
+    # If s is 0, or the bulk stress alone makes it far from the contact, no mean anywhere is larger.
     rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
     for kind in KINDS:
         for name, of in ((kind, solution.s), (f"{kind}_error", solution.s_error)):

@@ -386,7 +386,7 @@ def one_of_study(
 
 
 def _firsts_of_sample(parts: Parts, folder: Path) -> dict[str, object]:
-    """The first values of the parameters that a study samples; None for those with mistakes."""
+    """The first values of the parameters that a study samples; None for parameters with mistakes."""
     if parts.sample is None:
         return {}
     from swtstudy.study.sample import read_sample

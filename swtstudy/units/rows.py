@@ -1,6 +1,6 @@
 """The parameters of real contacts, with their units and scales.
 
-A study labels its units of length, force and stress: any consistent set. The rows are as those of
+A study labels its units of length, force and stress: any consistent set. The rows are like the rows of
 `swtstudy.vocabulary.parameters.PARAMETERS`. The scales are the units of a contact's lengths, forces and
 stresses, and the way there and back.
 """
@@ -189,7 +189,7 @@ def length_of(name: str, number: Any, contact: Contact) -> Any:
 
 
 def least_depths(contact: Contact) -> dict[str, float]:
-    """The depths below which shape parameters are beyond their range, for those that grow as it falls."""
+    """The depths below which shape parameters are beyond their range, if they grow as it falls."""
     return {
         name: contact.depth * (number_of(name, length, contact) / PARAMETERS[name].upper) ** (1.0 / power)
         for name, length in contact.shape.items()

@@ -222,7 +222,7 @@ PARAMETERS: dict[str, Parameter] = {
     )
 }
 
-#: Names by letter, the first one of those that share it.
+#: Names by letter; if names share a letter, the first of them.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
 
 

@@ -48,7 +48,7 @@ for _name, _meaning, _flags in (
 ):
     _values = {"flag_values": np.arange(len(_flags), dtype=np.int8), "flag_meanings": " ".join(_flags)}
     _ATTRIBUTES[_name] = {"long_name": _meaning, **_values}
-#: Columns of the rows that an audit holds, the cost of a loop being known with the loop; and those of names.
+#: Columns of the rows that an audit holds, without the cost, known with the loop; and columns of names.
 _COLUMNS = [name for name in COLUMNS if name != COST]
 _NAMES = ("profile", "criterion", "load")
 
