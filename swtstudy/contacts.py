@@ -682,7 +682,7 @@ def physical(
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
-    sequence of values: then it is all contacts on the grid that these span.
+    sequence of values; the result then covers every combination of the values.
 
     Parameters
     ----------
@@ -696,24 +696,24 @@ def physical(
         A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
     findley_limit
         A stress, of both bodies or a pair: with the criterion "findley" results have findley_usage, the
-        Findley stress over it.
+        Findley stress divided by this limit.
     shear_constants
         `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
-        Unless given they are estimated from the constants that ``solve`` is given.
+        By default they are estimated from the tensile constants of ``solve``.
     **parameters
         The names below. young_modulus and poisson_ratio are one value for two equal bodies, or a pair; these,
         radius, and either depth or normal_force must be given. The power law is f = rⁿ/(n Rⁿ⁻¹), with the
         slope 1 at r = R. There is no radius for a profile that is a `TabulatedProfile`: its radii and heights
         are lengths, the heights belong to both bodies together. With contact_length the loads of a plane
-        contact are forces, without it forces per length; plane contacts take forces alone, and a constant
-        normal load unless told otherwise. bulk_stress_ratio replaces bulk_stress_mean.
+        contact are forces, without it forces per length. Plane contacts take only forces, with a constant
+        normal load by default. bulk_stress_ratio replaces bulk_stress_mean.
         Parameters with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
         waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
         bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
-        its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
+        its column then has stresses. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
 
     Returns

@@ -51,7 +51,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        What `swtstudy.solve` gives, and
+        The results of `swtstudy.solve`, and
 
         - over time (ω1 t; of a loop the angle of its period): depth δ/δ0, displacement G*u/(μE*δ0) (these two
           not of plane contacts),

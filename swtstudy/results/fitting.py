@@ -88,7 +88,7 @@ def fit(
     ----------
     study
         A study file with units and constants, common to all tests. Its axes, sample and figure do
-        not count, nor what the table of tests gives.
+        not count, nor do parameters that the table of tests gives.
     tests
         A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the load
         cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or with 1
@@ -97,9 +97,9 @@ def fit(
         Name of the predicted life: "cycles_volume", "cycles_point" or "cycles_line", the latter two straight
         down; with ``FS_`` before the name, a life by the criterion of Fatemi and Socie.
     friction
-        Whether friction is fitted, too; the study's is where that begins.
+        Whether friction is fitted, too, starting from the study's friction.
     confidence
-        Level of the intervals, which hold for small residuals: from the curvature of the likelihood, and
+        Level of the intervals, which hold for small residuals; from the curvature of the likelihood and
         Student's t.
 
     Returns

@@ -482,7 +482,7 @@ def optimise(
     over
         Ranges by name, ``(low, high)``, of parameters that are numbers. Ends may be texts such as "2*pi".
     minimise
-        The data variable that is made least, "s" by default; or a quantity of
+        The data variable to be minimised, "s" by default; or a quantity of
         `swtstudy.vocabulary.quantities.NAMED`.
     rtol
         Relative accuracy asked of s.
@@ -494,8 +494,8 @@ def optimise(
     Returns
     -------
     xarray.Dataset
-        Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the least and at the
-        greatest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
+        Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the smallest and at the
+        largest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
         found: ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress``
         over ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through
         the point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
