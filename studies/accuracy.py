@@ -97,7 +97,7 @@ def points_at_ends(profile: str, count: int, seed: int, largest_term: int = 8) -
 
 
 def rows(points: Points) -> tuple[list[str], list[str]]:
-    """Lines of the table for the points of one profile, and of that of the points that miss s_error."""
+    """Lines of the table for the points of one profile, and of the table of points that miss s_error."""
     tight = solve_points(points, REFERENCE_RTOL)
     regular = np.flatnonzero(tight.s > 0.0)
     reference, of_reference = tight.s[regular], tight.s_error[regular]

@@ -1,6 +1,6 @@
 """The best normal oscillation for a given tangential one, at each ratio of their frequencies.
 
-What comes out: at ω2/ω1 = 1/2 the best normal oscillation takes 56 % off s, and the worst, which is as large,
+Result: at ω2/ω1 = 1/2 the best normal oscillation takes 56 % off s, and the worst, which is as large,
 adds 79 %: the phase alone decides. At 1 the best takes off 26 %, and the worst adds 32 %. At 3/2 and 2 none
 helps, whatever its phase and amplitude, and the worst adds 99 and 47 %.
 Run from the project's folder: ``python studies/best_load.py``; it writes results/best_load.md, and
@@ -33,7 +33,7 @@ LARGEST = 0.9
 FINE, COARSE = (37, 145), (3, 5)
 #: s over that without a normal oscillation: steps of the map.
 LEVELS = np.arange(4, 21) / 10
-#: Of ratios from 0 to 2, so that both sides of 1 are told apart.
+#: Colours of ratios from 0 to 2, so that both sides of 1 are told apart.
 COLOURS = ListedColormap(colormaps["PuOr_r"](0.25 * (LEVELS[:-1] + LEVELS[1:])))
 MARKS: dict[str, dict[str, Any]] = {
     "best": {"marker": "*", "markersize": 13, "color": "white", "markeredgecolor": "black", "linestyle": ""},

@@ -1,6 +1,6 @@
 """Prescribed forces beside prescribed displacements of the same mean load and the same amplitude ratios.
 
-What comes out: forces give a lower s, by 3 to 35 %, because equal ratios of forces mean smaller motions
+Result: forces give a lower s, by 3 to 35 %, because equal ratios of forces mean smaller motions
 (depth and displacement change less than in proportion), and in most cases a greater influence of the phase.
 Run from the project's folder: ``python studies/force_control.py``; it reads studies/force_control.toml and
 writes results/force_and_displacement.png.
@@ -20,7 +20,7 @@ from swtstudy.figures.words import tick_in_pi
 from swtstudy.vocabulary.wording import place_words
 
 STUDY = Path(__file__).with_suffix(".toml")
-#: The displacement in the place of each force.
+#: The displacement that replaces each force.
 PAIRS = {"normal_force_amplitude": "normal_amplitude", "tangential_force_amplitude": "tangential_amplitude"}
 
 

@@ -170,7 +170,7 @@ def _in_plane(ν: Array, r: Array, share: Array | float) -> tuple[Array, Array]:
     return np.asarray(r * (i + ν * j)), np.asarray(r * ν * (i - j))
 
 
-#: What the kernel works with.
+#: Memory for the kernel.
 _MEMORY, _CONJUGATE = workspace(), new_record(CONJUGATE)
 
 

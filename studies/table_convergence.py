@@ -1,4 +1,4 @@
-"""How s of a table comes near that of the closed form, over the number of its points and over its noise.
+"""How s of a table approaches s of the closed form, against the number of its points and over its noise.
 
 A rounded punch, a wavy paraboloid, and in the plane a flat with rounded edges and a cylinder, as tables of 25
 to 2,000 points, and a paraboloid with noisy heights that are smoothed by as much, each at points all over the

@@ -5,10 +5,10 @@ It also writes thresholds_35NCD16.png, into ``--results``.
 
 Loads, thresholds of the amplitude Q of the tangential load at which cracks stop to start, and the von Mises
 stresses that were published with them: ICF13, paper 952 (52100 cylinders, E = 205 GPa, ν = 0.3, constant P,
-bulk stress in phase). PF are tests without a bulk stress, FF those with one. The coefficient of friction is
-0.8 in all of them. Stresses are those at the trailing edge of the contact, at the surface and beneath it.
+bulk stress in phase). PF are tests without a bulk stress, FF with one. The coefficient of friction is
+0.8 in all of them. Stresses are at the trailing edge of the contact, at the surface and beneath it.
 The column e/(a - c) is ``bulk_shift_ratio``: how far the bulk stress moves the stick zone. The last table is
-that with the stick zone in place.
+the same with the stick zone in place.
 """
 
 from __future__ import annotations

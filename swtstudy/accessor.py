@@ -79,7 +79,7 @@ class SwtAccessor:
         return f"<pre>{escape(repr(self))}</pre>"
 
     def validity(self, inside: bool = False) -> tuple[str, ...]:
-        """Where the results are outside of what the model holds for: none where all is well.
+        """Report where the results are outside of the model's limits: none if all is well.
 
         Parameters
         ----------
@@ -191,7 +191,7 @@ class SwtAccessor:
             Largest distance from the nearest value of the axis, relative to the larger of the two.
         **places
             By name: a single value, whose dimension becomes a scalar coordinate, or a sequence of values,
-            whose dimension is kept; of a sample those points remain that have one of the values. Values are
+            whose dimension is kept; a sample keeps the points that have one of the values. Values are
             written as in a study file: "pi/2", "3/2", 0.75, "rounded_punch".
 
         Returns
@@ -202,7 +202,7 @@ class SwtAccessor:
         Raises
         ------
         StudyError
-            A ValueError with every name and value that the results lack, and those that they have.
+            A ValueError with every name and value that the results lack, and all that they have.
         """
         from swtstudy.results.evaluate import slice_at
 

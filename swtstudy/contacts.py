@@ -99,13 +99,13 @@ def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedPr
 
 @dataclass(frozen=True, repr=False)
 class PhysicalContact:
-    """A real contact, or those on the grid that sequences of values span, in any consistent set of units.
+    """A real contact, or contacts on the grid that sequences of values span, in any consistent set of units.
 
     Each parameter is an attribute, None where another one is given in its place; so is what the contact is
     at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
     at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
     ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale``, the unit of the work of friction,
-    and ``force_factor``, the force over E* δ0 a_H. Of several contacts these are DataArrays over the
+    and ``force_factor``, the force over E* δ0 a_H. For several contacts these are DataArrays over the
     dimensions on which they depend.
 
     Attributes
@@ -208,7 +208,7 @@ class PhysicalContact:
         return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
 
     def with_parameters(self, **parameters: Any) -> PhysicalContact:
-        """The same bodies at the same R and δ0 with other non-dimensional parameters: lengths from those.
+        """The same bodies at the same R and δ0 with other non-dimensional parameters, which give its lengths.
 
         Raises
         ------
@@ -439,7 +439,7 @@ class PhysicalContact:
             the values of this contact.
         minimise
             A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
-            best is the longest. Of both bodies, and of both directions, that counts which is worse.
+            best is the longest. The worse of both bodies, and of both directions, counts.
         rtol, seed
             As for `swtstudy.optimise`.
         critical_distance, constants, yield_strength
@@ -743,7 +743,7 @@ def physical(
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
-    sequence of values: then it is all contacts on the grid that these span.
+    sequence of values; the result then covers every combination of the values.
 
     Parameters
     ----------
@@ -757,24 +757,24 @@ def physical(
         A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
     findley_limit
         A stress, of both bodies or a pair: with the criterion "findley" results have findley_usage, the
-        Findley stress over it.
+        Findley stress divided by this limit.
     shear_constants
         `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
-        Unless given they are estimated from the constants that ``solve`` is given.
+        By default they are estimated from the tensile constants of ``solve``.
     **parameters
         The names below. young_modulus and poisson_ratio are one value for two equal bodies, or a pair; these,
         radius, and either depth or normal_force must be given. The power law is f = rⁿ/(n Rⁿ⁻¹), with the
         slope 1 at r = R. There is no radius for a profile that is a `TabulatedProfile`: its radii and heights
         are lengths, the heights belong to both bodies together. With contact_length the loads of a plane
-        contact are forces, without it forces per length; plane contacts take forces alone, and a constant
-        normal load unless told otherwise. bulk_stress_ratio replaces bulk_stress_mean.
+        contact are forces, without it forces per length. Plane contacts take only forces, with a constant
+        normal load by default. bulk_stress_ratio replaces bulk_stress_mean.
         Parameters with a scale are lengths:
         tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
         given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
         them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
         waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
         bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
-        its column is one of stresses then. Angles, numbers, frequency_ratio, profile and exponent
+        its column then has stresses. Angles, numbers, frequency_ratio, profile and exponent
         are as for `swtstudy.solve`.
 
     Returns

@@ -53,7 +53,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN. Nor is
         there where the bulk stress alone makes s, far from the contact: critical_x is NaN. With a
         bulk_stress_amplitude there is bulk_shift, too: by how much, in a_H, the bulk strain would move the
-        stick zone, and stick_zone: whether s has that shift. Where it has not, s is too low at the edge in
+        stick zone, and stick_zone: whether s has that shift. If it has not, s is too low at the edge in
         tension: bulk_shift_ratio tells by how much.
 
     Raises

@@ -42,7 +42,7 @@ def spring_depth(point: Points, radius: FloatArray) -> FloatArray:
 
 
 def radius_at(point: Points, depth: float) -> float:
-    """The radius at which springs have a depth, by bisection; that of the face at 0."""
+    """The radius at which springs have a depth, by bisection; the radius of the face at 0."""
     b = point.shape["flat_radius"].item() if "flat_radius" in point.shape else 0.0
     if depth <= 0.0:
         return float(b)
@@ -135,7 +135,7 @@ class _Course(NamedTuple):
 
 
 def _with_turns(time: FloatArray, course: _Course) -> FloatArray:
-    """The instants with those at which u, δ, u + δ or u − δ turns."""
+    """The instants, and the instants at which u, δ, u + δ or u − δ turns."""
     mixes = np.array([[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]])
     falls = mixes @ np.stack(course.rates(time)) < 0.0
     mix, step = np.nonzero(falls[:, 1:] != falls[:, :-1])
@@ -149,7 +149,7 @@ def _with_turns(time: FloatArray, course: _Course) -> FloatArray:
 
 
 def _with_events(time: FloatArray, course: _Course, g: FloatArray) -> FloatArray:
-    """The instants with those at which the contact's edge passes springs, and at which they begin to slip."""
+    """The instants, and the instants at which the edge passes springs, and at which they begin to slip."""
     depth, displacement = course.depth, course.displacement
     edge = depth(time)[:, None] > g
     step, where = np.nonzero(edge[1:] != edge[:-1])

@@ -44,7 +44,7 @@ class Altered(SourceFileLoader):
 
 
 def assigned(tree: ast.Module, constant: str) -> Iterator[tuple[ast.Assign, int | None, ast.expr]]:
-    """Where a module gives a constant its value: the statement, the place in it, the value."""
+    """Find where a module gives a constant its value: the statement, the place in it, the value."""
     for node in tree.body:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Tuple):
             for at, target in enumerate(node.targets[0].elts):

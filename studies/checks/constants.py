@@ -1,7 +1,7 @@
-"""What each tuning constant of the solver is good for: s and time with it halved, doubled or taken away.
+"""Effect of each tuning constant of the solver: s and time with it halved, doubled or taken away.
 
 ``python studies/checks/constants.py [part of a name ...] [--points a profile]`` writes results/constants.md:
-all that the code says of constants, their tests among it, and what other values of those so named do, if
+all that the code says of constants, their tests among it, and effects of other values of named constants, if
 there are names.
 A constant's module is compiled with another value of it, in a process of its own, so that all that is made
 from it follows.
@@ -69,7 +69,7 @@ def comments() -> Iterator[str]:
 
 
 class Sample:
-    """What a sample of points says about altered constants."""
+    """A sample of points that tests altered constants."""
 
     def __init__(self, kind: str, count: int) -> None:
         self.kind, self.count = kind, count

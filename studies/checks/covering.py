@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-#: What the plugin writes to, in the environment of the tests.
+#: Name of the plugin's file, in the environment of the tests.
 TARGET = "COVERING"
 
 #: Marks what fixtures run before a test.
@@ -60,7 +60,7 @@ if TARGET in os.environ:
 
 
 class Covered:
-    """What the plugin has written, in one file or in several."""
+    """Read the output of the plugin, in one file or in several."""
 
     def __init__(self, files: Iterable[Path], project: Path) -> None:
         self.project = project
@@ -77,7 +77,7 @@ class Covered:
         """The tests of a line, quickest first, as many as the time allows, and how long they take.
 
         A line that no test runs by itself has the tests of its file, or of its folder. A line of compiled
-        code, of which nobody knows when it runs, has those of its folder.
+        code, of which nobody knows when it runs, has the tests of its folder.
         """
         span, inside, compiled = _statement((self.project / file).read_text(encoding="utf-8"), line)
         lines = self.lines[file]
@@ -86,7 +86,7 @@ class Covered:
         if compiled or not found:
             beside = [source for source in self.lines if Path(source).parent == Path(file).parent]
             found = _together(tests for source in beside for tests in self.lines[source].values())
-        # What a fixture runs may be for all tests of the file.
+        # Lines that a fixture runs may be for all tests of the file.
         fixtures = {test.split("::")[0] for test in found if test.endswith(_SETUP)}
         chosen, spent = [], 0.0
         for test in sorted(self.seconds, key=self.seconds.__getitem__):

@@ -32,7 +32,7 @@ AXES = {
     "figure8": "waviness_amplitude",
     "other_frequencies": "phase",
 }
-#: What of a point is not told by `swtstudy.solve`.
+#: Arguments of a point that `swtstudy.solve` does not have.
 OTHERS = ("control",)
 #: Extremes are looked for on curves of so many times the steps.
 FINER = 4
@@ -80,7 +80,7 @@ def without_also(study: Study) -> Study:
 
 
 def missed(study: Study, axis: str, times: int) -> Iterator[tuple[float, float, float]]:
-    """Place of each extreme of each curve, and by which share all points and those of equal steps miss it."""
+    """Place of each extreme of each curve, and the shares by which all points, or equal steps, miss it."""
     with tempfile.TemporaryDirectory() as folder:
         dataset = run(finer(study, times), Path(folder) / "curves.nc")
     x = dataset[axis].values

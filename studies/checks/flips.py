@@ -43,7 +43,7 @@ def places(content: bytes) -> list[int]:
 
 
 def what_opens(sound: Path, at: int, flip: int) -> str:
-    """What comes of opening an archive with one byte changed."""
+    """Open an archive with one byte changed, and name the outcome."""
     content = bytearray(sound.read_bytes())
     content[at] ^= flip
     changed = sound.with_stem("changed")

@@ -70,7 +70,7 @@ def room_of(module: str) -> str:
 
 
 def counts(path: Path) -> Counter[str]:
-    """What one file adds to the columns."""
+    """Count what one file adds to the columns."""
     text = path.read_text(encoding="utf-8")
     tree = ast.parse(text)
     found = Counter(dict.fromkeys(COLUMNS, 0))
@@ -110,7 +110,7 @@ def imports_of_package(node: ast.AST) -> bool:
 
 
 def numbers_in(node: ast.stmt) -> list[float]:
-    """Numbers, but 0 and 1, of a constant of a module, in capitals; not those of tables of names or texts."""
+    """Numbers, but 0 and 1, of a constant of a module, in capitals; not in tables of names or texts."""
     if not isinstance(node, ast.Assign | ast.AnnAssign) or node.value is None:
         return []
     targets = node.targets if isinstance(node, ast.Assign) else [node.target]

@@ -108,7 +108,7 @@ def kills_of_runs(folder: Path, text: str, limit: int, dice: random.Random) -> N
             saved = points_saved(parts_folder(path))
             assert saved >= before, "saved points were lost"
             lost = computed(log) - done - (saved - before)
-            # What is in flight is lost when a worker is killed, and again when the parent is.
+            # Chunks in flight are lost when a worker is killed, and again when the parent is killed.
             bound = (2 if whom == "a worker" else 1) * IN_FLIGHT * largest_chunk(log)
             assert lost <= bound, "more was lost than what was in flight"
             all_lost += lost

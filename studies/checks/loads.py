@@ -1,9 +1,9 @@
-"""How s of a sampled cycle comes near that of the harmonic one, and what other loads cost beside that.
+"""How s of a sampled cycle approaches s of the harmonic cycle, and what other loads cost.
 
 ``python studies/checks/loads.py`` writes results/loads.png: s of polygons of 16 to 512 vertices on the
-harmonic cycle over that of the cycle itself, with 1/k, at Table 1 and at random amplitudes and frictions; and
+harmonic cycle over s of the cycle itself, with 1/k, at Table 1 and at random amplitudes and frictions; and
 results/loads.md: the same as numbers, and processor times of prescribed forces, mixed control and polygons
-over that of two harmonic displacements, in batches, as medians of paired ratios. s of the polygon converges
+over the time of two harmonic displacements, in batches: medians of paired ratios. s of the polygon converges
 like 1/k at some points, to either side, with where the vertices are beside the turning points of the cycle:
 what is lost of an amplitude is like 1/k², and stress is like the root of the distance from an edge.
 """
@@ -79,7 +79,7 @@ def differences(points: Points, counts: tuple[int, ...]) -> Array:
 
 
 def paired(call: Callable[[], object], base: Callable[[], object], pairs: int) -> tuple[float, float]:
-    """Median of the processor time over that of the base, and the median time, s."""
+    """Median of the processor time over the time of the base, and the median time, s."""
     times = np.array([[_seconds(each) for each in (call, base)] for _ in range(pairs)])
     return float(np.median(times[:, 0] / times[:, 1])), float(np.median(times[:, 0]))
 

@@ -2,7 +2,7 @@
 
 python studies/checks/mutants.py --size 300 --seed 2
 
-The changes are those of mutmut, which would make every change there is, for days; here each room of the
+The changes are the changes of mutmut, which would make every change there is, for days; here each room of the
 package has its share of a sample. A copy of the project is changed at one place, and the tests that cover the
 place run, quickest first, until one fails; what they cover is found out before. Slow tests and tests of pages
 do not run. Reasons why some changes may live stand in mutants_that_may_live.toml.
@@ -35,10 +35,10 @@ PROJECT = HERE.parents[1]
 #: The quick suite.
 OPTIONS = ["-q", "-p", "no:cacheprovider", "--hypothesis-seed=0", "-m", "not slow and not pages"]
 
-#: To collect many files of tests takes longer than most tests: those of so few are tried before all others.
+#: To collect many files of tests takes longer than most tests: so few files are tried before all others.
 FIRST_FILES = 3
 
-#: So many times the time of the first tests have those that come last.
+#: The last tests have so many times the time of the first tests.
 LAST = 10
 
 #: How a mutant ends.
@@ -46,7 +46,7 @@ KINDS = ("killed", "timeout", "survived", "may live")
 
 
 def copy_of_project(folder: str) -> None:
-    """What each process changes: a copy of the project of its own."""
+    """The copy of the project that each process changes."""
     global tree
     tree = Path(folder) / str(os.getpid())
     ignored = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".*_cache", ".hypothesis")
@@ -80,7 +80,7 @@ def cover(names: list[str], target: Path) -> None:
 
 
 def outcome(mutant: Mutant, tests: list[str], seconds: float) -> str:
-    """What the tests say of a mutant."""
+    """Outcome of the tests for a mutant."""
     file = tree / mutant.file
     original, old = file.read_text(encoding="utf-8"), file.stat()
     file.write_text(mutant.text, encoding="utf-8")
@@ -154,7 +154,7 @@ def main() -> None:
             known = Covered(covered.iterdir(), PROJECT)
             mutants = sample(PROJECT, package, arguments.size, random.Random(arguments.seed))
             results = dict.fromkeys(mutants, "survived")
-            # What the quickest tests do not notice all others may.
+            # Other tests may notice what the quickest tests do not.
             for limit in (arguments.limit, LAST * arguments.limit):
                 left = [mutant for mutant, kind in results.items() if kind == "survived"]
                 tests = [known.tests(mutant.file, mutant.line, limit) for mutant in left]

@@ -86,7 +86,7 @@ class _Walk(cst.CSTVisitor):
 
 
 def _tells_nothing(node: cst.CSTNode) -> bool:
-    """What has no effect, or none that a test should hold: types, sentences for a reader, zip's strict."""
+    """True without an effect that a test should check: types, sentences for a reader, zip's strict."""
     if isinstance(node, cst.SimpleString):
         return " " in node.value
     if isinstance(node, cst.Arg) and node.keyword:

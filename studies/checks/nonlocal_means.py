@@ -1,4 +1,4 @@
-"""What nonlocal means cost, and whether they are within their claimed errors.
+"""Cost of nonlocal means, and whether they are within their claimed errors.
 
 ``python studies/checks/nonlocal_means.py`` writes results/nonlocal_means.md:
 
@@ -99,7 +99,7 @@ def worn() -> TabulatedProfile:
 
 
 def random_points(profile: str) -> Iterator[tuple[Points, float]]:
-    """Single points all over the parameters, and a distance each; only those with a critical point."""
+    """Single points all over the parameters, with a distance each; only points with a critical point."""
     rng = np.random.default_rng([SEED, list(SHAPES).index(profile)])
     while True:
         (p, q), u = RATIOS[rng.integers(len(RATIOS))], rng.uniform
@@ -223,7 +223,7 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
 
 
 def sweep(file: Path, count: int) -> FloatArray:
-    """Ratios at so many points of each profile, (profiles, count, 4, 5); those in the file are done."""
+    """Ratios at so many points of each profile, (profiles, count, 4, 5); points in the file are done."""
     done: dict[tuple[str, int], FloatArray] = {}
     if file.exists():
         with open(file, encoding="utf-8", newline="") as text:

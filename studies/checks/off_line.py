@@ -1,8 +1,8 @@
 """Is a maximum overlooked off the line? s_surface, the body's maximum and means against dense looks.
 
 ``python studies/checks/off_line.py``, from the project folder, writes results/off_line.md. The points are
-those of ``overlooked.py``, of another seed: on circles with ν > 0.35, where s_surface is searched for, or a
-bulk stress; the means are those over the half sphere about the critical point, with distances logarithmic
+as in ``overlooked.py``, with another seed: on circles with ν > 0.35, where s_surface is searched for, or a
+bulk stress; the means are over the half sphere about the critical point, with distances logarithmic
 over 0.01–0.2 a_H, held against a dense rule with places of its own, and where these differ, against the
 plain mean over places that fill the half sphere evenly, if its halves agree. results/off_line.csv keeps
 what is found of each kind and scene as soon as it is, so that ``--kinds mean`` looks at the means alone, and
@@ -50,7 +50,7 @@ COUNTS = {
     "Walker's exponent": (100, 80, 100),
 }
 SEED = 3
-#: What is looked at, its title, and the share by which a dense look may be higher: what is claimed.
+#: Tested value, its title, and the share by which a dense grid may be higher: the claim.
 KINDS = {
     "circle": ("s_surface", 1e-4),
     "body": ("The body's maximum", 1e-4),
@@ -177,7 +177,7 @@ def shortfalls(task: tuple[str, int, str]) -> tuple[str, str, Array]:
                     allowed = KINDS[kind][1]
                     if abs(1.0 - found / dense) > allowed:
                         plain, spread = plain_mean(open_cycle(**arguments_of(own)), x, distance)
-                        # Where the mean is a thousandth of swt, few of the even places show any.
+                        # If the mean is a thousandth of swt, few of the even places show any.
                         dense = plain if spread < allowed * plain else dense
                 elif kind == "body":
                     found = body_maximum(own, float(x[0]))[0].swt
@@ -214,7 +214,7 @@ def lines(found: list[tuple[str, str, Array]], before: str = "") -> Iterator[str
 
 
 def keep(file: Path, name: str, kind: str, low: Array) -> list[tuple[str, str, Array]]:
-    """Put what is found in the place of what was known of its scene and kind, and return all, in order."""
+    """Replace the known values of a scene and kind by the new ones, and return all, in order."""
     rows = {(name, kind): low.tolist()}
     if file.exists():
         with file.open(encoding="utf-8") as known:

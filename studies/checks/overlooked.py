@@ -184,7 +184,7 @@ def shortfall(tasks: list[Task]) -> list[tuple[Chunk, Dense, Array, list[str]]]:
 
 
 def _solved(several: list[Points], rtol: float) -> list[Solution]:
-    """The solutions of chunks, of which those that are alike are solved together: that is faster."""
+    """The solutions of chunks; similar chunks are solved together, which is faster."""
     # A table, and a loop, is each of a chunk of its own.
     kinds = [
         (name if isinstance(name := points.profile, str) else id(name), points.control, id(points.path))
@@ -215,7 +215,7 @@ def _compared(name: str, points: Points, solved: list[Solution], look: Dense) ->
 
 
 def _dense(points: Points, some: NDArray[np.bool_]) -> Dense:
-    """What the dense look finds at some of the points, and where; NaN at the others."""
+    """Value and place that the dense grid finds at some of the points; NaN at the others."""
     found = np.full((2, some.size), np.nan)
     longer = 1 if points.path is None else max(len(points.path.vertices) // INTERVALS, 1)
     for k in np.flatnonzero(some):
@@ -224,7 +224,7 @@ def _dense(points: Points, some: NDArray[np.bool_]) -> Dense:
 
 
 def known_looks(file: Path) -> dict[Chunk, Dense]:
-    """What dense looks have found, by chunk."""
+    """Values of dense grids, by chunk."""
     looks: dict[Chunk, list[tuple[float, float]]] = {}
     if file.exists():
         with file.open(encoding="utf-8") as rows:
@@ -235,7 +235,7 @@ def known_looks(file: Path) -> dict[Chunk, Dense]:
 
 
 def keep(file: Path, chunk: Chunk, look: Dense) -> None:
-    """Add what a dense look has found to those of before."""
+    """Add the values of a dense grid to the earlier ones."""
     new = not file.exists()
     with file.open("a", encoding="utf-8", newline="") as rows:
         table = csv.writer(rows, lineterminator="\n")

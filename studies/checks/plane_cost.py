@@ -1,4 +1,4 @@
-"""What a value of a cylinder costs, against one of a paraboloid under the same forces.
+"""Cost of a value of a cylinder, compared with a paraboloid under the same forces.
 
 python studies/checks/plane_cost.py > results/plane_cost.txt
 """

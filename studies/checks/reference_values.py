@@ -25,7 +25,7 @@ from swtstudy.solver.points import Points, solve_points
 COUNT, SEED = 15, 7
 NUMBERS = ("poisson_ratio", "friction", "normal_amplitude", "p", "q", "tangential_amplitude", "phase")
 SHAPE_COLUMNS = ("flat_radius", "waviness_amplitude", "wavelength", "exponent")
-#: Of the dense look: steps of each piece between two cusps, and planes.
+#: Dense grid: steps of each piece between two cusps, and planes.
 STEPS, PLANES = 100, 72
 
 

@@ -164,7 +164,7 @@ KINDS: dict[str, tuple[list[Callable[[int], Points]], Callable[[Points, float], 
 
 
 def solved(kind: str, count: int, rtol: float) -> Values:
-    """What a kind of sample shows, and its errors, from ``count`` points of each source."""
+    """Values of a kind of sample, and their errors, from ``count`` points of each source."""
     sources, look = KINDS[kind]
     with np.errstate(all="ignore"):
         found = [look(source(count), rtol) for source in sources]

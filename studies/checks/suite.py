@@ -21,7 +21,7 @@ FOLDER, FIGURES = Path(__file__).parent.parent, range(3, 9)
 
 
 def processor_time() -> float:
-    """Processor time so far of this process and of those that have ended, s."""
+    """Processor time so far of this process and of ended ones, s."""
     both = (resource.getrusage(whose) for whose in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
     return sum(used.ru_utime + used.ru_stime for used in both)
 

@@ -170,7 +170,7 @@ def other_values(records: Any, step: int) -> Iterator[tuple[str, list[Other]]]:
 
 
 def other_lines(records: Any, step: int) -> Iterator[str]:
-    """The table of other values, and those that are wrong."""
+    """The table of other values, and the wrong ones among them."""
     yield from ("", "## Other values", "")
     yield (
         f"{'All' if step == 1 else f'One in {step}'}. Low or high are means and damage that differ by more "
@@ -220,7 +220,7 @@ def chart(found: Found) -> Figure:
 def found_of(
     records: Any, scene: str, points: Sequence[Any], index: NDArray[np.intp], rtol: float, given: Any
 ) -> dict[str, Array]:
-    """What is found at some points of a scene: what the folder of parts has, and the rest by the solver."""
+    """Values at some points of a scene: from the folder of parts, the others from the solver."""
     part = given.parts and given.parts / f"{scene.replace('/', '÷')} {rtol:g}.npz"
     values = {name: np.full(len(points), np.nan) for name in COLUMNS}
     is_known = np.zeros(len(points), dtype=bool)

@@ -1,4 +1,4 @@
-"""What a loop costs with so many vertices: processor time of s at rtol 1e-4, on one core.
+"""Cost of a loop against the number of its vertices: processor time of s at rtol 1e-4, on one core.
 
 A cycle in k samples without noise, with 2 % of it, and with a bulk stress besides; forces on a paraboloid.
 Run from the project's folder: ``OMP_NUM_THREADS=1 python studies/checks/vertices.py``; writes

@@ -1,4 +1,4 @@
-"""What the sliders of studies/explore_live.ipynb show at their start.
+"""The first picture of the sliders of studies/explore_live.ipynb.
 
 Run from the project's folder: python studies/maps/explorer.py (extra ``live``)
 """

@@ -1,6 +1,6 @@
 """A sketch of the contact: bodies, loads, coordinates, stick and slip, the critical point and its plane.
 
-The surface is that of Hertz's contact, its depth drawn larger. Run from the project's folder: python
+The surface is from Hertz's contact, its depth drawn larger. Run from the project's folder: python
 studies/maps/sketch.py
 """
 

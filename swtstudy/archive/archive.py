@@ -89,7 +89,7 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     path
         The archive.
     partial
-        Whether to open what an unfinished run has saved even if there is an archive of an earlier run.
+        Whether to open the saved results of an unfinished run even if an earlier run left an archive.
 
     Returns
     -------

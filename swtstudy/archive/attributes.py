@@ -91,7 +91,7 @@ _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 
 @cache
 def versions() -> str:
-    """Versions of Python, of this package and of those that affect its numbers and files."""
+    """Versions of Python, of this package and of packages that affect its numbers and files."""
     found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
     for name in _PACKAGES:
         try:

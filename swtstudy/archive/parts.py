@@ -4,7 +4,7 @@ A part is an npz file with a check sum at its end: it is read exactly as it was 
 
 Parts are in a folder beside the archive, ``figure3.nc.parts``, until the archive is complete. Values of
 points that the latest study does not have are kept as a part in another folder, ``figure3.nc.kept``, for
-studies that have these points. All values known for the path of an archive are those in itself, in its
+studies that have these points. All values known for the path of an archive are the values in itself, in its
 parts, and kept from other studies.
 """
 
@@ -112,7 +112,7 @@ def _remove(paths: Iterable[Path]) -> None:
 
 
 def save_part(folder: Path, found: Found) -> None:
-    """Write one more part, beside those that are there; when this returns, it is safe."""
+    """Write one more part, beside the parts that are there; when this returns, it is safe."""
     folder.mkdir(parents=True, exist_ok=True)  # without locks another run may have removed it
     # Whatever is there under such a name: it is not replaced.
     number = 1 + max((int(path.stem) for path in _named(folder)), default=0)
@@ -165,7 +165,7 @@ def known_points(path: Path) -> Found:
     """
     found = []
     if path.exists():
-        # Where nothing is known, workers start before xarray is imported here.
+        # If nothing is known, workers start before xarray is imported here.
         from swtstudy.archive.netcdf import read_archive
         from swtstudy.archive.recall import found_in
 

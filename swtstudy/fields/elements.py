@@ -116,7 +116,7 @@ def evaluate_history(
         A study file with [units], and young_modulus and poisson_ratio among its fixed values. Constants in
         [material] give lives; normal_sensitivity gives the criteria of shear.
     body
-        Whose properties count, 1 or 2.
+        The body whose properties count, 1 or 2.
 
     Returns
     -------

@@ -116,8 +116,8 @@ def criterion_of_history(
 
     Notes
     -----
-    On a plane the amplitude is half of the largest chord of the path of its shear stress: of a path that is
-    not along a line others take more, such as the radius of the smallest circle around it. √J2,a is the
+    On a plane the amplitude is half of the largest chord of the path of its shear stress. For a path that is
+    not a line other definitions give more, such as the radius of the smallest circle around it. √J2,a is the
     radius of the smallest sphere around the path of the deviator s, in the norm √(s:s/2).
 
     Examples

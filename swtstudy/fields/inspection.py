@@ -44,13 +44,13 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     Parameters
     ----------
     **parameters
-        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are those of
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are as in
         Table 1.
 
     Returns
     -------
     xarray.Dataset
-        What `swtstudy.solve` gives, and
+        The results of `swtstudy.solve`, and
 
         - over time (ω1 t; of a loop the angle of its period): depth δ/δ0, displacement G*u/(μE*δ0) (these two
           not of plane contacts),
@@ -186,7 +186,7 @@ def load_and_springs(**parameters: object) -> xr.Dataset:
 
 
 def _instants(cycle: LoadCycle, x: float | None = None) -> FloatArray:
-    """Instants of the cycle for smooth curves, as angles of its period: with events, also those at x/a_H."""
+    """Instants of the cycle for smooth curves, as angles of its period, with events, also at x/a_H."""
     count = max(_UNIFORM * min(cycle.oscillations, _FEW), _SPARSE * cycle.oscillations)
     return np.union1d(cycle.instants(_STEPS, x), 2.0 * np.pi * np.arange(count + 1) / count)
 
@@ -275,7 +275,7 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
     for name, end in itertools.product((*of_plane, normal, tangential), ("largest", "smallest")):
         index = int(curves[name].argmax() if end == "largest" else curves[name].argmin())
         free = len(marked) < _MARKED and distance[index] >= _APART
-        # What makes s is the largest normal stress, and the swing of the strain up to it.
+        # The largest normal stress, and the swing of the strain up to it, make s.
         if free and (name in of_plane or touching[index]) and (name, end) not in _OF_NO_MATTER:
             mark(index, f"{_LETTERS[name]} {end}")
     moving = curves[of_plane[-1] if of_plane else tangential]

@@ -45,7 +45,7 @@ def stress_field(
         grid; or DataArrays with their own dimensions.
     time
         ω1 t in rad: a number or a one-dimensional sequence, common to all positions. By default each position
-        has its own instants, those that matter there.
+        has its own instants, which resolve its extremes.
     **parameters
         Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each.
 
@@ -68,7 +68,7 @@ def stress_field(
     criterion over the cycle often has its extreme at one. By default the instants are aligned with these
     events, and dense around the extremes of stress and strain on the critical plane: `swt_of_history`
     of such a history is within 1e-5 of s at the critical point. That takes about 1 ms for each position; for
-    a map at a few instants, give these. At 64 evenly spaced instants swt can be 23 % low, at 512 still 10 %.
+    a map at a few instants, give ``time``. At 64 even instants swt can be 23 % too low, at 512 still 10 %.
     Within 1e-6 a_H of the edge of a truncated paraboloid's face the stress, which is infinite there, is
     cut off. Nothing of a plane contact depends on y, and σ_yy follows from plane strain.
 
@@ -136,7 +136,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
 
     Notes
     -----
-    Each value is within 1e-3 of the largest one over all instants and planes. Where nothing is in tension it
+    Each value is within 1e-3 of the largest one over all instants and planes. If nothing is in tension, it
     is 0. Nothing of a plane contact depends on y.
     """
     points, opened = open_point(parameters)
@@ -176,8 +176,8 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     -------
     xarray.Dataset
         state (a flag) over time and r; slip_radius and contact_radius in a_H over time: the contact slips
-        between the two. Where a bulk stress moves the stick zone, the zone of this radius is about
-        stick_centre, x/a_H over time, and the state is that on the line y = 0. In forward slip the body under
+        between the two. If a bulk stress moves the stick zone, the zone of this radius is about
+        stick_centre, x/a_H over time, and the state is on the line y = 0. In forward slip the body under
         the indenter is dragged towards +x.
 
     Raises

@@ -32,7 +32,7 @@ from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 from swtstudy.vocabulary.wording import axis_words
 
-#: Markers at the point where a regime begins, and words; for those without s at the last point before.
+#: Markers at the point where a regime begins, and words; a regime without s has it at the last point before.
 _MARKS = {
     "stick": ("D", "stick begins"),
     "partial_slip": ("^", "partial slip begins"),
@@ -163,7 +163,7 @@ def may_jump(name: str) -> bool:
 def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     """Indices of the points of a curve that another maximum begins at.
 
-    A step is a jump if it is a fair share of the range of the curve, and much longer than those beside it in
+    A step is a jump if it is a fair share of the range of the curve, and much longer than steps beside it in
     its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
     """
     with np.errstate(invalid="ignore"):

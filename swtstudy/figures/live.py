@@ -1,4 +1,4 @@
-"""A figure of one parameter point that is drawn again while its parameters change, by sliders in a notebook.
+"""A figure of one parameter point that sliders in a notebook redraw.
 
 The sliders need the extra "live".
 """
@@ -105,7 +105,7 @@ class LiveFigure:
 
 
 def phases(frequency_ratio: object, finer: int = 1) -> FloatArray:
-    """Phases from 0 to 2π for the curve: those that have the same s by symmetry are solved once."""
+    """Phases from 0 to 2π for the curve; phases with the same s by symmetry are solved once."""
     ratio = read_value(PARAMETERS["frequency_ratio"], frequency_ratio)
     assert isinstance(ratio, Fraction)
     periods = ratio.numerator * (2 if ratio.denominator % 2 else 1)

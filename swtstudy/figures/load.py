@@ -35,11 +35,11 @@ def draw_load(
     Parameters
     ----------
     study
-        The study; of what varies in it besides the first value counts.
+        The study; other parameters that vary have their first values.
     name
         Name of the loop.
     signal
-        The record that it was made of, whose cycles are drawn beneath.
+        The record of the loop, whose cycles are drawn beneath.
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
 

@@ -59,7 +59,7 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     style, width
         As for `swtstudy.accessor.SwtAccessor.figure`.
     **parameters
-        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are those of
+        Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are as in
         Table 1.
 
     Returns
@@ -482,7 +482,7 @@ def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     axes.set_title(f"fretting loop, {'' if labels else 'area = '}dissipation {number}", loc="left")
 
 
-#: The panels, and those of a plane contact, whose displacements are not known.
+#: The panels, and the panels of a plane contact, whose displacements are not known.
 _OF_BOTH = (draw_slip, draw_springs, draw_tractions, draw_stress, draw_swt)
 _PANELS = (draw_load, *_OF_BOTH, draw_load_plane, draw_forces, draw_force_loop)
 _OF_STRIP = (draw_load_plane, *_OF_BOTH, draw_forces)

@@ -383,7 +383,7 @@ def set_square(F, E):
 
 @jit
 def set_shear_jet(N, E):
-    """Make the jet of |F n - n nᵀ F n| from the jets of nᵀ F n and nᵀ F² n, in place of the first one."""
+    """Make the jet of |F n - n nᵀ F n| from the jets of nᵀ F n and nᵀ F² n, which replaces the first one."""
     square = max(E[0] - N[0] * N[0], 1e-24 * E[0] + 1e-300)
     a = sqrt(square)
     d1, d2 = 0.5 * (E[1] - 2.0 * N[0] * N[1]) / a, 0.5 * (E[2] - 2.0 * N[0] * N[2]) / a

@@ -1,7 +1,7 @@
 """The stress at one place (x, y, z) of the body, from running integrals over the springs (15)-(18).
 
 Each function of a punch (`swtstudy.kernel.punch`) is integrated over the radius with the density of the
-profile and with those of what grew, from the axis up to any s. The stress at an instant is then a sum of few
+profile and of what grew, from the axis up to any s. The stress at an instant is then a sum of few
 of them, as on the surface line: each piece of the memory diagram a slope times a running integral.
 
 Hertz's contacts have closed forms. Else panels are cut into cells on which a Chebyshev series is enough.
@@ -10,7 +10,7 @@ variable u of s = σ + ω sinh u spreads its neighbourhood and removes the root 
 length do at every depth, their number growing like ln(1/z). In the surface (ω = 0) s = σ sin u inside and
 s = σ cosh u outside do the same.
 
-Where a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
+If a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
 its own, and its stresses are added instead of its functions.
 """
 

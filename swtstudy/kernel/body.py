@@ -42,7 +42,7 @@ from swtstudy.kernel.profile import coordinate_at
 
 #: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
 COARSEST, OF_VON_MISES = np.array([4, 8])
-#: Where the singularity of the springs' field is farther from their line than this share of the contact, no
+#: If the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25
 #: Purposes for which a part is sampled, and rows of a history that are room; no literals, for which Numba
@@ -368,7 +368,7 @@ def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
 
 @jit
 def write_instants(H, L, time):
-    """Write the instants of the parts at a place, of the cycle; returns how many these are."""
+    """Write the instants of the parts of the cycle at a place; returns how many there are."""
     m = 0
     for z in range(H.parts):
         begin, end, step = H.time[z, 0], H.time[z, 1], FINEST // H.intervals[z]

@@ -71,7 +71,7 @@ def circles():
 
 @jit_reordered
 def fill_circle(H, S, m, nu, angle):
-    """Write the stress at an angle of the circle: rr, φφ, zz, φz, rz, rφ in the place of xx to xy."""
+    """Write the stress at an angle of the circle: rr, φφ, zz, φz, rz, rφ instead of xx to xy."""
     C, D, of_sum = cos(angle), sin(angle), (nu - 0.5) / (1.0 + nu)
     for i in range(m):
         p, within, bulk = H.p[i], H.within[i], H.bulk[i]
@@ -180,7 +180,7 @@ def refill(D, S, H, W, G, Q, angle):
 def settle(D, G, S, H, W, C, P, K, L, Q, angle):
     """Refine the cycle until the value at an angle on its best plane, and the planes beside it, stays.
 
-    Parts of the cycle are doubled as on the line (`swtstudy.kernel.line.resolve`), those of the maxima once
+    Parts of the cycle are doubled as on the line (`swtstudy.kernel.line.resolve`), parts of the maxima once
     more than they need. The maxima over time of the three curves become instants.
     """
     n = G.normal
@@ -334,7 +334,7 @@ def beside_singular_edge(P, x, share):
 
 @jit
 def may_be_anywhere(L, Q):
-    """True if places in mere pressure may be critical, or those outside of the contact."""
+    """True if places in mere pressure may be critical, or places outside of the contact."""
     return Q.criterion != SWT or has_bulk(L)
 
 

@@ -21,7 +21,7 @@ class _Part(JITCodeLibrary):
     """The code of a part."""
 
     def finalize(self):
-        """Give the function's environment an address, at which Numba sets it; optimise and emit nothing."""
+        """Give the function's environment the address at which Numba sets it; optimise and emit nothing."""
         self._raise_if_finalized()
         variables = self._final_module.global_variables
         environment = [str(each) for each in variables if each.name.startswith("_ZN08NumbaEnv")]

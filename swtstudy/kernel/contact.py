@@ -65,7 +65,7 @@ CYCLE = np.dtype(
         ("place", "f8", (MAX_STRETCHES, FINEST + 1, 2)),  # s of edge and front at Lobatto points of time
     ]
 )
-#: Where unloading retraces growth this closely, nothing slips: v - o(n) is rounding.
+#: If unloading retraces growth this closely, nothing slips: v - o(n) is rounding.
 RETRACED = 1e-12
 #: No stretch of time is shorter.
 SHORTEST = 1e-13
@@ -127,7 +127,7 @@ def first_diagram(C, L, T, m):
     """Event at which the cycle starts, and the diagram there.
 
     At the instant where α is largest, every spring that ever slips has just been pushed up, o = α_max + G,
-    and those that never do have o = clip(0, α_max + G, β_min - G). From here one cycle is the stationary
+    and a spring that never slips has o = clip(0, α_max + G, β_min - G). From here one cycle is the stationary
     one, exactly. A contact that lifts off remembers nothing.
     """
     largest, alpha_max, beta_min, C.may_slide = 0, -1e300, 1e300, 1

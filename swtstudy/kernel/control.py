@@ -57,7 +57,7 @@ def prescribe(load, control, profile):
 
 
 def _tabulate(load, profile):
-    """Write the map as series on panels: those of the profile, halved towards 0 and where it needs them."""
+    """Write the map as series on the panels of the profile, halved towards 0 and where it needs them."""
     largest = float(load["normal_range"][1])
     edges = profile["coordinate_begin"][: profile["panels"] + 1].copy()
     edges = np.append(edges[edges < largest], largest * (1.0 + 1e-9))

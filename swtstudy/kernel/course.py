@@ -49,8 +49,8 @@ def write_states(C, R, P, L, U, instants, out):
 def write_springs(C, R, P, L, U, states, places, largest, compression, force):
     """Write compression and tangential force of springs at places s, by state and spring.
 
-    Under prescribed forces, too, they are those of springs; in the plane, where strips have no springs, what
-    the diagram has in their place.
+    With prescribed forces these are values of springs, too; in the plane, which has no springs, values
+    of the diagram.
     """
     for j in range(places.shape[0]):
         s = places[j]

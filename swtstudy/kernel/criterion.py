@@ -107,7 +107,7 @@ def partials(Q, T, A):
 
 @jit
 def curvature_bound(Q, T, A, of_tension, of_swing, slope):
-    """Bound of -h″ over 2θ for T and A up to these, |T″| and |A′|, |A″| up to those, and |T′| up to a slope.
+    """Bound of -h″ over 2θ for given maxima of T and A, of |T″|, |A′| and |A″|, and of the slope |T′|.
 
     The terms with h_TT and h_AA, which are not negative, only help.
     """

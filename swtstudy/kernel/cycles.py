@@ -5,7 +5,7 @@ one closes where the swing, after a turning point and a smaller excursion, comes
 turning point. Its time is from the turning point until then; the outermost one's is the whole round. Each has
 its own range of the swing and its own largest σ_n within its time, so its own value of the criterion.
 
-The place and plane with the largest value are not always those with the largest damage Σ 1/N_i. Between two
+The place and plane with the largest value need not have the largest damage Σ 1/N_i. Between two
 values 1/N goes like a power of the criterion, so places and planes are looked for at which the sum of the
 values to the power of 1, 2, 4 or 8 is largest. Only those can be better whose value, to that power, times
 V/(2A) is larger than the sum at the critical place, V being the way that the swing goes in a round and A its
@@ -99,7 +99,7 @@ def counting():
 
 @jit
 def rank_parts(N, H, L):
-    """Write the parts of the sampled cycle in the order of time: those that were cut in two are not in it."""
+    """Write the parts of the sampled cycle in the order of time, without the parts that were cut in two."""
     for z in range(H.parts):
         begin, j = H.time[z, 0] + H.mirror[z] * L.period, z
         while j > 0 and H.time[N.rank[j - 1], 0] + H.mirror[N.rank[j - 1]] * L.period > begin:
@@ -252,7 +252,7 @@ def place_at(N, at):
 
 @jit
 def look_at(N, H, W, C, R, P, K, L, Q, at, largest):
-    """Count cycles at one place where they may matter; returns how high they are, over what would matter."""
+    """Count cycles at one place if they may matter; returns their height over the height that matters."""
     highest = 0.0
     for number in range(1 if L.mirrored else 2):
         side = 1.0 - 2.0 * number

@@ -208,7 +208,7 @@ def surface_above(opened, limit, s):
     Returns
     -------
     x, values
-        Shape (n,): ascending signed places in a_H, of a mirrored load those at x ≥ 0 alone, and the values;
+        Shape (n,): ascending signed places in a_H, only x ≥ 0 of a mirrored load, and the values;
         values below the limit may be low.
     """
     C, R, P, L, Q, _ = opened
@@ -251,7 +251,7 @@ def von_mises_at(opened, places):
 def instants_at(opened, place, tolerance):
     """Angles of the common period, ascending, that tell the criterion at a place (3,) to a tolerance.
 
-    They are those from which the value was made, and others that close in on the extremes of its curves.
+    They include the angles that gave the value, and others close to the extremes of its curves.
     """
     normal = criterion_at(opened, place[None], tolerance)[2][0]
     load = opened.load

@@ -32,7 +32,7 @@ ROUNDED = 1e-13
 
 @jit
 def lay_out(R, C, P, L, tolerance):
-    """Place the starts of pieces, and tabulate do/ds of those that grew and the places of edge and front.
+    """Place the starts of pieces, and tabulate do/ds of pieces that grew and the places of edge and front.
 
     Returns the tolerance of the tables, a coarser one where there is no room for theirs.
     """

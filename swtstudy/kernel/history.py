@@ -203,7 +203,7 @@ def stress(H, m, C, P, K, k, edge, front, nu, mu):
 
 @jit
 def sample(H, z, intervals, C, P, L, K, nu, mu):
-    """Sample part z at the Lobatto points of so many intervals; instants that it had before are copied."""
+    """Sample part z at the Lobatto points of so many intervals; known instants are copied."""
     k, cusps = H.stretch[z], H.cusps[z]
     begin, end = H.time[z, 0], H.time[z, 1]
     whole = cusps == 0 and begin == C.time[k, 0] and end == C.time[k, 1] and intervals <= C.intervals[k]

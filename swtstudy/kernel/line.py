@@ -482,7 +482,7 @@ def highest_bound(S, m):
 
 @jit
 def share_curvature(S, m):
-    """Give the two intervals of a piece that meet at the best place the curvature through their three values.
+    """Give the two intervals that meet at the best place the curvature through their three values.
 
     A narrow interval shows a curvature that the wide one beside it has not met.
     """

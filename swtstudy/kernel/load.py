@@ -3,7 +3,7 @@
 The normal load n is an indentation depth δ/δ0 or a normal force F_N/F_0, the tangential load v a
 displacement G*u/(μE*δ0) or a force F_x/(μF_0). α = v - n and β = v + n bound the offsets of the springs
 (`swtstudy.kernel.contact`). If one of both is a displacement and the other one a force, the harmonics are
-those of the prescribed normal load, and n is what it is in the kind of the tangential load, a function of
+the prescribed normal load's, and n is the normal load in the kind of the tangential load, a function of
 the profile. A bulk stress B may go with them, which moves the stick zone (`swtstudy.kernel.shift`). Time runs
 over [0, period): 2π for harmonics, the number of sides for a polygon. `swtstudy.kernel.loads` makes loads.
 """
@@ -266,7 +266,7 @@ def instant_of(L, which, level, begin, end):
 
 @jit
 def distinct(z, count, gap):
-    """Sort the first values of z, drop those closer than gap to the one before; returns how many are left."""
+    """Sort the first values of z, drop values within gap of the one before; returns how many are left."""
     step = count // 2
     while step > 0:  # Shell's method: Numba takes seconds to compile a sort
         for i in range(step, count):

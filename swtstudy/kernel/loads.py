@@ -43,7 +43,7 @@ def load_of(
     if hasattr(loop, "vertices"):
         columns = [size * column for size, column in zip(amplitudes, loop.vertices.T, strict=False)]
         bulk = bulk_mean + columns[2] if len(columns) == 3 else np.full(len(columns[0]), bulk_mean)
-        # Instants are those of all vertices, of whatever size the bulk stress is that turns at some of them.
+        # All vertices are instants, whatever the size of the bulk stress that turns at some of them.
         return polygon(1.0 + columns[0], columns[1], bulk, every=len(columns) == 3)
     rows = [
         [(order, size * amplitude, phase) for order, amplitude, phase in loop.harmonics.get(key, ())]

@@ -11,7 +11,7 @@ SAMPLES = 32
 
 
 def without_collinear(loop):
-    """A closed polygon (k, d) without repeated vertices and those on the straight line between neighbours."""
+    """A closed polygon (k, d) without repeated vertices or vertices on the line between neighbours."""
     moves = (loop != np.roll(loop, 1, axis=0)).any(axis=1)
     if not moves.any():
         return loop[:1]

@@ -144,7 +144,7 @@ def find_peaks(H, W, Q, C, S):
 
 @jit
 def rise_beside(H, W, Q, z, which, C, S):
-    """Bound of the rise of a curve within part z above its largest instant, from those beside it."""
+    """Bound of the rise of a curve within part z above its largest instant, from the instants beside it."""
     i, first, last = W.highest[z, which], H.first[z], H.first[z] + H.intervals[z]
     f = W.height[z, which]
     if first < i < last:
@@ -172,7 +172,7 @@ def peak_of_part(H, W, Q, z, which, C, S):
 
 @jit
 def in_swing(Q, b, c):
-    """Coefficients of cos 2θ and sin 2θ in the swing, from those in σ_n."""
+    """Coefficients of cos 2θ and sin 2θ in the swing, from the coefficients in σ_n."""
     if Q.criterion == SWT:
         return (1.0 + Q.poisson_ratio) * b, (1.0 + Q.poisson_ratio) * c
     return c, -b

@@ -31,7 +31,7 @@ OF_PRESSURE = 3e-8
 TEARS = 0.995
 #: Nearer to the singular edge of a face than this share of it the circle may be higher at any ν.
 BESIDE_EDGE = 1e-3
-#: Where the bulk stress alone is as high as this share of s, it makes s.
+#: If the bulk stress alone is as high as this share of s, it makes s.
 SAME = 1e-7
 #: The regimes by number.
 STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(len(REGIMES))
@@ -76,7 +76,7 @@ def is_torn(C, L, P, Q):
     """True if swt grows without bound, or nearly, towards the singular edge of a face.
 
     With |τ| = w at the innermost spring a plane near 45° is in tension that grows like ln(1/ε) for μ > 1; in
-    gross slip the strain does, too. Where contact is lost, springs pull before the pressure comes.
+    gross slip the strain does, too. If contact is lost, springs pull before the pressure comes.
     """
     b, largest = P.flat_radius, place_of(P, C.largest)
     ring = sqrt(b * b + largest * largest) - b

@@ -55,7 +55,7 @@ ENOUGH, MORE, TOO_MANY = np.arange(3)
 
 @jit
 def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, rough):
-    """Append panels whose series has died out to those that are settled; returns how many these are.
+    """Append panels whose series has died out to the settled panels; returns how many these are.
 
     Parameters
     ----------

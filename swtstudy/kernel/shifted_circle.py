@@ -1,7 +1,7 @@
 """The largest value on a circle of the surface where a bulk stress shifts the stick zone.
 
 There the stress is no harmonic of the angle, since each piece of the diagram has a centre of its own. So the
-places of the circle are those of the body (`swtstudy.kernel.body`): a look at even angles, and a closer one
+places of the circle are solved as places of the body (`swtstudy.kernel.body`): a look at even angles, and one
 about the highest.
 """
 
@@ -60,7 +60,7 @@ def highest_on_circle(S, B, H, W, G, C, R, P, K, L, Q, radius, largest, known):
 def search_shifted_circles(B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points with a shifted stick zone.
 
-    They are the circle through the critical point, and the edge.
+    The circles are the circle through the critical point, and the edge.
     """
     for i in range(which.shape[0]):
         out = found[i]

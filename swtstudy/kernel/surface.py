@@ -8,7 +8,7 @@ springs outside x on the tractions there, and all springs on the load within x, 
 
     B = ∫ dG/√(ξ²-x²),   V = ∫ (ξ - √(ξ²-x²)) dG/x²  (inside x: ∫ ξ dG/x²).
 
-In a plane contact a strip has T1 = ∫ 2 dN/√(x²-ξ²) inside x in the place of these, and B with N for G.
+In a plane contact a strip has T1 = ∫ 2 dN/√(x²-ξ²) inside x instead of T1 and T3, and B with N for G.
 
 With X² = x² - b², s = X sin α inside and s = X cosh η outside remove the singularities; where x < b, all
 springs are outside, and s = √(b²-x²) sinh η does.

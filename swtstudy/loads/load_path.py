@@ -28,8 +28,8 @@ class LoadPath(Loop):
     Its sides are straight. Nothing depends on the speed, nor on the vertex at which it starts; the
     tangential load starts from zero at the first normal load. A loop run backwards is another loop.
 
-    A polygon of k points on a smooth cycle is not that cycle: its s is off by some 10/k² as a rule, but by up
-    to 2/k elsewhere. `LoadPath.sampled` and `LoadPath.harmonic_sum` have no such error.
+    A polygon of k points replaces a smooth cycle with an error of s of usually about 10/k², and of up
+    to 2/k in other cases. `LoadPath.sampled` and `LoadPath.harmonic_sum` have no such error.
 
     Parameters
     ----------
@@ -42,12 +42,12 @@ class LoadPath(Loop):
         neighbours in all columns are left out.
     mean_normal
         The mean normal load from which the first column is the deviation, in its unit: then a real contact
-        need not be told its normal force. `LoadPath.absolute` takes it off.
+        needs no normal force. `LoadPath.absolute` subtracts this mean.
 
     Raises
     ------
     StudyError
-        A ValueError with what is wrong with the name or the vertices.
+        A ValueError with the mistakes in the name or the vertices.
 
     Examples
     --------

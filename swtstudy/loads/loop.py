@@ -105,7 +105,7 @@ def checked_name(name: object) -> str:
     Raises
     ------
     StudyError
-        A ValueError, if it is none, or the name of a built-in load.
+        A ValueError if it is not a name, or the name of a built-in load.
     """
     if mistake := wrong_name(name, "load"):
         raise StudyError([mistake])

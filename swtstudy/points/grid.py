@@ -52,8 +52,8 @@ class Grid:
     Attributes
     ----------
     fixed
-        The single-valued parameters; those that no profile of the grid has may be absent, and of two that
-        take each other's place one is.
+        The single-valued parameters; parameters that no profile of the grid has may be absent, and one of two
+        that take each other's place.
     axes
         The values along each dimension, in the order of the dimensions.
     samples

@@ -88,7 +88,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
         # By the CF conventions what has no unit has no dimension; with the unit 1 xarray's labels end in [1].
         if variable.attrs.get("units") == "1":
             del variable.attrs["units"]
-    # Of arrays of dask nothing is known before they are computed.
+    # Arrays of dask are not known before they are computed.
     lines = validity_lines(dataset) if "regime" in arrays and not dataset.chunks else ()
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
 
@@ -138,7 +138,7 @@ def turned(
 
 
 def _per_cycle(arrays: Mapping[str, object]) -> list[str]:
-    """Names of those that grow with the number of load cycles."""
+    """Names of the arrays that grow with the number of load cycles."""
     return [n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in arrays]
 
 

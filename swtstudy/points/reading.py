@@ -85,7 +85,7 @@ def read_grid(
         Names that are known beside the parameters: they are read elsewhere, and may be meant by an unknown
         one.
     samples
-        Checked values of the sampled parameters; None for those whose mistake is already reported.
+        Checked values of the sampled parameters; None for parameters whose mistake is already reported.
     known
         Definitions of the user, by parameter and name.
 

@@ -143,7 +143,7 @@ def sizes_of(load: Loop) -> dict[str, float]:
 
 
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
-    """Loads so large that rounding is left of the mean one, and those in units where nothing has units.
+    """Loads so large that rounding is left of the mean one, and loads in units where nothing has units.
 
     Only amplitudes over the mean load fit the latter.
     """

@@ -1,4 +1,4 @@
-"""Where results are outside of what the model holds for, in words: how many points, and the worst one."""
+"""Results outside of the model's limits, in words: how many points, and the worst point."""
 
 from __future__ import annotations
 
@@ -212,7 +212,7 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     dataset
         Results.
     values
-        A quantity of theirs. Of a life the range that constants are known for counts as well.
+        A quantity of theirs. For a life the range of its constants counts as well.
 
     Returns
     -------
@@ -245,7 +245,7 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
     for name in map(str, dataset.data_vars):
         if not _is_life(dataset, name) or name.rpartition("_")[2].isdigit():  # percentiles go with their life
             continue
-        # A point may have several, such as those over critical distances.
+        # A point may have several values, such as the nonlocal ones.
         lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
         out = _beyond(lives)
         if out.any():

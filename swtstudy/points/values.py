@@ -140,7 +140,7 @@ DEGREES = ("degrees", "deg", "°")
 #: No definitions.
 NOTHING: Mapping[str, Definition] = {}
 
-#: Names of the parameters that are numbers: those that can have any value between two others.
+#: Names of the parameters that are numbers: they can have any value between two others.
 NUMERIC = tuple(name for name, parameter in PARAMETERS.items() if parameter.kind == "number")
 
 #: How far, relatively, a float may be from the small fraction that it stands for.
@@ -148,7 +148,7 @@ _FRACTION_TOLERANCE = 1e-9
 
 
 def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
-    """The values that a parameter has in a study: those that are given, or its default."""
+    """The values that a parameter has in a study: the given values, or its default."""
     return good.get(name, (PARAMETERS[name].default,))
 
 

@@ -1,4 +1,4 @@
-"""A table of a profile f(r), and what is made of it once."""
+"""A table of a profile f(r), and its fit, which is computed once."""
 
 from __future__ import annotations
 
@@ -42,11 +42,11 @@ class TabulatedProfile(Definition):
     name
         Its name on axes, in archives and in figures.
     radius, height
-        Shape (k,), 8 to 10,000 points, the first one 0 and 0, the radii ascending: r in a length a_H and f
-        in a depth δ0, the mean one of a study; in `swtstudy.physical` both in the unit of its lengths.
-        Heights of 0 at the begin are a flat face.
+        Shape (k,), 8 to 10,000 points from 0 and 0 on, the radii ascending: r in a length a_H and f
+        in δ0, the mean depth of a study; in `swtstudy.physical` both in the unit of its lengths.
+        Leading zero heights form a flat face.
     smoothing
-        Root mean square of what the fit may miss of the heights, in their unit, if they are noisy. Nothing is
+        Root-mean-square misfit that is allowed for noisy heights, in their unit. Nothing is
         smoothed unless asked: a spline goes through all points.
     geometry
         "axisymmetric", or "plane" for a long body of this section, symmetric about x = 0: then radii are
@@ -55,7 +55,7 @@ class TabulatedProfile(Definition):
     Raises
     ------
     StudyError
-        A ValueError with every mistake, and the radius of it.
+        A ValueError with every mistake and its radius.
 
     Notes
     -----

@@ -32,7 +32,7 @@ _SIGNS = {"ell": "<i>ℓ</i>", "cdot": "·", "infty": "∞", "approx": "≈", "s
 #: Letters with another name in Unicode than in LaTeX.
 _GREEK = {"lambda": "lamda", "varphi": "phi", "varepsilon": "epsilon", "vartheta": "theta"}
 _NONE: Mapping[Any, Any] = {}
-#: What keeps to one line.
+#: Values that keep to one line.
 _TIED = Markup('<span class="tied">{}</span>')
 
 

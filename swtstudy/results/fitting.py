@@ -78,14 +78,14 @@ def fit(
     """The critical distance with which predicted lives are nearest to the tests' lives.
 
     Maximum likelihood with normally distributed log10 N: least squares of log10 of predicted over observed
-    life if all tests ended with a crack. The life of a run-out is known to be above its number of cycles: it
+    life if all tests ended with a crack. The life of a run-out is above its number of cycles, and
     counts by the probability of that.
 
     Parameters
     ----------
     study
-        A study file with units and constants: what all tests have in common. Its axes, sample and figure do
-        not count, nor what the table of tests gives.
+        A study file with units and constants, common to all tests. Its axes, sample and figure do
+        not count, nor do parameters that the table of tests gives.
     tests
         A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the load
         cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or with 1
@@ -94,9 +94,9 @@ def fit(
         Name of the predicted life: "cycles_volume", "cycles_point" or "cycles_line", the latter two straight
         down; with ``FS_`` before the name, a life by the criterion of Fatemi and Socie.
     friction
-        Whether friction is fitted, too; the study's is where that begins.
+        Whether friction is fitted, too, starting from the study's friction.
     confidence
-        Level of the intervals, which hold for small residuals: from the curvature of the likelihood, and
+        Level of the intervals, which hold for small residuals; from the curvature of the likelihood and
         Student's t.
 
     Returns
@@ -110,7 +110,7 @@ def fit(
     Raises
     ------
     StudyError
-        A ValueError with every mistake; also if the best distance is at an end of those that were tried.
+        A ValueError with every mistake; also if the best distance is at an end of the tried distances.
     """
     if y not in NONLOCAL_LIVES:
         raise refused("y", literal(y), nearest(str(y), NONLOCAL_LIVES))
@@ -153,7 +153,7 @@ class _Tests:
         Critical distances at which lives are computed: up to the first at which a test has no finite life at
         the study's friction, since deep beneath the surface there may be no tension.
     known
-        log10 of the lives over the logarithm of the distance, by friction; None is the study's. Of a trial
+        log10 of the lives over the logarithm of the distance, by friction; None is the study's. For a trial
         friction as far as all lives are finite, and None if they are so at fewer than four distances.
     """
 

@@ -1,11 +1,11 @@
-"""`swtstudy.optimise`: the parameters for which a quantity is least, and those for which it is greatest.
+"""`swtstudy.optimise`: the parameters for which a quantity is smallest, and for which it is largest.
 
 The search of the whole box is differential evolution, a generation in one batch. A polish of the best points
 knows that the largest of several maxima has kinks where these change places. s is the largest of many local
 maxima, over points, planes and instants, each of which depends smoothly on the parameters. Its least value is
 mostly in a kink, where some of them are equal: there a descent along gradients zigzags and a simplex
 collapses. Planes through the values and gradients at several points around are below all of the maxima
-nearby, and the lowest point of the highest plane is the kink (a bundle method). Where the function is smooth,
+nearby, and the lowest point of the highest plane is the kink (a bundle method). If the function is smooth,
 Newton's step with the same gradients is the better one: both are tried.
 """
 
@@ -67,7 +67,7 @@ class Box:
 
     @classmethod
     def of(cls, corners: Grid, over: Mapping[str, object]) -> Box:
-        """That of a grid of the ends of ranges; a StudyError if one of them is the wrong way round."""
+        """Make the box of a grid of the ends of ranges; a StudyError if a range is the wrong way round."""
         low, high = np.array([corners.axes[name] for name in over], float).T
         names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
         if names:
@@ -178,7 +178,7 @@ def probes(points: FloatArray, distance: float) -> FloatArray:
 def planes_from(points: FloatArray, distance: float, found: FloatArray) -> Planes:
     """The tangent planes at points, by the differences of the values ``found`` at their `probes`.
 
-    Left out are points where the function has no value, and those with a kink between them and their
+    Left out are points where the function has no value, and points with a kink between them and their
     neighbours: differences on either side of it make a plane that touches neither.
     """
     inward, directions = _neighbours(points, distance)
@@ -230,7 +230,7 @@ def newton(planes: Planes, centre: FloatArray, distance: float) -> FloatArray:
     curvature, *_ = np.linalg.lstsq(planes.points - origin, planes.gradients - gradient, rcond=None)
     size, axes = np.linalg.eigh((curvature + curvature.T) / 2.0)
     slope = gradient @ axes
-    # Where the curvature is too small for a step within the distance, the whole distance.
+    # If the curvature is too small for a step within the distance, the whole distance.
     length = np.where(np.abs(slope) > 0.0, distance, 0.0)
     curved = np.abs(size) * distance > np.abs(slope)
     np.divide(np.abs(slope), np.abs(size), out=length, where=curved)
@@ -387,7 +387,7 @@ def _polish_together(objective: Objective, seed: int) -> None:
 
 
 _NOT_ALWAYS = ("s_error", "run", *MARGINS)
-#: The data variables that may be made least: those with values that are not flags, and what may be asked.
+#: The data variables that may be minimised: values that are not flags, and quantities on request.
 MINIMISED = (
     *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in _NOT_ALWAYS),
     *NAMED,
@@ -455,7 +455,7 @@ def optimise(
     seed: int = 0,
     **parameters: object,
 ) -> xr.Dataset:
-    """The parameters in given ranges for which a quantity is least, and those for which it is greatest.
+    """The parameters in given ranges for which a quantity is smallest, and for which it is largest.
 
     Differential evolution (`scipy.optimize.differential_evolution`) searches the ranges, a generation solved
     in one batch; a bundle method follows its best points into the kinks that s has where two local maxima
@@ -466,7 +466,7 @@ def optimise(
     over
         Ranges by name, ``(low, high)``, of parameters that are numbers. Ends may be texts such as "2*pi".
     minimise
-        The data variable that is made least, "s" by default; or a quantity of
+        The data variable to be minimised, "s" by default; or a quantity of
         `swtstudy.vocabulary.quantities.NAMED`.
     rtol
         Relative accuracy asked of s.
@@ -478,8 +478,8 @@ def optimise(
     Returns
     -------
     xarray.Dataset
-        Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the least and at the
-        greatest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
+        Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the smallest and at the
+        largest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
         found: ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress``
         over ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through
         the point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
@@ -513,7 +513,7 @@ def optimise(
 
 
 def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
-    """The best and the worst points of a box; see `optimise`. Of a life the best is the longest."""
+    """The best and the worst points of a box; see `optimise`. The best life is the longest."""
     turn = -1 if minimise in LIVES else 1
     solve = partial(solve_grid, rtol=rtol, asked=asked)
     objectives = [Objective(box, solve, minimise, turn * sign) for sign in CASES.values()]

@@ -41,11 +41,11 @@ def sensitivity(
         Results of a study with a sample of the design "saltelli".
     y
         Quantities: names of data variables, or "s/s(name=value)". By default s; of results with units
-        what the criterion measures, such as SWT.
+        the quantity of the criterion, such as SWT.
     confidence
         Level of the confidence intervals, between 0 and 1.
     seed
-        Seed of the bootstrap that gives these.
+        Seed of the bootstrap that gives the intervals.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def sensitivity(
     ------
     StudyError
         A ValueError, if the sample is of another design or only a part of one, or if a quantity has no number
-        at some of the points: left out, they would change what the others mean.
+        at some of the points. Without these points the indices would have another meaning.
 
     Notes
     -----

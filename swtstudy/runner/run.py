@@ -92,7 +92,7 @@ def run(
     Raises
     ------
     StudyError
-        A ValueError, if ``study`` is not a Study, no archive can have that path, or there are no workers.
+        A ValueError, if ``study`` is not a Study, the path cannot be an archive's, or there are no workers.
     OSError
         If the archive cannot be written, which is checked before anything is computed; if another run is
         writing it (`LockedError`); or if the disk is full.
@@ -106,7 +106,7 @@ def run(
 
     Notes
     -----
-    In each of these cases everything computed so far is saved.
+    After each of these errors everything computed so far is saved.
     """
     found: list[xr.Dataset] = []
     run_several(

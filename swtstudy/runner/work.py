@@ -119,7 +119,7 @@ def estimate(work: Work, rtol: float) -> tuple[float, int, int]:
     timed(todo[-1][:1])  # imports, and compiles
     groups = np.array_split(np.arange(len(todo)), min(_TIMED, len(todo)))
     begin, seconds, count, counted = time.perf_counter(), 0.0, 0, 0
-    # The middle ones first: if time is up, those that are timed stand for all.
+    # The middle groups first: if time is up, the timed groups stand for all.
     for group in sorted(groups, key=lambda each: abs(int(each[0]) - len(todo) // 2)):
         places = todo[group[len(group) // 2]]
         left = _BUDGET - (time.perf_counter() - begin)

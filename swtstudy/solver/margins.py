@@ -4,7 +4,7 @@ One of them is the shift of the stick zone by the bulk strain, which s has where
 (`swtstudy.kernel.shift`) and leaves out elsewhere. The strain of the body that carries an oscillating bulk
 stress drags its surface under the other body. For a Hertz contact of similar materials a stick circle off
 centre makes a uniform strain, which cancels the bulk stress's strain along x if the shift is
-e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. Of a loop B_A is half the range of the bulk stress, as
+e = 2 B_A/(μ (1 + ν)(4 − 3ν)) in a_H, B in E* δ0/a_H. For a loop B_A is half the range of the bulk stress, as
 of an oscillation. For a cylinder, in plane strain, e = B_A/(2μ). Both hold for equal moduli; with others
 the shift goes with the strain of the body that carries the bulk stress over the mean strain of both, under
 equal tractions.

@@ -2,7 +2,7 @@
 
 The strain of a plane is counted by rainflow, each cycle with its own amplitude and its own largest σ_n: a
 swt of its own (`swtstudy.kernel.cycles`). A round does the damage Σ 1/N(SWT_i), which depends on a material's
-constants; so what is kept are the cycles themselves, over the largest swt: those that are alike are one, with
+constants; so the cycles themselves are kept, divided by the largest swt: cycles that are alike are one, with
 how many they are.
 """
 
@@ -23,7 +23,7 @@ _OF_CYCLE = {"work": "dissipation", "work_error": "dissipation_error"}
 EQUAL = 1e-6
 #: Cycles are alike whose logarithms of SWT differ by less than a width times that to the largest SWT plus so
 #: much; the first width with which they are few enough. So are 300 random cycles 8, with a damage that is
-#: right to 14 % for lives that go with SWT to the minus 1 to 9. 0.4 in place of 0.05: 27 %.
+#: right to 14 % for lives that go with SWT to the minus 1 to 9. 0.4 instead of 0.05: 27 %.
 WIDTHS, LEAST_DEPTH = 1e-3 * 1.5 ** np.arange(25), 0.05
 #: Cycles that are alike have the mean of this power of SWT, so that a life which goes with SWT to the minus
 #: this power stays as it is.

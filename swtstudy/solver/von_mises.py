@@ -1,6 +1,6 @@
 """The largest von Mises stress over the cycle and over the body, to about 1 %: does it yield?
 
-Where it is depends on friction, on the load and on the bulk stress: beneath the middle, at an edge or a
+Its place depends on friction, on the load and on the bulk stress: beneath the middle, at an edge or a
 slip front, in between, or across the direction of sliding. So a mesh of the body is looked at, and from its
 highest places a search goes uphill in ever smaller steps. In the surface the stress has cusps where edges
 and fronts are: these are places of the mesh themselves.

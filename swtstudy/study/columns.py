@@ -157,14 +157,14 @@ def read_columns(
     names
         Names of columns; others in the file are left alone.
     optional
-        Names of columns that come behind them if the file has them.
+        Names of further columns, appended if the file has them.
     form
         How it is written.
     kinds, labels
         "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
         mistake, and so is another unit without `scale`, or with the inverse of its factor.
     gaps
-        Whether rows with an empty cell are left out, and told: others say where they are.
+        Whether rows with an empty cell are left out, with a message; otherwise they are mistakes.
 
     Raises
     ------

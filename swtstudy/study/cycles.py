@@ -86,7 +86,7 @@ def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float]] | None:
     -------
     tuple or None
         The column, the number of cycles at an end, and the amplitudes of the first of them, the last of them,
-        and of the mean cycle; None if amplitudes only scatter. The scatter is that of the steps from cycle to
+        and of the mean cycle; None if amplitudes only scatter. The scatter is of the steps from cycle to
         cycle of all others: a slow drift has no share in it.
     """
     mean = cycles.mean(axis=0)

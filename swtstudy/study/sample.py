@@ -189,7 +189,7 @@ def read_sample(
     table
         The table.
     given
-        The keys that are given in it, also those with mistakes, which are not in the table.
+        The keys that are given in it, also keys with mistakes, which are not in the table.
     folder
         Where a file of points is, if its path is relative.
     report

@@ -185,7 +185,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         words.
     absolute
         Whether the normal column is the load itself, as it is measured: its mean is taken off, and is the
-        mean normal load of contacts that are given none.
+        mean normal load of contacts without a given one.
     separator, decimal
         Between cells (",", ";", a tab, "|", or a blank for any number of blanks) and in numbers ("." or ",");
         found from the file unless given.
@@ -204,7 +204,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         Number of cycles that the file holds. They are folded into their mean.
     period, frequency
         Length of a cycle instead of their number, in the unit of the time, or in samples without one; or one
-        over that.
+        divided by this length.
     harmonics
         Highest order, up to 64, of a fit by harmonics, which is a smooth loop; without it straight lines
         join the samples.

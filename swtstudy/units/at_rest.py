@@ -162,7 +162,7 @@ class Contact:
 
     @property
     def contact_radius(self) -> float:
-        """a at the mean depth δ0; of a strip half its width."""
+        """The contact radius a at the mean depth δ0; half the width of a strip."""
         return self.length_scale * float(self._at_rest().radius(np.ones((1, 1)))[0, 0])
 
     @property

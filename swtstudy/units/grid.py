@@ -1,6 +1,6 @@
-"""The door in: a grid of real contacts, whose points are solved as the non-dimensional ones that they are.
+"""A grid of real contacts, whose points are solved as non-dimensional ones.
 
-A loop that was measured lacks what the parameters of a contact say otherwise: its mean is the mean load. The
+A measured loop replaces a parameter of the contact: its mean is the mean load. The
 loads of plane contacts are per length, unless their length is given.
 """
 

@@ -126,7 +126,7 @@ class FatigueConstants(_Constants):
             same ratios.
         counted, counted_number
             SWT_i over SWT, and how many cycles have it, along two more axes than ``swt``, places and cycles,
-            as results of studies with [material] have them; NaN where there are no more. Where there are none
+            as results of studies with [material] have them; NaN where there are no more. If there are none
             at all a round counts as one cycle.
 
         Returns
@@ -245,7 +245,7 @@ class ShearConstants(_Constants):
 
     @classmethod
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
-        """From tensile constants, for want of others: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
+        """Estimate them from tensile constants: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
         if not -1.0 < plain_number(poisson_ratio) <= 0.5:
             raise StudyError([Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")])
         root = math.sqrt(3.0)

@@ -58,7 +58,7 @@ def scale_of(name: str, stresses: Sequence[float] = ()) -> Callable[[Contact, in
 
 
 def derived(grid: PhysicalGrid, asked: Request) -> Iterator[Derived]:
-    """The data variables that a grid has beside those without units, in the words of its contacts."""
+    """The data variables with units that a grid adds, in the words of its contacts."""
     known = {"", "s", "s_error", "critical_x", *asked.variables, *grid.margins}
     criteria = {"", *map(str, grid.values("criterion"))}
     words = {"radius": "half-width", "mean": "load"} if grid.plane else {"radius": "radius", "mean": "depth"}

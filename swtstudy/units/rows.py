@@ -1,6 +1,6 @@
 """The parameters of real contacts, with their units and scales.
 
-A study labels its units of length, force and stress: any consistent set. The rows are as those of
+A study labels its units of length, force and stress: any consistent set. The rows are like the rows of
 `swtstudy.vocabulary.parameters.PARAMETERS`. The scales are the units of a contact's lengths, forces and
 stresses, and the way there and back.
 """

@@ -181,7 +181,7 @@ def plain_number(value: object) -> float:
 
 
 def nearest(name: str, known: Iterable[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
-    """Say which names are allowed in place of an unknown one; the one that was probably meant comes first.
+    """Say which names are allowed instead of an unknown one; the name that was probably meant comes first.
 
     Examples
     --------

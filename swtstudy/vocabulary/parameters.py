@@ -44,7 +44,7 @@ CONTACT_AXES = {row.name: row for row in _ROWS if row.part == "contact"}
 PARAMETERS = {row.name: row for row in _ROWS if row.part not in ("quantity", "contact")}
 AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)
 
-#: Names by letter, the first one of those that share it.
+#: Names by letter; if names share a letter, the first of them.
 LETTERS: dict[str, str] = {parameter.letter: name for name, parameter in reversed(PARAMETERS.items())}
 
 

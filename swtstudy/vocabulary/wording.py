@@ -18,7 +18,7 @@ _LARGEST_DENOMINATOR = 20
 #: A decimal of so many digits at most is read more easily than a fraction that is equal to it.
 _EXACT = 6
 
-#: Numbers below this power of ten are written out; beside those that are not, numbers between these.
+#: Numbers below this power of ten are written out; beside powers of ten, numbers between these two.
 _PLAIN, _PLAIN_BESIDE = 6, (1e-2, 1e3)
 _SUPERSCRIPTS = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"
 _RAISED = str.maketrans("-0123456789", _SUPERSCRIPTS)
@@ -246,7 +246,7 @@ def place_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
 
 
 def unit_words(unit: str) -> str:
-    """A unit as it stands behind a number; nothing of those that go without saying.
+    """Unit suffix of a number; empty if the unit is implied.
 
     Examples
     --------

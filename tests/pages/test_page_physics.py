@@ -98,4 +98,4 @@ def test_poisson_ratio():
     says("displacements SWT falls by {}, {} and {} %", *given)
     says("Some {} points of that are the scale's", np.mean(np.subtract(plain, given)))
     force = falls(lambda ν, μ: swt(ν, μ, tangential_force_amplitude=0.6 * μ * RIG["normal_force"]))
-    says("SWT falls by {}, {} and {} %. And the title's", *force)
+    says("constant normal force F SWT falls by {}, {} and {} %.", *force)

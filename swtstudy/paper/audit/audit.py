@@ -47,7 +47,7 @@ def audit_study(
     workers
         Number of worker processes.
     dense
-        Whether the surface line is looked at densely, too: 400 positions between any two cusps, on 64 planes.
+        Whether the surface line gets a dense grid, too: 400 positions between any two cusps, on 64 planes.
 
     Returns
     -------

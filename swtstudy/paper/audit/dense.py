@@ -1,7 +1,7 @@
 """A dense grid over the surface line: every position, plane and instant, without a search.
 
 The grid shares with the search the stress history and the places of the cusps, and nothing else: every
-position has every plane at all instants, and the highest ones once more on closer grids. What it finds is
+position has every plane at all instants, and the highest ones once more on closer grids. Its result is
 there: s must not be less.
 """
 

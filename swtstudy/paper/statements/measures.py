@@ -23,7 +23,7 @@ class NotInArchiveError(LookupError):
 
 
 def at(dataset: xr.Dataset, **places: float | str) -> xr.Dataset:
-    """The part of a Dataset at given values of its parameters, those dimensions dropped.
+    """Select values of parameters of a Dataset, and drop their dimensions.
 
     Raises
     ------
