@@ -18,9 +18,9 @@ RUN = np.ascontiguousarray((_RUN @ FIT).T)
 
 
 def gauss_legendre(count):
-    """Ascending nodes and weights of Gauss's quadrature on [-1, 1], by Newton's method on Legendre's polynomial.
+    """Ascending nodes and weights of Gauss's quadrature on [-1, 1], by Newton's method.
 
-    NumPy's own one asks LAPACK, whose threads take longer to begin than all of these sums.
+    NumPy asks LAPACK for them, whose threads take longer to begin than all of these sums.
     """
     node = np.cos(np.pi * (np.arange(count, 0, -1) - 0.25) / (count + 0.5))
     for _ in range(5):

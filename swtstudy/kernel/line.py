@@ -508,8 +508,9 @@ def share_curvature(S, m):
 def look_beside_cusps(S, m, limit):
     """Have intervals halved in which the value falls from a high cusp by more than the tolerance.
 
-    At a vertex of the load the bulk stress may fall at once while slip begins, whose tension rises like a root.
-    The sum has a peak beside the cusp, as narrow as the square of the friction: nothing farther away shows it.
+    At a vertex of the load the bulk stress may fall at once while slip begins, whose tension rises like a
+    root. The sum has a peak beside the cusp, as narrow as the square of the friction: no value farther away
+    shows it.
     """
     for k in range(m):
         if S.cusps[k, 1] > 0 or S.ends[k, 1] - S.ends[k, 0] < FINEST_ANGLE:
