@@ -31,7 +31,10 @@ HARD = (
     "power law 213",
 )
 #: Scenes of which every point is a case of its own.
-NAMED = ("turns within growth", "coincident phases", "bulk stress turns within growth", "steep powers")
+NAMED = (
+    *("turns within growth", "coincident phases", "bulk stress turns within growth", "steep powers"),
+    "bulk stress falls at a vertex",
+)
 SCENES = [scene for scene in truth.points() if scene not in NAMED]
 
 
