@@ -6,16 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.kernel.batch import OF_PROFILE, chunks
+from swtstudy.kernel.batch import OF_PROFILE
 from swtstudy.kernel.compiled import new_record, new_records
-from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.course import STATE, write_parts, write_springs, write_states, write_stress, write_values
-from swtstudy.kernel.growth import lay_out
+from swtstudy.kernel.field import open_cycle
 from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import workspace
 from swtstudy.kernel.profile import place_of, radius_of
-from swtstudy.kernel.shift import centre_of, shift_of
+from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
@@ -25,7 +24,7 @@ GROWTH = 1e-11
 
 
 class LoadCycle:
-    """The cycle of one point, solved when it is made; without equilibrium there is no more than the load.
+    """The cycle of one point, solved when it is made; without equilibrium there are the points alone.
 
     Parameters
     ----------
@@ -49,23 +48,17 @@ class LoadCycle:
     """
 
     def __init__(self, points: Points) -> None:
-        _, profiles, _, loads, asks = next(chunks(**arguments_of(points), rtol=OF_PROFILE, reach=1.0))
-        self.points, self.profile, self.load, self.ask = points, profiles[0], loads[0].copy(), asks[0]
-        self.cycle, self.growth, self.search, self.history, self.work, self.tables = workspace()
+        opened = open_cycle(GROWTH, **arguments_of(points), rtol=OF_PROFILE, reach=1.0)
+        self.points, self.equilibrium = points, opened is not None
+        if opened is None:
+            return
+        # Copies, which outlive the next cycle that the kernel opens.
+        self.cycle, self.growth, self.profile, self.load, self.ask = (each.copy() for each in opened[:5])
+        self.largest, self.moved = opened.largest, bool(self.cycle.shift != 0.0)
+        _, _, self.search, self.history, self.work, self.tables = workspace()
         self.conjugate = new_record(CONJUGATE)
-        solve_cycle(self.cycle, self.load)
-        self.equilibrium, self.largest, self.moved = not self.cycle.no_equilibrium, np.nan, False
-        if self.equilibrium:
-            self.cycle.shift = shift_of(
-                self.load, self.profile, self.ask, self.cycle.event, self.cycle.events
-            )
-            lay_out(self.growth, self.cycle, self.profile, self.load, GROWTH)
-            tabulate_other(self.conjugate, self.profile)
-            tabulate_answer(self.conjugate, self.cycle, self.growth, self.profile)
-            self.largest = float(place_of(self.profile, self.cycle.largest))
-            self.moved = bool(self.cycle.shift != 0.0)
-        if self.cycle.overflow:
-            raise ArithmeticError("the load cycle has more pieces than the solver has room for")
+        tabulate_other(self.conjugate, self.profile)
+        tabulate_answer(self.conjugate, self.cycle, self.growth, self.profile)
 
     @property
     def radii(self) -> tuple[float, float, float]:
