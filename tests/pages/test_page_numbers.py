@@ -284,6 +284,17 @@ def stability() -> None:
     assert max(float(each.max()) for each in others) < 1.0001e-4
 
 
+def lateral_slip() -> None:
+    rows = np.array([line.split() for line in lines("lateral_slip.txt")[5:]], dtype=float)
+    steel, soft = (rows[rows[:, 0] == ν] for ν in (0.3, 0.5))
+    changes = [float(np.abs(each[:, 4:]).max()) for each in (steel, soft)]
+    says("slip at ν = 0.3 is up to {}° off the traction", steel[:, 2].max())
+    says("Lateral tractions of up to {} μ p0", steel[:, 3].max())
+    says("They change s by at most {} % at ν = 0.3 and by at most {} % at ν = 0.5", *changes)
+    says("at ν = 0.3 they change s by at most {} %", changes[0])
+    says("at most {} % of s at ν = 0.3, {} % at ν = 0.5", *changes)
+
+
 def thresholds() -> None:
     text = lines("thresholds_35NCD16.txt")
     breaks = [number for number, line in enumerate(text) if not line]
@@ -420,6 +431,7 @@ CLAIMS: tuple[Callable[[], None], ...] = (
     audit_of_criteria,
     stability,
     lives,
+    lateral_slip,
     thresholds,
     checks,
     extremes,
