@@ -108,11 +108,12 @@ def test_a_file_that_claims_more_than_it_holds_is_not_read(tmp_path):
         open_results(path)
 
 
-def test_an_archive_that_another_program_has_changed_says_so(tmp_path):
+@pytest.mark.parametrize("name", ["status", "s"])
+def test_an_archive_that_another_program_has_changed_says_so(tmp_path, name):
     path = tmp_path / "t.nc"
     run(STUDY, path, solver=stand_in.smooth)
-    open_results(path).drop_vars("status").to_netcdf(path)
-    with pytest.raises(ValueError, match=r"t\.nc: an archive changed by another program \(no status"):
+    open_results(path).drop_vars(name).to_netcdf(path)
+    with pytest.raises(ValueError, match=rf"t\.nc: an archive changed by another program \(no {name}"):
         open_results(path)
 
 
