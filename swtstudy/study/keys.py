@@ -19,6 +19,7 @@ from swtstudy.loads.smooth_path import HIGHEST_ORDER
 from swtstudy.points.reading import LONGEST_AXIS, Range
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.writing import quoted
+from swtstudy.units.rows import right_place
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain
@@ -321,7 +322,8 @@ def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
         allowed = next(filter(None, words), "")
     name = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
-        return Mistake(name, f"unknown key {literal(path[-1])}", nearest(str(path[-1]), keys), source)
+        key, choice = str(path[-1]), right_place if len(path) == 1 else nearest
+        return Mistake(name, f"unknown key {literal(key)}", choice(key, keys), source)
     found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
     return Mistake(name, found, allowed or detail["msg"], source)
 

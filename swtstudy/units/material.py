@@ -17,7 +17,16 @@ from swtstudy.points.values import read_exact
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.life import FatigueConstants, ShearConstants
-from swtstudy.units.rows import KNOWN, OF_BODIES, TABLES, UNIT_KINDS, Units, read_units, wrong_size
+from swtstudy.units.rows import (
+    KNOWN,
+    OF_BODIES,
+    TABLES,
+    UNIT_KINDS,
+    Units,
+    read_units,
+    right_place,
+    wrong_size,
+)
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
@@ -113,7 +122,7 @@ def _read_material(
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
     for name in unknown:
-        report(f"material.{name}", f"unknown key {literal(name)}", nearest(str(name), KEYS))
+        report(f"material.{name}", f"unknown key {literal(name)}", right_place(str(name), KEYS))
     tables = [{name: two_of(value)[body] for name, value in raw.items()} for body in range(2)]
     if BY_NAME.keys() & raw.keys():
         tables = _named(raw, folder, report)

@@ -63,11 +63,18 @@ class LineUnits(Units):
         return self.force if kind == "work" else super().label(kind)
 
 
+def right_place(name: str, known: Collection[str]) -> str:
+    """Say where an unknown key of a table belongs: beside other parameters, or which keys the table has."""
+    if name in (NAMES_KEY, SIMILAR_KEY):
+        return "in [fixed]"
+    return "in [fixed] or [axes]" if name in AXES else nearest(name, known)
+
+
 def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
     """The units that a study says; every mistake is reported."""
     before = len(report)
     for name in (each for each in raw if each not in UNIT_KINDS):
-        report(f"units.{name}", f"unknown key {literal(name)}", nearest(str(name), UNIT_KINDS))
+        report(f"units.{name}", f"unknown key {literal(name)}", right_place(str(name), UNIT_KINDS))
     labels = {kind: str(raw[kind]).strip() if isinstance(raw.get(kind), str) else "" for kind in UNIT_KINDS}
     for kind, label in labels.items():
         found = literal(raw[kind]) if kind in raw else "nothing"
