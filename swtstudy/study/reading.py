@@ -36,7 +36,7 @@ from swtstudy.units.grid import ContactDetails
 from swtstudy.units.life import Block, Scatter, wrong_rounds
 from swtstudy.units.material import read_given
 from swtstudy.units.reading import ANY, ANY_MEASURED, doubts_of_units, read_contacts
-from swtstudy.units.rows import read_units, rows
+from swtstudy.units.rows import OF_BODIES, read_units, rows
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.files import parse_toml
@@ -219,7 +219,10 @@ class StudyReader:
                 allowed = "with [units] only: a life needs a real contact"
                 report("material", "constants without [units]", allowed)
             return None, fixed
-        contacts, distance = read_given(parts.units, parts.material, fixed, self.folder, report)
+        # What is missing altogether is reported with the contacts: of the material it is no mistake of its own.
+        missing = [] if parts.sample else [name for name in OF_BODIES if name not in {*fixed, *axes}]
+        told = {**dict.fromkeys(missing, 0.0), **fixed}
+        contacts, distance = read_given(parts.units, parts.material, told, self.folder, report)
         if distance is None:
             return contacts, fixed
         if DISTANCE in {*fixed, *axes}:

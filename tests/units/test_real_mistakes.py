@@ -44,6 +44,7 @@ MISTAKES = [
         "fixed.young_modulus: found [1, 2, 3]; allowed: a positive stress in MPa; or two",
     ),
     ("73.1e3", "[210e3, 3e3]", "fixed.young_modulus, fixed.poisson_ratio: found bodies that are not similar"),
+    ("young_modulus = 73.1e3", "", "fixed.young_modulus: found nothing; allowed: a positive stress in MPa"),
     ("friction = 0.5", "", "fixed.friction: found nothing; allowed: a number in [0, 10]"),
     (
         "normal_amplitude = 2e-3",
@@ -141,7 +142,7 @@ def test_mistakes_are_said_in_the_users_quantity_and_unit(line, instead, words):
 
 def test_all_mistakes_are_said_at_once():
     wrong = STUDY
-    for line, instead, _ in (MISTAKES[3], MISTAKES[6], MISTAKES[16], MISTAKES[-1]):
+    for line, instead, _ in (MISTAKES[3], MISTAKES[6], MISTAKES[17], MISTAKES[-1]):
         wrong = wrong.replace(line, instead, 1)
     with pytest.raises(StudyError) as error:
         Study.from_text(wrong, "mine.toml")
