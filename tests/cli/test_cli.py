@@ -243,6 +243,16 @@ def test_show_draws_one_point(tmp_path):
 
 
 @pytest.mark.slow
+def test_a_picture_for_a_column_that_is_higher_than_a_page_says_so_beside_its_path(tmp_path):
+    target = tmp_path / "point.svg"
+    result = call("show", "--width", "column", "-o", target)
+    assert result.stdout == f"{target}\n"
+    said = r"point\.svg is \d+ cm high, more than a page: --width page draws it lower"
+    assert re.search(said, result.stderr)
+    assert "cm high" not in call("show", "--width", "page", "-o", target).stderr
+
+
+@pytest.mark.slow
 def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     drawn = []
