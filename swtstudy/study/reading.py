@@ -219,7 +219,7 @@ class StudyReader:
                 allowed = "with [units] only: a life needs a real contact"
                 report("material", "constants without [units]", allowed)
             return None, fixed
-        # What is missing altogether is reported with the contacts: of the material it is no mistake of its own.
+        # A modulus that is missing altogether is reported with the contacts: once.
         missing = [] if parts.sample else [name for name in OF_BODIES if name not in {*fixed, *axes}]
         told = {**dict.fromkeys(missing, 0.0), **fixed}
         contacts, distance = read_given(parts.units, parts.material, told, self.folder, report)
