@@ -16,8 +16,7 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from fractions import Fraction
-from itertools import chain, groupby
-from operator import itemgetter
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +43,7 @@ RATIOS = [Fraction(text) for text in ("1", "2", "1/2", "3/2", "4/3", "3", "2/3")
 PLANE = {"rounded_flat": {"flat_half_width": (0.05, 2.0)}, "power_law_cylinder": {"exponent": (1.2, 6.0)}}
 #: The dense look: steps of each piece, but fewer where the loop has more than so many vertices, and planes.
 STEPS, INTERVALS, PLANES = 64, 32, 32
-#: Points that are drawn together, and chunks that are solved so.
+#: Points that are drawn together, and chunks of a task of a process.
 CHUNK, TOGETHER = 50, 20
 RTOLS = 1e-4, 1e-6
 #: Bulk stress over the contact's own by which the search takes its other way: it moves s by as much.
@@ -175,29 +174,12 @@ def shortfall(tasks: list[Task]) -> list[tuple[Chunk, Dense, Array, list[str]]]:
     """
     found = []
     several = [drawn(*chunk) for chunk, _ in tasks]
-    solutions = [_solved(several, rtol) for rtol in RTOLS]
+    solutions = [[solve_points(points, rtol) for points in several] for rtol in RTOLS]
     for (chunk, known), points, *solved in zip(tasks, several, *solutions, strict=True):
         some = np.isfinite(solved[0].s) & (solved[0].s > 0.0)
         look = known if known is not None else _dense(points, some)
         found.append((chunk, look, *_compared(chunk[0], points, solved, look)))
     return found
-
-
-def _solved(several: list[Points], rtol: float) -> list[Solution]:
-    """The solutions of chunks; similar chunks are solved together, which is faster."""
-    # A table, and a loop, is each of a chunk of its own.
-    kinds = [
-        (name if isinstance(name := points.profile, str) else id(name), points.control, id(points.path))
-        for points in several
-    ]
-    parts = []
-    for _, group in groupby(zip(kinds, several, strict=True), key=itemgetter(0)):
-        own = [points for _, points in group]
-        joined, begin = solve_points(Points.joined(own), rtol), 0
-        for points in own:
-            parts.append(Solution(*(values[begin : begin + len(points)] for values in joined)))
-            begin += len(points)
-    return parts
 
 
 def _compared(name: str, points: Points, solved: list[Solution], look: Dense) -> tuple[Array, list[str]]:

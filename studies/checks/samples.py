@@ -41,7 +41,9 @@ def of_law(scene: str) -> Callable[[int], Points]:
 
     def first(count: int) -> Points:
         chunks = [drawn(scene, SEED, chunk) for chunk in range(-(-count // CHUNK))]
-        return Points.joined(chunks)[np.arange(count)]
+        columns = {name: [vars(points)[name] for points in chunks] for name in vars(chunks[0])}
+        arrays = {n: np.concatenate(of) for n, of in columns.items() if isinstance(of[0], np.ndarray)}
+        return replace(chunks[0], **arrays)[np.arange(count)]
 
     return first
 
