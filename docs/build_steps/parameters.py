@@ -35,7 +35,7 @@ def _allowed(parameter: Parameter) -> str:
 
 def _meaning(parameter: Parameter) -> str:
     other = parameter.instead_of
-    return f"{parameter.meaning}, in the place of `{other}`" if other else parameter.meaning
+    return f"{parameter.meaning}, instead of `{other}`" if other else parameter.meaning
 
 
 def _plain(family: Family) -> str:

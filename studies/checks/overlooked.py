@@ -251,7 +251,7 @@ def lines(found: dict[str, Array]) -> Iterator[str]:
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the report")
-    arguments.add_argument("--points", type=int, default=10_000, help="points in the place of 10,000")
+    arguments.add_argument("--points", type=int, default=10_000, help="points instead of 10,000")
     arguments.add_argument("--seeds", type=int, nargs="+", default=[1, 2], help="half of the points each")
     arguments.add_argument("--scenes", nargs="+", default=list(SCENES), choices=list(SCENES))
     arguments.add_argument("--known", action="store_true", help="no new dense look")

@@ -141,8 +141,8 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     """Merge several ARCHIVEs into one.
 
     Along every axis the merged grid has the values of all archives. Points of it that are in none of them
-    are refused without --sparse; contradictory values are always refused. What an archive in the place of the
-    merged one has besides is kept in a folder beside it.
+    are refused without --sparse; contradictory values are always refused. If the merged archive replaces one
+    that has more, the rest is kept in a folder beside it.
 
     \b
     Examples:

@@ -85,7 +85,7 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
     found = next((own for own, names in ORDERS.items() if has[own] in ([*names], IN_PLANE[own])), None)
     if found is None and order is None:
         every = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
-        allowed = f"columns {every}; of plane elements without those across; "
+        allowed = f"columns {every}; of plane elements without the two across; "
         allowed += "with other headers an order of the last six columns (--order abaqus or swtstudy)"
         raise refused(f"line {table.line}", ", ".join(table.headers), allowed, table.source)
     if found is not None and order not in (None, found):

@@ -28,7 +28,7 @@ Variables = dict[str, tuple[Any, Any, dict[str, Any]]]
 _SPARSE, _UNIFORM, _FEW, _STEPS = 90, 360, 4, 8
 #: How many instants are marked at most, and their least distance in cycles: their marks do not overlap.
 _MARKED, _APART = 4, 0.08
-#: Letters of the curves at whose extremes instants are marked, those that come first before the others.
+#: Letters of the curves at whose extremes instants are marked; the first ones have precedence.
 _OF_PLANE = {"normal_stress": "σ_n", NORMAL_STRAIN.name: "ε_n", SHEAR_STRESS.name: "τ"}
 _LETTERS = {"depth": "δ", "displacement": "u", "normal_force": "F_N", "tangential_force": "F_x", **_OF_PLANE}
 _OF_NO_MATTER = (("normal_stress", "smallest"), (NORMAL_STRAIN.name, "largest"))

@@ -182,7 +182,7 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     dataset = dataset.drop_vars([*COUNTED], errors="ignore")
     beside = dims_beside(dataset)
     dims = [str(name) for name in dataset.dims if name not in beside]
-    # Those of a sample are along its dimension, single values along none.
+    # Parameters of a sample are along its dimension, single values along none.
     others = [str(name) for name in dataset.coords if name not in (*dims, *beside)]
     rows = dataset.drop_dims(beside)
     shape = tuple(rows.sizes[name] for name in dims)

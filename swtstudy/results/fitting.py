@@ -131,7 +131,7 @@ def fit(
     low, high = np.log(tests_of.distances[[0, -1]])
     if not low + STEP < best[0] < high - STEP:
         ends = " to ".join(f"{math.exp(end):.3g}" for end in (low, high))
-        words = f"the best one is at an end of those tried, {ends} {grid.labels.length}"
+        words = f"the best one is at an end of the range tried, {ends} {grid.labels.length}"
         raise refused(DISTANCE, words, "tests whose lives depend on it within that range")
     return _labelled(tests_of, best, float(confidence))
 

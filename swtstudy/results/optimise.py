@@ -431,7 +431,7 @@ def _neighbourhood(
     stepped = np.moveaxis(np.diagonal(box.values(places), axis1=1, axis2=3), -1, 1)
     along = ("case", "parameter", "step")
     values = np.where(inside, stepped, np.nan)
-    words = {"long_name": "value of the parameter", "comment": "the others are those of the case"}
+    words = {"long_name": "value of the parameter", "comment": "the other parameters are as in the case"}
     return xr.Dataset(
         {"nearby": (along, found, {"long_name": f"{quantity} along each parameter", **own})},
         {

@@ -127,7 +127,7 @@ class RangeTable(Table):
     spacing: Literal["linear", "log"] = "linear"
     """Equal steps ("linear") or equal ratios ("log")."""
     also: Annotated[list[Any], "a list of values"] = []
-    """Further values, put in among those: where curves bend, for example."""
+    """Further values, put in among the others: where curves bend, for example."""
 
 
 Axis = Annotated[
@@ -147,13 +147,13 @@ class SampleTable(FileTable):
     size: Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)] = (
         None
     )
-    """Number of points; for sobol and saltelli a power of 2. Of saltelli there are size (d + 2)."""
+    """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""
     seed: Annotated[int, rules.ALLOWED_SEED, Field(ge=0, le=rules.LARGEST_SEED)] = 0
     """Seed of the random numbers."""
     ranges: Annotated[dict[str, Any], "a table of ranges"] = {}
     """Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution."""
     covariance: Annotated[dict[str, Any], "a table of covariances"] = {}
-    """Variances and covariances of constants, which scatter normally about those of [material]."""
+    """Variances and covariances of constants, which scatter normally about the values in [material]."""
     target_life: Annotated[float | None, "a number"] = None
     """Load cycles before which the probability of a crack is asked for."""
     file: File = None
@@ -178,7 +178,7 @@ class LoadTable(SignalTable):
     tangential: Any = None
     """Harmonics of c_t: rows of order, amplitude and phase."""
     bulk: Any = None
-    """Harmonics of c_b, beside those: rows of order, amplitude and phase."""
+    """Harmonics of c_b, beside the two others: rows of order, amplitude and phase."""
     mean_normal: Any = None
     """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
     keep_cycles: bool = False

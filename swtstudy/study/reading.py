@@ -191,14 +191,14 @@ class StudyReader:
         return profiles
 
     def _blocks(self, names: Iterable[str]) -> list[Block]:
-        """The blocks; of a signal that keeps its cycles one for each. The names are those of the loops."""
+        """The blocks; of a signal that keeps its cycles one for each. `names` are the names of the loops."""
         raw, parts, report = self.raw, self.parts, self.report
         if parts.blocks and not ("units" in raw and "material" in raw):
             report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
         for part in ("fixed", "axes"):
             if parts.blocks and "load" in getattr(parts, part):
                 found = literal(raw[part]["load"])
-                report(f"{part}.load", found, "nothing: the loads are those of [[blocks]]")
+                report(f"{part}.load", found, "nothing: [[blocks]] give the loads")
         blocks: list[Block] = []
         for number, block in enumerate(parts.blocks):
             wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
@@ -243,7 +243,7 @@ class StudyReader:
         return read_sample(self.parts.sample, given, self.folder, self.report, known, single, contacts)
 
     def firsts(self) -> dict[str, object]:
-        """First values along axes, and of what is sampled; None for those with mistakes."""
+        """First values along axes, and of what is sampled; None where there is a mistake."""
         found = {
             name: axis.start if isinstance(axis, Range) else (axis or [None])[0]
             for name, axis in self.fixed_and_axes(self.parts.blocks)[1].items()

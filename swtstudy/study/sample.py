@@ -43,7 +43,7 @@ DISTRIBUTIONS: dict[str, tuple[str, ...]] = {
     "lognormal": ("median", "deviation"),
 }
 _UNBOUNDED = ("normal", "lognormal")
-#: That of a logarithm: ten times as much or a tenth are as near to the median.
+#: Deviation of a logarithm: ten times as much or a tenth are as near to the median.
 _LARGEST_DEVIATION = 2.3
 #: A distribution of which the bounds leave less than this is not meant so.
 _LEAST_SHARE = 1e-6

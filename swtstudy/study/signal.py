@@ -40,7 +40,7 @@ class Signal:
     Attributes
     ----------
     name
-        That of the loop.
+        Name of the loop.
     time
         Shape (k,): the time of each sample; its number, from 0 on, if none was recorded.
     values

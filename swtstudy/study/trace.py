@@ -104,7 +104,7 @@ def trace_from(
         raise refused("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))
     if not np.ptp(position) > 0.0:
         raise refused("", f"{len(position)} points at one position", "a trace across", str(own))
-    # Of a trace that hardly rises towards one of its ends nothing there can be folded.
+    # Nothing can be folded where a trace hardly rises towards one of its ends.
     real = _without_sentinels(height)
     sound = height[real][np.argsort(position[real])]
     outer, span = max(1, len(sound) // 100), np.ptp(sound)

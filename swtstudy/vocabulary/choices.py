@@ -87,7 +87,7 @@ FIGURES = {name: Drawing(**row) for name, row in read_table(__file__, "figures")
 
 #: Regimes of the contact over the stationary cycle, in the order of their flag values.
 REGIMES = ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
-#: Those in which s is no finite number.
+#: Regimes in which s is no finite number.
 WITHOUT_S = ("not_finite", "no_equilibrium")
 
 #: Whether a bulk stress moves the stick zone, where that is known, or leaves it in its place.

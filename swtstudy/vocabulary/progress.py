@@ -14,7 +14,7 @@ _log = logging.getLogger(__name__)
 PATIENCE = 2.0
 #: Seconds between two lines in a log.
 LINE_SECONDS = 30.0
-#: That of the search, or the fit, in which something is solved.
+#: Progress of the search, or of the fit, in which something is solved.
 _OUTER: ContextVar[Progress | None] = ContextVar("_OUTER", default=None)
 
 

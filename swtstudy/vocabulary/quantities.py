@@ -68,7 +68,7 @@ class Quantity(NamedTuple):
 
 QUANTITIES = {name: Quantity(name, **row) for name, row in read_table(__file__, "quantities").items()}
 
-#: Those that are asked by name, by giving critical distances, and with fatigue constants.
+#: Quantities that are asked by name, by giving critical distances, and with fatigue constants.
 NAMED = {name: row for name, row in QUANTITIES.items() if not row.dims}
 NONLOCAL = {name: row for name, row in QUANTITIES.items() if DISTANCE in row.dims}
 COUNTED = {name: row for name, row in QUANTITIES.items() if row.dims == (*COUNTED_SIZES,)}

@@ -94,7 +94,7 @@ def test_processes_and_threads_compile_once_and_remove_folders_not_used_for_long
 def test_compiled_code_is_kept_where_one_can_write_and_a_terminal_is_told(
     tmp_path: Path, environment: dict[str, str], home: str
 ) -> None:
-    # A file in the place of the home: nobody can write below it, and the package is left alone.
+    # A file where the home should be: nobody can write below it, and the package is left alone.
     (tmp_path / "none").touch()
     copy = tmp_path / "package" / "swtstudy"
     shutil.copytree(ROOT / "swtstudy", copy, ignore=shutil.ignore_patterns("__pycache__"))

@@ -459,7 +459,7 @@ FAST_TURNS = [
 
 @pytest.mark.parametrize(("point", "s"), FAST_TURNS)
 def test_the_slope_of_a_growth_has_nodes_enough_where_it_turns_fast(point, s):
-    """1.9e-6 low with 6 nodes a digit in the place of 7; 2e-6 high without more of them for slow motions."""
+    """1.9e-6 low with 6 nodes a digit instead of 7; 2e-6 high without more of them for slow motions."""
     assert solve_points(points(**point), 1e-6).s == pytest.approx(s, rel=1e-6)
 
 

@@ -143,7 +143,7 @@ def test_recorded_cycles_are_blocks_one_by_one_if_they_are_kept(tmp_path: Path) 
         (RUNNING + block("running", 1) + "times = 2\n", r"blocks\[0\].times: found unknown key 'times'"),
         (
             "[axes]\nload = ['running']\n" + RUNNING + block("running", 1),
-            r"axes.load: found \['running'\]; allowed: nothing: the loads are those of \[\[blocks\]\]",
+            r"axes.load: found \['running'\]; allowed: nothing: \[\[blocks\]\] give the loads",
         ),
     ],
 )

@@ -29,7 +29,7 @@ FOUND = [
 ]
 #: An audited point, in an array: its numbers, and its regime's flag value.
 AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
-#: Columns of the rows that an audit holds, the cost of a loop being known with the loop; and those of names.
+#: Columns of the rows that an audit holds: the loop knows what it costs. And the columns of names.
 _COLUMNS = [name for name in COLUMNS if name != COST]
 _NAMES = ("profile", "criterion", "load")
 
