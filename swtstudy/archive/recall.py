@@ -123,7 +123,7 @@ def found_in(dataset: xr.Dataset) -> Found:
     arrays |= {name: flat(name, own) for name, own in asked.variables.items()}
     for row in () if asked.is_axis else NONLOCAL.values():
         arrays |= {name: arrays[name][:, None] for name in row.variables if name in arrays}
-    arrays = turned(arrays, points.mirrored[at], grid.cycles(at), np.divide)
+    arrays = turned(arrays, points.mirrored[at], grid, at, np.divide)
     arrays["message"] = flat("message").astype(object) if "message" in plain else np.full(at.size, "", object)
     arrays["run"] = arrays["run"].astype(np.int32)
     if asked.distances:
