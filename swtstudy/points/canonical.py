@@ -71,9 +71,6 @@ COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 _INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
 #: Columns of a grid that rows are made of: a stick zone that stays has a strain share of 0.
 GIVEN_COLUMNS = (*COLUMNS, SHIFT)
-#: Further columns of a grid: the unit of critical distances, a_H/R, μ E* δ0/(G* a_H), and the strain of the
-#: body with the bulk stress over the mean of both under equal tractions; negative at points of the other one.
-LENGTH, CURVATURE, SLIP, BODY_SHARE = "length_scale", "curvature", "slip_scale", "body_share"
 #: Numbers over the dimensions of a grid that they depend on, in the order of their axes.
 Column = tuple[tuple[str, ...], NDArray]
 #: A canonical point, in an array: a number for each of these names.
@@ -223,7 +220,7 @@ class Distinct:
             some = slice(start, start + _SLAB)
             rows[some], mirrored[some] = canonical_points(grid, places[some])
             # The same length is another one in a_H from contact to contact.
-            (length,) = grid.at(places[some], LENGTH)
+            (length,) = grid.at(places[some], "length_scale")
             distances[some] = rounded(np.array(asked.distances) / length[:, None])
         first, index = group_rows(rows, *distances.T)
         for name in ROW.names or ():  # in place: a million rows are 200 MB

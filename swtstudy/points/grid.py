@@ -11,17 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import (
-    BODY_SHARE,
-    COST,
-    CURVATURE,
-    GIVEN_COLUMNS,
-    LENGTH,
-    SLIP,
-    Column,
-    canonical_number,
-    code_of,
-)
+from swtstudy.points.canonical import COST, GIVEN_COLUMNS, Column, canonical_number, code_of
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
@@ -75,6 +65,11 @@ class Grid:
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
         return (*map(len, [*self.samples.values()][:1]), *map(len, self.axes.values()))
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Lengths of the dimensions by their names."""
+        return dict(zip(self.dims, self.shape, strict=True))
 
     @property
     def size(self) -> int:
@@ -141,13 +136,18 @@ class Grid:
 
     @cached_property
     def columns(self) -> dict[str, Column]:
-        """The numbers that its points are made of, by the names in `swtstudy.points.canonical`."""
+        """The numbers that its points are made of, by `GIVEN_COLUMNS`, and their scales.
+
+        Beside these columns there are ``length_scale``, the unit of critical distances; ``curvature``, a_H/R;
+        ``slip_scale``, μ E* δ0/(G* a_H); and ``body_share``, the strain of the body with the bulk stress over
+        the mean of both bodies under equal tractions, negative at points of the other body.
+        """
         return self._columns()
 
     def _columns(self) -> dict[str, Column]:
         """See `columns`; without units no length is known."""
-        found: dict[str, Column] = {LENGTH: ((), np.array(1.0))}
-        found |= dict.fromkeys((CURVATURE, SLIP), ((), np.array(np.nan)))
+        found: dict[str, Column] = {"length_scale": ((), np.array(1.0))}
+        found |= dict.fromkeys(("curvature", "slip_scale"), ((), np.array(np.nan)))
         for name in GIVEN_COLUMNS:
             # One that takes the other's place is in its column.
             source = {COST: "load", "p": "frequency_ratio", "q": "frequency_ratio"}.get(name)
@@ -156,7 +156,7 @@ class Grid:
             dim = self.dimension(source)
             found[name] = ((dim,), numbers) if dim else ((), numbers[0])
         found["control"] = (), np.array(self.control.normal_force + 2 * self.control.tangential_force)
-        return found | {BODY_SHARE: found[STRAIN_SHARE]}
+        return found | {"body_share": found[STRAIN_SHARE]}
 
     def at(self, places: IndexArray, *names: str) -> list[NDArray]:
         """The numbers of columns at n places of the grid in C order, each of shape (n,)."""

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import BODY_SHARE, CURVATURE, SLIP, Distinct, alike, code_of, points_from
+from swtstudy.points.canonical import Distinct, alike, code_of, points_from
 from swtstudy.points.chunk import Arrays
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
@@ -198,7 +198,7 @@ def margins(
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
     found = {name: values[points.index] for name, values in found.items()}
-    curvature, slip, share = grid.at(np.arange(grid.size), CURVATURE, SLIP, BODY_SHARE)
+    curvature, slip, share = grid.at(np.arange(grid.size), "curvature", "slip_scale", "body_share")
     radius, shift = found["contact_radius"], found["bulk_shift"] * np.abs(share)
     width = radius - found["stick_radius"]  # of the slip zone
     with np.errstate(divide="ignore", invalid="ignore"):

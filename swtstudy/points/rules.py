@@ -12,16 +12,7 @@ import numpy as np
 from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import amplitudes_of, as_number, values_taken
-from swtstudy.vocabulary.choices import (
-    FAMILIES,
-    FATEMI_SOCIE,
-    FINDLEY,
-    SHARP,
-    SWT,
-    families_with,
-    family_of,
-    is_plane,
-)
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
 from swtstudy.vocabulary.parameter import Parameter
@@ -215,17 +206,19 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         Says where a place of the grid is, so that each load is looked at. Without it the largest load of a
         shape counts, whose contact is the hardest to keep compact.
     """
+    from swtstudy.loads.loop import Loop
     from swtstudy.profiles.at_rest import check_shape, compact_shapes
 
+    # By how many amplitudes the normal load rises at most.
+    reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
     # A table of real contacts is another one in a_H and δ0 from depth to depth.
     known, profiles = grid.definitions, dict[str, dict[int, Any]]()
     for code in dict.fromkeys(grid.columns["profile"][1].ravel().tolist()):
-        table = value_of(code, known)
-        profiles.setdefault(str(table), {})[code] = table
+        table: Any = value_of(code, known)
+        if family_of(table).shape or isinstance(table, Definition):
+            profiles.setdefault(str(table), {})[code] = table
     for profile, tables in profiles.items():
         names = family_of(next(iter(tables.values()))).shape
-        if not names and profile in FAMILIES:
-            continue
         columns = {name: grid.columns[name] for name in ("profile", *names)}
         along = {dim for dims, _ in columns.values() for dim in dims}
         dims, loads = grid.columns["normal_amplitude"]
@@ -233,7 +226,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
             loads = loads.max(tuple(k for k, dim in enumerate(dims) if dim not in along))
             dims = tuple(dim for dim in dims if dim in along)
         columns["normal_amplitude"], along = (dims, loads), along | {*dims}
-        sizes = {dim: size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in along}
+        sizes = {dim: size for dim, size in grid.sizes.items() if dim in along}
         if (count := math.prod(size for dim, size in sizes.items() if dim != "profile")) > MOST_SHAPES:
             report.of(names, f"{count} shapes of the {profile}", f"at most {MOST_SHAPES}")
             continue
@@ -248,7 +241,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
             for own, table in tables.items():
                 same = np.flatnonzero(code == own)
                 shape = {name: values[same] for name, values in zip(names, shapes, strict=True)}
-                normal = 1.0 + np.maximum(load[same] * largest_reach(grid), 0.0)
+                normal = 1.0 + np.maximum(load[same] * reach, 0.0)
                 depth = largest_depths(grid, table, shape, normal)
                 wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(table, shape, depth)))
                 if wrong.size and not refused:
@@ -261,13 +254,6 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
                 refused += wrong.size
         if refused:
             report.of(names or "profile", found + more_like_it(refused), why or "")
-
-
-def largest_reach(grid: Grid) -> float:
-    """By how many amplitudes the normal load rises at most."""
-    from swtstudy.loads.loop import Loop
-
-    return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
 
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:

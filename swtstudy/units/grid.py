@@ -15,17 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.loads.loop import Loop
-from swtstudy.points.canonical import (
-    BODY_SHARE,
-    CURVATURE,
-    GIVEN_COLUMNS,
-    LENGTH,
-    SHAPE_COLUMNS,
-    SLIP,
-    Column,
-    code_of,
-    rounded,
-)
+from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.profiles.table import TabulatedProfile
@@ -340,10 +330,10 @@ class PhysicalGrid(ContactDetails, Grid):
         """See `Grid.columns`: in the units of the contacts at rest."""
         made = {
             "profile": self.each(lambda contact: code_of(contact.pure_profile), np.int64),
-            LENGTH: self.each(SCALES["a_H"].of),
-            CURVATURE: self.each(_curvature),
-            SLIP: self.each(lambda contact: contact.slip_scale / contact.length_scale),
-            BODY_SHARE: self._strain_share,
+            "length_scale": self.each(SCALES["a_H"].of),
+            "curvature": self.each(_curvature),
+            "slip_scale": self.each(lambda contact: contact.slip_scale / contact.length_scale),
+            "body_share": self._strain_share,
         }
         for name, own in self.numbers.items():
             made[name] = own if PARAMETERS[name].units == "rad" else own.copy(data=rounded(own.values))

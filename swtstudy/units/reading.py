@@ -308,7 +308,7 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
         return f"{_words(grid, here)}, {load}"
 
     dims = grid.at_rest_dims
-    count = math.prod(size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims)
+    count = math.prod(grid.sizes[dim] for dim in dims)
     if count > MOST_CONTACTS:
         report.of(dims, f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
     elif wrong := [each for each in grid.distinct if isinstance(each, StudyError)]:
