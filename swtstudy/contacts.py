@@ -117,7 +117,7 @@ class PhysicalContact:
     grid: PhysicalGrid
 
     def __repr__(self) -> str:
-        several = {n: size for n, size in zip(self.grid.dims, self.grid.shape, strict=True) if n != "body"}
+        several = {n: size for n, size in self.grid.sizes.items() if n != "body"}
         words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
         count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
         rows = [*self._words()]

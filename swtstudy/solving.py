@@ -128,7 +128,7 @@ def solve_grid(
             block_values,
             *(
                 xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
-                for dim, size in zip(grid.dims, grid.shape, strict=True)
+                for dim, size in grid.sizes.items()
             ),
             output_core_dims=[*own.values()],
             dask="parallelized",

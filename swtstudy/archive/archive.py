@@ -35,12 +35,13 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
     points
         The distinct points of its grid.
     found
-        Their values, in the same order.
+        Their values, in the same order; runs that made none of them are left out.
     history
         One line for each step, the latest first.
     seconds
         Wall time of the run that ends with this archive.
     """
+    found = found.take(slice(None))
     names = ("status", "run", *("message",) * bool((found["status"] == FAILED).any()))
     arrays = values_at(study.grid, points, found.arrays, study.asked)
     arrays |= {name: found[name][points.index] for name in names}
@@ -128,7 +129,7 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
             study = Study.from_text(latest.study, str(path))
             points, known = Distinct.of(study.grid, study.asked), known_points(path)
             found = matching(points, known, known.usable(study.rtol, latest.solver_version))
-            return build(study, points, found.take(slice(None)), history_line("opened unfinished"), 0.0)
+            return build(study, points, found, history_line("opened unfinished"), 0.0)
     if not path.exists():
         raise FileNotFoundError(f"{path}: no such archive")
     return read_archive(path)

@@ -87,7 +87,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     made = f"merged from {', '.join([*(path.name for path in paths), *filter(None, [gaps])])}"
     history = [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
     lines = dict.fromkeys([history_line(made), *history])
-    return build(study, points, merged.take(slice(None)), "\n".join(lines), 0.0)
+    return build(study, points, merged, "\n".join(lines), 0.0)
 
 
 def _asked(own: Sequence[Request]) -> Request:

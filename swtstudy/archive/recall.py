@@ -99,7 +99,7 @@ def _values(
 
 def request_of(dataset: xr.Dataset) -> Request:
     """The quantities that results have beside s; of real contacts distances are lengths."""
-    plain = _plain(dataset)
+    plain = without_units(dataset)
     names = tuple(str(name) for name in plain.data_vars if name in NAMED)
     distances = []
     if DISTANCE in dataset.coords and any(name in plain for name in NONLOCAL):
@@ -111,7 +111,7 @@ def found_in(dataset: xr.Dataset) -> Found:
     """The values in an archive, by distinct point."""
     grid, asked = grid_of(dataset), request_of(dataset)
     points = Distinct.of(grid, asked)
-    plain = _plain(dataset)
+    plain = without_units(dataset)
     at = np.zeros(len(points.rows), np.int64)
     at[points.index] = np.arange(grid.size)
 
@@ -123,7 +123,7 @@ def found_in(dataset: xr.Dataset) -> Found:
     arrays |= {name: flat(name, own) for name, own in asked.variables.items()}
     for row in () if asked.is_axis else NONLOCAL.values():
         arrays |= {name: arrays[name][:, None] for name in row.variables if name in arrays}
-    arrays = turned(arrays, points.mirrored[at], grid.cycles(at), np.divide)
+    arrays = turned(arrays, points.mirrored[at], grid, at, np.divide)
     arrays["message"] = flat("message").astype(object) if "message" in plain else np.full(at.size, "", object)
     arrays["run"] = arrays["run"].astype(np.int32)
     if asked.distances:
@@ -133,11 +133,6 @@ def found_in(dataset: xr.Dataset) -> Found:
     each = [run.seconds / max((arrays["run"] == k).sum(), 1) for k, run in enumerate(runs)]
     arrays |= {"row": points.rows, "seconds": np.array([*each, 0.0])[arrays["run"]]}
     return Found(arrays, runs)
-
-
-def _plain(dataset: xr.Dataset) -> xr.Dataset:
-    """The data variables by the names of results without units."""
-    return without_units(dataset) if has_units(dataset) else dataset
 
 
 #: Parts that every archive must have: variables, and attributes that are texts or numbers.
@@ -186,7 +181,7 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
         except ValueError as error:
             found = f"{_words(attributes[name])} ({error})"
             report(f"attribute {name}", found, "JSON as swtstudy writes it")
-    plain = _plain(dataset)
+    plain = without_units(dataset)
     known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
     known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
     known |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
@@ -199,7 +194,7 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
 
 
 def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
-    plain = _plain(dataset)
+    plain = without_units(dataset)
     own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
     for name, more in (own | request_of(dataset).variables).items():
         if name not in plain:

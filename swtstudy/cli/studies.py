@@ -80,7 +80,7 @@ def validate(studies: tuple[str, ...]) -> None:
     defined = sound_studies(studies, report)
     for source, study in defined.items():
         grid = study.grid
-        sizes = " × ".join(f"{n} {name}" for name, n in zip(grid.dims, grid.shape, strict=True))
+        sizes = " × ".join(f"{n} {name}" for name, n in grid.sizes.items())
         words = f"{source}: valid, {number_of(grid.size, 'point')}" + (f" = {sizes}" if sizes else "")
         with report:
             archive_paths([source], "")

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
-from swtstudy.points.canonical import points_from
+from swtstudy.points.canonical import canonical_points, points_from
 from swtstudy.points.reading import read_grid
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.margins import margins_of
@@ -35,7 +35,7 @@ def read_point(parameters: Mapping[str, object]) -> Points:
     grid, mistakes = read_grid(dict(parameters), {})
     if grid is None:
         raise StudyError(mistakes)
-    return points_from(grid.canonical(np.zeros(1, int), fold=False)[0], grid.definitions)
+    return points_from(canonical_points(grid, np.zeros(1, int), fold=False)[0], grid.definitions)
 
 
 def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:

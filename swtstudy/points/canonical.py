@@ -69,8 +69,10 @@ NUMBERS = (*_numbers("load"), *_OTHERS)
 #: control see `swtstudy.points.canonical`.
 COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
 _INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
-#: Columns of the rows: a stick zone that stays has a strain share of 0.
+#: Columns of a grid that rows are made of: a stick zone that stays has a strain share of 0.
 GIVEN_COLUMNS = (*COLUMNS, SHIFT)
+#: Numbers over the dimensions of a grid that they depend on, in the order of their axes.
+Column = tuple[tuple[str, ...], NDArray]
 #: A canonical point, in an array: a number for each of these names.
 ROW = np.dtype([(name, np.int64 if name in _INTEGERS else np.float64) for name in COLUMNS])
 #: Canonical points, shape (n,) of `ROW`.
@@ -96,13 +98,15 @@ def rounded(values: NDArray) -> FloatArray:
     return np.array([canonical_number(value) for value in distinct.tolist()])[index].reshape(values.shape)
 
 
-def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple[Table, BoolArray]:
-    """Canonical rows of points.
+def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple[Table, BoolArray]:
+    """Canonical rows of points of a grid.
 
     Parameters
     ----------
-    columns
-        A number for every name in `GIVEN_COLUMNS`, each broadcastable to shape (n,).
+    grid
+        The grid.
+    places
+        Shape (n,): places of the grid in C order.
     fold
         Whether phases are folded. If not, the time of a point keeps its origin.
 
@@ -115,9 +119,13 @@ def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple
     """
     from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
-    table = np.empty(np.broadcast_shapes(*(np.shape(columns[name]) for name in COLUMNS)), ROW)
-    for name in COLUMNS:
-        table[name] = columns[name]
+    table, columns = np.empty(len(places), ROW), grid.at(places, *GIVEN_COLUMNS)
+    for name, numbers in zip(COLUMNS, columns, strict=False):
+        table[name] = numbers
+    # A parameter that does not scale a loop does not matter for it.
+    name = "bulk_stress_amplitude"
+    idle = [loop.code for loop in grid.loops if name not in loop.scaled_by]
+    table[name][np.isin(table["load"], idle)] = 0.0
     profile = table["profile"]
     for family in FAMILIES.values():
         if family.plain is not None:
@@ -130,7 +138,7 @@ def canonical_points(columns: Mapping[str, NDArray], fold: bool = True) -> tuple
         for name in {*SHAPE_COLUMNS} - {*shape}:
             table[name][profile == code] = 0.0
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
-    _make_shifts_canonical(table, columns[SHIFT])
+    _make_shifts_canonical(table, columns[-1])
     # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
     rests, stands = table["normal_amplitude"] == 0.0, table["tangential_amplitude"] == 0.0
     tangential = (table["control"] & 2) == 2
@@ -206,11 +214,14 @@ class Distinct:
             raise ValueError(f"{found}; swtstudy audit samples them")
         places = np.arange(grid.size) if places is None else places
         rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
+        distances = np.empty((len(places), len(asked.distances)))
         # In slabs: a point's working memory is several times its row.
         for start in range(0, len(places), _SLAB):
             some = slice(start, start + _SLAB)
-            rows[some], mirrored[some] = grid.canonical(places[some])
-        distances = grid.distances(asked)[places]
+            rows[some], mirrored[some] = canonical_points(grid, places[some])
+            # The same length is another one in a_H from contact to contact.
+            (length,) = grid.at(places[some], "length_scale")
+            distances[some] = rounded(np.array(asked.distances) / length[:, None])
         first, index = group_rows(rows, *distances.T)
         for name in ROW.names or ():  # in place: a million rows are 200 MB
             rows[name][: len(first)] = rows[name][first]

@@ -11,21 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import (
-    COST,
-    GIVEN_COLUMNS,
-    RATIO_COLUMNS,
-    Table,
-    canonical_number,
-    canonical_points,
-    code_of,
-)
+from swtstudy.points.canonical import COST, GIVEN_COLUMNS, Column, canonical_number, code_of
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import (
     AXES,
-    HARMONIC,
     LOOP_AMPLITUDE,
     PARAMETERS,
     STRAIN_SHARE,
@@ -38,7 +29,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from swtstudy.loads.loop import Loop
-    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
+    from swtstudy.vocabulary.arrays import IndexArray
 
 
 #: Name of the dimension along which the sampled parameters vary together.
@@ -74,6 +65,11 @@ class Grid:
     def shape(self) -> tuple[int, ...]:
         """Lengths of the dimensions."""
         return (*map(len, [*self.samples.values()][:1]), *map(len, self.axes.values()))
+
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Lengths of the dimensions by their names."""
+        return dict(zip(self.dims, self.shape, strict=True))
 
     @property
     def size(self) -> int:
@@ -123,17 +119,6 @@ class Grid:
             return SAMPLE
         return name if name in self.axes else None
 
-    def canonical(self, places: IndexArray, fold: bool = True) -> tuple[Table, BoolArray]:
-        """Canonical rows of the points at n places of the grid in C order; see `canonical_points`."""
-        columns, control = self.columns(places), self.control
-        columns["control"] = np.array(control.normal_force + 2 * control.tangential_force)
-        columns["profile"] = np.broadcast_to(columns["profile"], len(places))
-        # Parameters that do not scale a loop do not matter for it.
-        name = "bulk_stress_amplitude"
-        if idle := [loop.code for loop in self.loops if name not in loop.scaled_by]:
-            columns[name] = np.where(np.isin(columns["load"], idle), 0.0, columns[name])
-        return canonical_points(columns, fold)
-
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """Names and dimensions of what results have beside what is asked: margins, and that with units."""
         return dict.fromkeys(self.margins, self.dims)
@@ -145,70 +130,44 @@ class Grid:
         shift = ("stick_zone", "bulk_shift", "bulk_shift_ratio") * pulled
         return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
 
-    @property
-    def curvatures(self) -> FloatArray:
-        """a_H/R of each point, NaN where no length is known; shape (size,)."""
-        return np.full(self.size, np.nan)
-
-    @property
-    def slip_scales(self) -> FloatArray:
-        """μ E* δ0/(G* a_H) of each point, NaN where no length is known; shape (size,)."""
-        return np.full(self.size, np.nan)
-
-    @property
-    def strain_shares(self) -> FloatArray:
-        """Strain of the body with the bulk stress over the mean of both, under equal tractions; (size,).
-
-        Negative at points of the other body.
-        """
-        return np.broadcast_to(self.columns(np.arange(self.size))[STRAIN_SHARE], self.size)
-
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """Results as users see them, with units if the grid has some."""
         return dataset
 
-    def distances(self, asked: Request) -> FloatArray:
-        """The critical distances that are asked of each point, in a_H, shape (size, k)."""
-        own = np.array([canonical_number(distance) for distance in asked.distances])
-        return np.broadcast_to(own, (self.size, own.size))
-
-    def cycles(self, places: IndexArray) -> FloatArray:
-        """Load cycles of the canonical point in the common period 2πq/ω1 of n points, shape (n,).
-
-        The canonical point of a resting normal load has ω2 = ω1: its tangential load passes once, and p times
-        in the common period.
-        """
-        columns = self.columns(places)
-        rests = (columns["normal_amplitude"] == 0.0) & (columns["load"] == code_of(HARMONIC, "load"))
-        return np.broadcast_to(np.where(rests, columns["p"], 1.0), len(places))
-
-    def columns(self, places: IndexArray) -> dict[str, NDArray]:
-        """A number for each of `GIVEN_COLUMNS` at n places of the grid in C order, of shape (n,) or (1,)."""
-        position = self._position(places)
-        along = {name: self.dimension(self._source(name)) for name in GIVEN_COLUMNS}
-        return {n: codes[position[dim]] if (dim := along[n]) else codes for n, codes in self._codes.items()}
-
-    def _position(self, places: IndexArray) -> dict[str, IndexArray]:
-        along = np.unravel_index(places, self.shape) if self.dims else ()
-        return dict(zip(self.dims, along, strict=True))
-
     @cached_property
-    def _codes(self) -> dict[str, NDArray]:
-        """The numbers that stand for the values of each column; made once, since a grid is read in slabs."""
-        return {
-            name: np.array([_code(name, value) for value in self.values(self._source(name))] or [0])
-            for name in GIVEN_COLUMNS
-        }
+    def columns(self) -> dict[str, Column]:
+        """The numbers that its points are made of, by `GIVEN_COLUMNS`, and their scales.
 
-    def _source(self, column: str) -> str:
-        """The parameter that a column of canonical rows comes from."""
-        if column == COST:
-            return "load"
-        return "frequency_ratio" if column in RATIO_COLUMNS else self.control.given_for(column)
+        Beside these columns there are ``length_scale``, the unit of critical distances; ``curvature``, a_H/R;
+        ``slip_scale``, μ E* δ0/(G* a_H); and ``body_share``, the strain of the body with the bulk stress over
+        the mean of both bodies under equal tractions, negative at points of the other body.
+        """
+        return self._columns()
+
+    def _columns(self) -> dict[str, Column]:
+        """See `columns`; without units no length is known."""
+        found: dict[str, Column] = {"length_scale": ((), np.array(1.0))}
+        found |= dict.fromkeys(("curvature", "slip_scale"), ((), np.array(np.nan)))
+        for name in GIVEN_COLUMNS:
+            # One that takes the other's place is in its column.
+            source = {COST: "load", "p": "frequency_ratio", "q": "frequency_ratio"}.get(name)
+            source = source or self.control.given_for(name)
+            numbers = np.array([_number(name, value) for value in self.values(source)] or [0])
+            dim = self.dimension(source)
+            found[name] = ((dim,), numbers) if dim else ((), numbers[0])
+        found["control"] = (), np.array(self.control.normal_force + 2 * self.control.tangential_force)
+        return found | {"body_share": found[STRAIN_SHARE]}
+
+    def at(self, places: IndexArray, *names: str) -> list[NDArray]:
+        """The numbers of columns at n places of the grid in C order, each of shape (n,)."""
+        along = np.unravel_index(places, self.shape) if self.dims else ()
+        position = dict(zip(self.dims, along, strict=True))
+        columns = (self.columns[name] for name in names)
+        return [np.broadcast_to(v[tuple(position[dim] for dim in dims)], len(places)) for dims, v in columns]
 
 
-def _code(name: str, value: Value) -> float:
-    """The number that stands for a value in a canonical row."""
+def _number(name: str, value: Value) -> float:
+    """The number that stands for a value in a column."""
     match value:
         case Definition():
             return value.cost if name == COST else value.code

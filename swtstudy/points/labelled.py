@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Distinct, alike, points_from
+from swtstudy.points.canonical import Distinct, alike, code_of, points_from
 from swtstudy.points.chunk import Arrays
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.validity import validity_lines
@@ -19,7 +19,7 @@ from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, QUANTITY_AXES, SHIFT
+from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, HARMONIC, QUANTITY_AXES, SHIFT
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, STICK_ENDS, Request, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES, SOLVED
 
@@ -105,20 +105,21 @@ def values_at(
     for name, dims in own.items():
         nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in dims)), np.nan)
         arrays[name] = found.get(name, nothing)[points.index]
-    cycles = grid.cycles(np.arange(grid.size) if places is None else places) if _per_cycle(own) else 1.0
-    return turned(arrays, points.mirrored, cycles)
+    return turned(arrays, points.mirrored, grid, np.arange(grid.size) if places is None else places)
 
 
 def turned(
     arrays: Mapping[str, NDArray[Any]],
     mirrored: BoolArray,
-    cycles: NDArray[Any] | float,
+    grid: Grid,
+    places: IndexArray,
     per_cycle: np.ufunc = np.multiply,
 ) -> dict[str, NDArray[Any]]:
-    """Values of points from values of distinct points; and back, with ``np.divide``.
+    """Values at n places of a grid from values of distinct points; and back, with ``np.divide``.
 
-    Where a point is mirrored, places and angles have the other sign. A load cycle lasts for
-    the common period of the point's own frequencies. + 0.0 removes the sign of zero.
+    Where a point is mirrored, places and angles have the other sign. A load cycle lasts for the common period
+    2πq/ω1 of the point's own frequencies. The distinct point of a resting normal load has ω2 = ω1: its
+    tangential load passes once, and p times in that period. + 0.0 removes the sign of zero.
     """
     found = dict(arrays)
     for name in ("critical_x", "critical_angle", *(n for n, row in QUANTITIES.items() if row.is_place)):
@@ -131,15 +132,11 @@ def turned(
         found |= zip(STICK_ENDS, ends, strict=True)
     angle = found["critical_angle"]
     found["critical_angle"] = np.where(angle <= -90, angle + 180, angle)
-    for name in _per_cycle(found):
-        times = np.broadcast_to(cycles, len(mirrored)).reshape(-1, *(1,) * (found[name].ndim - 1))
-        found[name] = per_cycle(found[name], times)
+    for name in (n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in found):
+        amplitude, load, p = grid.at(places, "normal_amplitude", "load", "p")
+        cycles = np.where((amplitude == 0.0) & (load == code_of(HARMONIC, "load")), p, 1.0)
+        found[name] = per_cycle(found[name], cycles.reshape(-1, *(1,) * (found[name].ndim - 1)))
     return found
-
-
-def _per_cycle(arrays: Mapping[str, object]) -> list[str]:
-    """Names of the arrays that grow with the number of load cycles."""
-    return [n for row in QUANTITIES.values() if row.per_cycle for n in row.variables if n in arrays]
 
 
 def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
@@ -201,18 +198,17 @@ def margins(
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
     found = {name: values[points.index] for name, values in found.items()}
-    radius, shift = found["contact_radius"], found["bulk_shift"]
+    curvature, slip, share = grid.at(np.arange(grid.size), "curvature", "slip_scale", "body_share")
+    radius, shift = found["contact_radius"], found["bulk_shift"] * np.abs(share)
     width = radius - found["stick_radius"]  # of the slip zone
-    if "bulk_shift" in names:
-        shift = shift * np.abs(grid.strain_shares)
     with np.errstate(divide="ignore", invalid="ignore"):
         told: dict[str, NDArray] = {
             "stick_zone": found["stick_zone"].astype(np.int8),
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": found["force_ratio"],
-            "radius_ratio": radius * grid.curvatures,
-            "slide_ratio": found["slide"] * grid.slip_scales / radius,
+            "radius_ratio": radius * curvature,
+            "slide_ratio": found["slide"] * slip / radius,
         }
     return {name: told[name] for name in names}
 

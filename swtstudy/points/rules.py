@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterable, Mapping, Sequence
+import math
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import amplitudes_of, as_number, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
@@ -192,50 +193,67 @@ def shapes_needed(profiles: list[str]) -> tuple[str, ...]:
     return tuple(n for n in SHAPE_COLUMNS if any(n in family_of(p).shape for p in profiles))
 
 
-def check_shapes(grid: Grid, report: Report) -> None:
-    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up."""
+def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], str] | None = None) -> None:
+    """Profiles that are not admissible for any load, such as a waviness that breaks the contact up.
+
+    Parameters
+    ----------
+    grid
+        The points.
+    report
+        Told the first wrong shape of each profile.
+    told
+        Says where a place of the grid is, so that each load is looked at. Without it the largest load of a
+        shape counts, whose contact is the hardest to keep compact.
+    """
+    from swtstudy.loads.loop import Loop
     from swtstudy.profiles.at_rest import check_shape, compact_shapes
 
-    amplitude = grid.control.given_for("normal_amplitude")
-    # The largest contact of a shape is the hardest to keep compact: of a sample each has its own.
-    largest, reach = max(map(as_number, grid.values(amplitude))), largest_reach(grid)
-    profiles: dict[Any, None] = dict.fromkeys(grid.values("profile"))
-    for profile in (each for each in profiles if family_of(each).shape or isinstance(each, Definition)):
-        names = family_of(profile).shape
-        sampled = {name: grid.samples[name] for name in names if name in grid.samples}
-        if sampled and amplitude in grid.samples:
-            sampled[amplitude] = grid.samples[amplitude]
-        if "profile" in grid.samples:
-            own_rows = np.flatnonzero([value == profile for value in grid.samples["profile"]]).tolist()
-            sampled = {name: tuple(values[row] for row in own_rows) for name, values in sampled.items()}
-        fixed = {name: value for name, value in grid.fixed.items() if name in names}
-        shapes = Grid(fixed, {name: each for name, each in grid.axes.items() if name in names}, sampled)
-        if shapes.size > MOST_SHAPES:
-            report.of(names, f"{shapes.size} shapes of the {profile}", f"at most {MOST_SHAPES}")
+    # By how many amplitudes the normal load rises at most.
+    reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
+    # A table of real contacts is another one in a_H and δ0 from depth to depth.
+    known, profiles = grid.definitions, dict[str, dict[int, Any]]()
+    for code in dict.fromkeys(grid.columns["profile"][1].ravel().tolist()):
+        table: Any = value_of(code, known)
+        if family_of(table).shape or isinstance(table, Definition):
+            profiles.setdefault(str(table), {})[code] = table
+    for profile, tables in profiles.items():
+        names = family_of(next(iter(tables.values()))).shape
+        columns = {name: grid.columns[name] for name in ("profile", *names)}
+        along = {dim for dims, _ in columns.values() for dim in dims}
+        dims, loads = grid.columns["normal_amplitude"]
+        if told is None:
+            loads = loads.max(tuple(k for k, dim in enumerate(dims) if dim not in along))
+            dims = tuple(dim for dim in dims if dim in along)
+        columns["normal_amplitude"], along = (dims, loads), along | {*dims}
+        sizes = {dim: size for dim, size in grid.sizes.items() if dim in along}
+        if (count := math.prod(size for dim, size in sizes.items() if dim != "profile")) > MOST_SHAPES:
+            report.of(names, f"{count} shapes of the {profile}", f"at most {MOST_SHAPES}")
             continue
         refused, found, why = 0, "", None
-        for start in range(0, shapes.size, _SLAB):
-            places = np.arange(start, min(start + _SLAB, shapes.size))
-            columns = shapes.columns(places)
-            shape = {name: np.broadcast_to(columns[name], len(places)) for name in names}
-            own = columns["normal_amplitude"] if shapes.values(amplitude) else np.array(largest)
-            normal = np.broadcast_to(1.0 + np.maximum(own * reach, 0.0), len(places))
-            depth = largest_depths(grid, profile, shape, normal)
-            wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(profile, shape, depth)))
-            if wrong.size and not refused:
-                first = {name: float(values[wrong[0]]) for name, values in shape.items()}
-                found = ", ".join(f"{name} = {value:g}" for name, value in first.items()) or str(profile)
-                why = check_shape(profile, first, float(depth[wrong[0]]))
-            refused += wrong.size
+        for start in range(0, math.prod(sizes.values()), _SLAB):
+            places = np.arange(start, min(start + _SLAB, math.prod(sizes.values())))
+            at = dict(zip(sizes, np.unravel_index(places, [*sizes.values()]) if sizes else (), strict=True))
+            code, *shapes, load = (
+                np.broadcast_to(values[tuple(at[dim] for dim in dims)], len(places))
+                for dims, values in columns.values()
+            )
+            for own, table in tables.items():
+                same = np.flatnonzero(code == own)
+                shape = {name: values[same] for name, values in zip(names, shapes, strict=True)}
+                normal = 1.0 + np.maximum(load[same] * reach, 0.0)
+                depth = largest_depths(grid, table, shape, normal)
+                wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(table, shape, depth)))
+                if wrong.size and not refused:
+                    first = {name: float(values[wrong[0]]) for name, values in shape.items()}
+                    found = ", ".join(f"{name} = {value:g}" for name, value in first.items()) or profile
+                    why = check_shape(table, first, float(depth[wrong[0]]))
+                    if told is not None:
+                        found = told({dim: int(index[same[wrong[0]]]) for dim, index in at.items()})
+                        why = f"{why} (in a_H and δ0)"
+                refused += wrong.size
         if refused:
             report.of(names or "profile", found + more_like_it(refused), why or "")
-
-
-def largest_reach(grid: Grid) -> float:
-    """By how many amplitudes the normal load rises at most."""
-    from swtstudy.loads.loop import Loop
-
-    return max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
 
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:

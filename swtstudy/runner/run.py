@@ -313,7 +313,7 @@ class Job:
         work, kept = self.work, parts.kept_folder(self.path)
         lines = [history_line(self._what)] + ([] if before is None else [before.attrs["history"]])
         seconds = time.perf_counter() - self._begin
-        dataset = build(self.study, work.points, work.found.take(slice(None)), "\n".join(lines), seconds)
+        dataset = build(self.study, work.points, work.found, "\n".join(lines), seconds)
         try:
             with parts.keeping(kept, work.others):
                 save(dataset, self.path, beside=self._folder)

@@ -17,8 +17,8 @@ from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.derived import DERIVED, LIVES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
-from swtstudy.vocabulary.parameters import AXES, DIRECTIONS, LETTERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
+from swtstudy.vocabulary.parameters import AXES, LETTERS, QUANTITY_AXES
+from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -228,22 +228,21 @@ def check_figure(
     """
     made = {} if grid is None else grid.made(asked)
     known = [*dict.fromkeys((*VARIABLES, *asked.variables, *made))]
-    lengths: dict[str, int | None] = {} if grid is None else dict(zip(grid.dims, grid.shape, strict=True))
-    of_quantities = {DISTANCE: len(asked.distances), "direction": len(DIRECTIONS), **COUNTED_SIZES}
+    lengths: dict[str, int | None] = {} if grid is None else {**grid.sizes}
     found = [*wrong_layout(layout)]
     for y in layout.y or ("s",):
         name = y.strip()
         if name in unsure:
             continue
         if name in made:
-            sizes = {dim: {**lengths, **of_quantities}[dim] for dim in made[name]}
+            sizes = {dim: {**lengths, **asked.sizes}[dim] for dim in made[name]}
         else:  # of what is no quantity, all that the figure uses
             sizes = {dim: lengths.get(dim) for dim in dims if dim not in QUANTITY_AXES}
             used = (
                 () if name in VARIABLES or not name.isidentifier() else (each for _, each in layout.roles())
             )
             own = asked.variables.get(name, [each for each in used if each in QUANTITY_AXES])
-            sizes |= {dim: of_quantities[dim] for dim in own}
+            sizes |= {dim: asked.sizes[dim] for dim in own}
         of = f"{y} in this study" if asked.distances or {*dims} - {*sizes} else "this study"
         found += wrong_axes(layout, sizes, of)
         found += _wrong_quantity(y, dims, grid, known)

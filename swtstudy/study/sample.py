@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from swtstudy.points.canonical import Table, group_rows
+from swtstudy.points.canonical import Table, canonical_points, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
@@ -493,6 +493,6 @@ def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
     else:
         _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
         index = index[np.sort(first)]
-    rows, _ = grid.canonical(index)
+    rows, _ = canonical_points(grid, index)
     first, _ = group_rows(rows)
     return rows[np.sort(first)[:points]]

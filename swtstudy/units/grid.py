@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.loads.loop import Loop
-from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, code_of, rounded
+from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.profiles.table import TabulatedProfile
@@ -32,7 +32,6 @@ from swtstudy.vocabulary.quantities import Request
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 
 #: Parameters on which a contact at rest and its slip depend.
 AT_REST_NAMES = (
@@ -220,10 +219,10 @@ class PhysicalGrid(ContactDetails, Grid):
         """The contacts at rest, each once."""
         return [*{id(each): each for each in self.at_rest.values.flat}.values()]
 
-    def each(self, value: Callable[[Contact], float]) -> xr.DataArray:
+    def each(self, value: Callable[[Contact], float], kind: type = float) -> xr.DataArray:
         """A number of every contact at rest."""
         numbers = {id(each): value(each) for each in self.distinct}
-        found = np.array([numbers[id(each)] for each in self.at_rest.values.flat], float)
+        found: NDArray = np.array([numbers[id(each)] for each in self.at_rest.values.flat], kind)
         return self.at_rest.copy(data=found.reshape(self.at_rest.shape))
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
@@ -286,7 +285,7 @@ class PhysicalGrid(ContactDetails, Grid):
         found["poisson_ratio"] = self.of_body("poisson_ratio")
         found[STRAIN_SHARE] = self._strain_share
         for column, row in PARAMETERS.items():
-            source, known = self._source(column), {*GIVEN_COLUMNS} - {*found}
+            source, known = self.control.given_for(column), {*GIVEN_COLUMNS} - {*found}
             if row.kind == "number" and column in known and self.values(source):
                 scale, values = PARAMETERS[source].scale, self.along(source)
                 unit = self.each(SCALES[scale].of) if scale else _scalar(1.0)
@@ -327,30 +326,19 @@ class PhysicalGrid(ContactDetails, Grid):
         one, two = self.pairs[name]
         return _scalar(one).where(self.bodies == 0, two)
 
-    @cached_property
-    def _codes_over(self) -> dict[str, tuple[tuple[str, ...], NDArray]]:
-        """The numbers of each column of canonical rows, with their dimensions."""
-        found: dict[str, tuple[tuple[str, ...], NDArray]] = {}
-        for name in GIVEN_COLUMNS:
-            if name in self.numbers:
-                values, dims = self.numbers[name].values, tuple(map(str, self.numbers[name].dims))
-                found[name] = dims, values if PARAMETERS[name].units == "rad" else rounded(values)
-            elif name == "profile":
-                code = {id(each): code_of(each.pure_profile, name) for each in self.distinct}
-                profiles = np.array([code[id(each)] for each in self.at_rest.values.flat])
-                found[name] = self.at_rest_dims, profiles.reshape(self.at_rest.shape)
-            else:
-                dim, codes = self.dimension(self._source(name)), self._codes[name]
-                found[name] = ((dim,), codes) if dim else ((), codes[:1].reshape(()))
-        return found
-
-    def columns(self, places: IndexArray) -> dict[str, NDArray]:
-        """See `Grid.columns`."""
-        position = self._position(places)
-        return {
-            name: np.broadcast_to(values[tuple(position[dim] for dim in dims)], len(places))
-            for name, (dims, values) in self._codes_over.items()
+    def _columns(self) -> dict[str, Column]:
+        """See `Grid.columns`: in the units of the contacts at rest."""
+        made = {
+            "profile": self.each(lambda contact: code_of(contact.pure_profile), np.int64),
+            "length_scale": self.each(SCALES["a_H"].of),
+            "curvature": self.each(_curvature),
+            "slip_scale": self.each(lambda contact: contact.slip_scale / contact.length_scale),
+            "body_share": self._strain_share,
         }
+        for name, own in self.numbers.items():
+            made[name] = own if PARAMETERS[name].units == "rad" else own.copy(data=rounded(own.values))
+        columns: dict[str, Column] = {n: (tuple(map(str, v.dims)), v.values) for n, v in made.items()}
+        return super()._columns() | columns
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """See `Grid.made`."""
@@ -364,27 +352,8 @@ class PhysicalGrid(ContactDetails, Grid):
         return (*super().margins, "radius_ratio", *("slide_ratio",) * (not self.control.tangential_force))
 
     @property
-    def curvatures(self) -> FloatArray:
-        """a_H/R of each point; tables have the R of the paraboloid with their a and δ0. Shape (size,)."""
-
-        def of(contact: Contact) -> float:
-            return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
-
-        return self._of_points(self.each(of))
-
-    @property
-    def slip_scales(self) -> FloatArray:
-        """See `Grid.slip_scales`."""
-        return self._of_points(self.each(lambda contact: contact.slip_scale / contact.length_scale))
-
-    @property
-    def strain_shares(self) -> FloatArray:
-        """See `Grid.strain_shares`."""
-        return self._of_points(self._strain_share)
-
-    @property
     def _strain_share(self) -> xr.DataArray:
-        """The same for the body with the bulk stress, over the dimensions that it depends on."""
+        """Strain of the points' body over the mean of both, over the dimensions that it depends on."""
         body = self.bulk_stress_body
         share = self.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
         if not self.values("body"):
@@ -397,24 +366,16 @@ class PhysicalGrid(ContactDetails, Grid):
 
         return share.where(self.bodies == body, -share * self.each(over_own))
 
-    def _of_points(self, over: xr.DataArray) -> FloatArray:
-        """Values over some of the dimensions for each point, shape (size,)."""
-        over = over.transpose(*(dim for dim in self.dims if dim in over.dims))
-        shape = [size if dim in over.dims else 1 for dim, size in zip(self.dims, self.shape, strict=True)]
-        return np.broadcast_to(over.values.reshape(shape), self.shape).ravel()
-
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """See `Grid.presented`."""
         from swtstudy.units.results import with_units
 
         return with_units(dataset, self, asked)
 
-    def distances(self, asked: Request) -> FloatArray:
-        """See `Grid.distances`: the same length is another one in a_H from contact to contact."""
-        if not asked.distances:
-            return super().distances(asked)
-        length = self._of_points(self.each(SCALES["a_H"].of))
-        return rounded(np.array(asked.distances) / length[:, None])
+
+def _curvature(contact: Contact) -> float:
+    """a_H/R; tables have the R of the paraboloid with their a and δ0."""
+    return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
 
 
 def _scalar(value: float) -> xr.DataArray:

@@ -19,9 +19,8 @@ from swtstudy.loads.loop import Loop
 from swtstudy.points import rules
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
-from swtstudy.points.rules import check_shapes_given, largest_depths, largest_reach
+from swtstudy.points.rules import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, index_at, read_value
-from swtstudy.profiles.at_rest import check_shape, compact_shapes
 from swtstudy.units import grid as grids
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
@@ -37,7 +36,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, SWT, family_of, is_plane, without_life
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, SWT, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
@@ -302,8 +301,14 @@ def read_contact(text: object) -> ContactDetails:
 
 def check_contacts(grid: PhysicalGrid, report: Report) -> None:
     """Contacts that cannot be made, parameters beyond their range, and shapes that are not compact."""
+
+    def told(at: dict[str, int]) -> str:
+        here, name = _at(grid, at), grid.control.given_for("normal_amplitude")
+        load = f"{name} = {as_number(here[name]):g}{unit_words(grid.row(name).units)}"
+        return f"{_words(grid, here)}, {load}"
+
     dims = grid.at_rest_dims
-    count = math.prod(size for dim, size in zip(grid.dims, grid.shape, strict=True) if dim in dims)
+    count = math.prod(grid.sizes[dim] for dim in dims)
     if count > MOST_CONTACTS:
         report.of(dims, f"{count} different contacts at rest", f"at most {MOST_CONTACTS}")
     elif wrong := [each for each in grid.distinct if isinstance(each, StudyError)]:
@@ -313,8 +318,7 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             found = f"{mistake.found}{unit} at {there}{more_like_it(len(wrong))}"
             report.of(mistake.key, found, mistake.allowed)
     elif all([_in_range(grid, column, report) for column in grid.numbers]):
-        for profile in dict.fromkeys(grid.values("profile")):
-            _check_shapes(grid, profile, report)
+        rules.check_shapes(grid, report, told)
 
 
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
@@ -377,35 +381,6 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
         allowed = f"{most} {bound * own / number:.4g}{unit}, {bound:g} {scale}"
         report.of(source, f"{own:g}{unit} at {words}, {number:.4g} {scale}{more}", allowed)
     return False
-
-
-def _check_shapes(grid: PhysicalGrid, profile: Value, report: Report) -> None:
-    """A profile whose contact is no full disc, up to the largest depth of each load."""
-    import xarray as xr
-
-    names = family_of(profile).shape
-    if not names and not isinstance(profile, Definition):
-        return
-    amplitude, contacts, *shapes = xr.broadcast(
-        grid.numbers["normal_amplitude"], grid.at_rest, *(grid.numbers[name] for name in names)
-    )
-    places = np.flatnonzero([contact.profile == profile for contact in contacts.values.flat])
-    own, every, *columns = (each.values.ravel()[places] for each in (amplitude, contacts, *shapes))
-    tables = np.array([contact.pure_profile for contact in every], object)
-    shape, largest = dict(zip(names, columns, strict=True)), 1.0 + np.maximum(own * largest_reach(grid), 0.0)
-    wrong, depth = np.zeros(len(places), bool), np.empty_like(largest)
-    for table in dict.fromkeys(tables):
-        same = np.flatnonzero(tables == table)
-        some = {name: values[same] for name, values in shape.items()}
-        depth[same] = largest_depths(grid, table, some, largest[same])
-        wrong[same] = ~compact_shapes(table, some, depth[same])
-    if wrong.any():
-        first = int(wrong.argmax())
-        here = _at(grid, index_at(contacts, int(places[first])))
-        name = grid.control.given_for("normal_amplitude")
-        words = f"{_words(grid, here)}, {name} = {as_number(here[name]):g}{unit_words(grid.row(name).units)}"
-        why = check_shape(tables[first], {n: float(v[first]) for n, v in shape.items()}, depth[first])
-        report.of(names or "profile", words + more_like_it(int(wrong.sum())), f"{why} (in a_H and δ0)")
 
 
 def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:

@@ -143,6 +143,8 @@ def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataA
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
     """The data variables by the names of results without units."""
+    if not has_units(dataset):
+        return dataset
     known = {new: old for old, new in NORMALISED.items() if new in dataset}
     # The variable with a unit goes where two have one name; at the mean depth it has the quantity's name.
     return dataset.drop_vars([name for name in NORMALISED if name in dataset]).rename(known)

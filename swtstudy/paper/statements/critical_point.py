@@ -14,7 +14,7 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.paper.audit.dataset import VERDICTS
 from swtstudy.paper.statements.statement import Measured
-from swtstudy.points.canonical import alike, points_from
+from swtstudy.points.canonical import alike, canonical_points, points_from
 from swtstudy.solver.margins import margins_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES
@@ -81,7 +81,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
         With the dimensions of ``dataset.s``; 0 where the whole contact slides, or is lost, once a cycle.
         Where a flat face only just sticks, the radius of the face.
     """
-    rows, _ = grid_of(dataset).canonical(np.arange(dataset.s.size))
+    rows, _ = canonical_points(grid_of(dataset), np.arange(dataset.s.size))
     radius = np.empty(len(rows))
     for members in alike(rows, rows["p"], rows["q"]):
         radius[members] = np.nan_to_num(margins_of(points_from(rows[members], {}))["stick_radius"])
