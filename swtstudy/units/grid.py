@@ -20,7 +20,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
-from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
+from swtstudy.units.life import TORSION, Block, FatigueConstants, LifeTerms, Scatter, ShearConstants, terms_of
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -138,6 +138,23 @@ class ContactDetails:
         own: tuple[FatigueConstants | ShearConstants, ...]
         own = getattr(self, CRITERIA[criterion].constants[-1])
         return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
+
+    def scatters(self, criterion: str) -> bool:
+        """Return whether the constants of which a criterion makes lives scatter."""
+        kinds = CRITERIA[criterion].constants
+        if self.scatter is None or not kinds:
+            return False
+        torsion = bool(kinds[1:] and self.shear_materials)
+        return any(name.startswith(TORSION) == torsion for name in self.scatter.names)
+
+    def terms(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeTerms]:
+        """Levels and slopes of both terms of the life of each body by a criterion, or of each draw."""
+        constants = self.constants(criterion, poisson_ratios)
+        if not drawn or self.scatter is None:
+            return [terms_of(type(each), vars(each)) for each in constants]
+        estimated = bool(CRITERIA[criterion].constants[1:]) and not self.shear_materials
+        tensile = self.materials if estimated else (None, None)
+        return [self.scatter.terms(each, body, tensile[body]) for body, each in enumerate(constants)]
 
     @property
     def target_life(self) -> float:

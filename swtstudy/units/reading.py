@@ -37,7 +37,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, SWT, family_of, is_plane, without_life
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
@@ -115,9 +115,9 @@ def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report
         if row.normal_unit and not getattr(given, row.normal_unit):
             allowed = f"a stress: the criterion {name} measures the normal stress in it"
             report(f"material.{row.normal_unit.removesuffix('s')}", "nothing", allowed)
-    if given.scatter and rows and SWT not in rows:
-        allowed = f'criterion = ["{SWT}", …] among [axes]: lives by {SWT} alone have percentiles of draws'
-        report("sample", f"constants that scatter, with the criterion {', '.join(rows)} alone", allowed)
+    if given.scatter and rows and not any(map(given.scatters, rows)):
+        found = f"{', '.join(given.scatter.names)}, of which no life by {', '.join(rows)} is made"
+        report("sample", found, "scatter of the constants of that life")
     if (names := without_life(criteria)) and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
         report("material", f"constants with the criterion {names} alone", allowed)
