@@ -145,9 +145,8 @@ class Grid:
         shift = ("stick_zone", "bulk_shift", "bulk_shift_ratio") * pulled
         return (*shift, *("prescribed_force_ratio",) * self.control.tangential_force)
 
-    @property
-    def curvatures(self) -> FloatArray:
-        """a_H/R of each point, NaN where no length is known; shape (size,)."""
+    def radius_ratios(self, radii: FloatArray) -> FloatArray:
+        """Contact radii over R, from radii in a_H; NaN where no length is known; shape (size,)."""
         return np.full(self.size, np.nan)
 
     @property

@@ -211,7 +211,7 @@ def margins(
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": found["force_ratio"],
-            "radius_ratio": radius * grid.curvatures,
+            "radius_ratio": grid.radius_ratios(radius),
             "slide_ratio": found["slide"] * grid.slip_scales / radius,
         }
     return {name: told[name] for name in names}

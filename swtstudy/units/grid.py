@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, code_of, rounded
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import Value, amplitudes_of, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.units.life import TORSION, Block, FatigueConstants, LifeTerms, Scatter, ShearConstants, terms_of
@@ -67,6 +67,13 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
     return found
+
+
+def scaling_of(loads: Iterable[Value]) -> set[str]:
+    """Names of the amplitudes that scale some of the loads that are loops; 0 times an amplitude is none."""
+    names, loops = amplitudes_of(loads), [load for load in loads if isinstance(load, Loop)]
+    constant = bool(loops) and all(load.normal_ends == (0.0, 0.0) for load in loops)
+    return names - {"normal_amplitude"} if constant else names
 
 
 def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
@@ -380,14 +387,22 @@ class PhysicalGrid(ContactDetails, Grid):
         """See `Grid.margins`."""
         return (*super().margins, "radius_ratio", *("slide_ratio",) * (not self.control.tangential_force))
 
-    @property
-    def curvatures(self) -> FloatArray:
-        """a_H/R of each point; tables have the R of the paraboloid with their a and δ0. Shape (size,)."""
+    def radius_ratios(self, radii: FloatArray) -> FloatArray:
+        """Contact radii over R, from radii in a_H, shape (size,).
 
-        def of(contact: Contact) -> float:
+        A flat face with rounded edges is left out: beside it the slope is that ratio. Tables have the R of
+        the paraboloid with their a and δ0.
+        """
+
+        def curvature(contact: Contact) -> float:
             return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
 
-        return self._of_points(self.each(of))
+        def face(contact: Contact) -> float:
+            return (
+                (contact.profile in ("rounded_punch", "rounded_flat")) * contact.flat / contact.length_scale
+            )
+
+        return (radii - self._of_points(self.each(face))) * self._of_points(self.each(curvature))
 
     @property
     def slip_scales(self) -> FloatArray:
