@@ -11,7 +11,6 @@ import click
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli.options import study_completion, with_results, with_studies, with_width, with_workers
 from swtstudy.cli.terminal import line_length, of_markdown, say, table
-from swtstudy.study.definition import tables_of
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import refused
@@ -212,6 +211,7 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
     """
     import swtstudy
     from swtstudy.fields.elements import ENDINGS, write_history
+    from swtstudy.study.definition import tables_of
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
     if target.suffix not in ENDINGS:
