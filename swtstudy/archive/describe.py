@@ -337,7 +337,8 @@ def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
         which = f" ({life})" * (life not in ("cycles", "FS_cycles"))
         yield f"scatter of the constants, shortest lives{which}: {', '.join(words)}"
     if (name := life.replace(LIFE, FAILED_SHARE)) in dataset:
-        yield f"{dataset[name].long_name}: up to {number_words(float(dataset[name].max()), 2)}"
+        most = float(dataset[name].max())
+        yield f"{dataset[name].long_name}: {f'up to {number_words(most, 2)}' if most else '0 in all draws'}"
 
 
 def asked_means(dataset: xr.Dataset, life: str) -> list[str]:

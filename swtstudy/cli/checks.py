@@ -13,6 +13,7 @@ from swtstudy.cli.options import study_completion, with_results, with_studies, w
 from swtstudy.cli.terminal import line_length, of_markdown, say, table
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
+from swtstudy.vocabulary.mistakes import refused
 from swtstudy.vocabulary.wording import number_words, unit_words
 
 
@@ -209,10 +210,14 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
       swtstudy history rig.toml stresses.csv -o lives.vtu
     """
     import swtstudy
-    from swtstudy.fields.elements import write_history
+    from swtstudy.fields.elements import ENDINGS, write_history
+    from swtstudy.study.definition import tables_of
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
+    if target.suffix not in ENDINGS:
+        raise refused("output", str(target), f"a file that ends with {', '.join(ENDINGS)}")
     check_writable(target)
+    tables_of(study)  # wrong or not, it is told before a large table is read
     found = swtstudy.evaluate_history(swtstudy.read_history(file, order=order), study, body)
     write_history(found, target)
     for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
@@ -221,6 +226,7 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
             unit = unit_words(at[name].attrs.get("units", ""))
             words = f"largest {name} = {number_words(float(at[name]))}{unit}"
             words += f", {lives} = {number_words(float(at[lives]), 3)}" if lives in found else ""
-            places = [f"{each} = {at[each].item()}" for each in ("id", "x", "y", "z") if each in at.coords]
+            places = [f"id = {at['id'].item()}"] if "id" in at.coords else []
+            places += [f"{each} = {number_words(float(at[each]))}" for each in "xyz" if each in at.coords]
             say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

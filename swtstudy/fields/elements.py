@@ -32,6 +32,8 @@ ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
 #: Components of plane elements, in the order of each.
 IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
+#: How the files end that results at points are written to.
+ENDINGS = (".csv", ".vtu", ".nc")
 
 
 @with_keys(FileTable)
@@ -71,7 +73,12 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     if counts.min() != counts.max():
         found = f"{counts.min()} steps at the point {labels[counts.argmin()]}, {counts.max()} at others"
         raise refused("", found, "as many steps at each point", str(path))
-    rows = np.lexsort([table.numbers([STEP])[:, 0], rank]).reshape(len(counts), -1)
+    steps = table.numbers([STEP])[:, 0]
+    rows = np.lexsort([steps, rank]).reshape(len(counts), -1)
+    for point, k in np.argwhere(np.diff(steps[rows]) == 0.0)[:1]:
+        where = f" at the point {labels[point]}" * (len(labels) > 1)
+        allowed = f"each step once at a point; {ID}, or {', '.join(POSITION)}, of each point"
+        raise refused("", f"step {steps[rows[point, k]]:g} in several rows{where}", allowed, table.source)
     coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
     if table.has(ID):
         coords[ID] = "point", labels
@@ -130,8 +137,8 @@ def evaluate_history(
     StudyError
         A ValueError with every mistake.
     """
-    given = history if isinstance(history, xr.Dataset) else read_history(history)
     details, own = _properties(study, body)
+    given = history if isinstance(history, xr.Dataset) else read_history(history)
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = given["stress"].transpose("point", STEP, "component").values
     unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
@@ -227,7 +234,7 @@ def cycle_shares(
 
 
 def write_history(found: xr.Dataset, path: Path) -> None:
-    """Write results at points: a .vtu file for ParaView (by meshio), a CSV table, or netCDF."""
+    """Write results at points: a .vtu file for ParaView (by meshio), a CSV table, or netCDF (`ENDINGS`)."""
     if path.suffix == ".nc":
         from swtstudy.archive.netcdf import save
 

@@ -139,15 +139,16 @@ class Grid:
         """The numbers that its points are made of, by `GIVEN_COLUMNS`, and their scales.
 
         Beside these columns there are ``length_scale``, the unit of critical distances; ``curvature``, a_H/R;
-        ``slip_scale``, μ E* δ0/(G* a_H); and ``body_share``, the strain of the body with the bulk stress over
-        the mean of both bodies under equal tractions, negative at points of the other body.
+        ``face``, the radius of a flat face with rounded edges in a_H; ``slip_scale``, μ E* δ0/(G* a_H); and
+        ``body_share``, the strain of the body with the bulk stress over the mean of both bodies under equal
+        tractions, negative at points of the other body.
         """
         return self._columns()
 
     def _columns(self) -> dict[str, Column]:
         """See `columns`; without units no length is known."""
         found: dict[str, Column] = {"length_scale": ((), np.array(1.0))}
-        found |= dict.fromkeys(("curvature", "slip_scale"), ((), np.array(np.nan)))
+        found |= dict.fromkeys(("curvature", "face", "slip_scale"), ((), np.array(np.nan)))
         for name in GIVEN_COLUMNS:
             # One that takes the other's place is in its column.
             source = {COST: "load", "p": "frequency_ratio", "q": "frequency_ratio"}.get(name)

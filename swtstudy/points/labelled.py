@@ -198,7 +198,8 @@ def margins(
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
     found = {name: values[points.index] for name, values in found.items()}
-    curvature, slip, share = grid.at(np.arange(grid.size), "curvature", "slip_scale", "body_share")
+    names_of = "curvature", "face", "slip_scale", "body_share"
+    curvature, face, slip, share = grid.at(np.arange(grid.size), *names_of)
     radius, shift = found["contact_radius"], found["bulk_shift"] * np.abs(share)
     width = radius - found["stick_radius"]  # of the slip zone
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -207,7 +208,7 @@ def margins(
             "bulk_shift": np.where(shift <= width, shift, np.nan),
             "bulk_shift_ratio": shift / width,
             "prescribed_force_ratio": found["force_ratio"],
-            "radius_ratio": radius * curvature,
+            "radius_ratio": (radius - face) * curvature,
             "slide_ratio": found["slide"] * slip / radius,
         }
     return {name: told[name] for name in names}

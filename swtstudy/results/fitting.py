@@ -23,7 +23,6 @@ from swtstudy.results.sensitivity import check_confidence
 from swtstudy.solving import solve_grid
 from swtstudy.study.columns import number, read_table
 from swtstudy.study.definition import Study, study_from, tables_of
-from swtstudy.study.keys import FileTable
 from swtstudy.units.grid import PhysicalGrid
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
@@ -320,9 +319,9 @@ def _read(
     study: str | PathLike[str], tests: object, parameters: int
 ) -> tuple[PhysicalGrid, FloatArray, BoolArray]:
     """The tests as a sample of the study's contacts, their lives, and which are lower bounds, shape (n,)."""
-    columns, lines = _columns(tests)
-    report = Report()
-    lives, runout = _observed(columns, parameters, report, str(tests) if lines else "", lines)
+    raw, (columns, lines) = tables_of(study), _columns(tests)
+    report, place = Report(), str(tests) if lines else ""
+    lives, runout = _observed(columns, parameters, report, place, lines)
     own = {name: values for name, values in columns.items() if name not in (LIFE, RUNOUT)}
     # Misspelt names of parameters stay, and are reported as such.
     others = [name for name in own if name not in AXES and not get_close_matches(name, AXES, 1, MISSPELT)]
@@ -336,7 +335,7 @@ def _read(
     grid = None
     if columns:
         with report:
-            grid = _with_tests(Path(study), str(study), columns).grid
+            grid = _with_tests(raw, Path(study), columns, place).grid
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
@@ -386,19 +385,20 @@ def _observed(
     return numbers, runout
 
 
-def _with_tests(path: Path, source: str, columns: dict[str, list[Any]]) -> Study:
-    """The study with the tests as its sample; mistakes in these are named as theirs."""
-    raw = tables_of(path)
+def _with_tests(raw: dict[str, Any], path: Path, columns: dict[str, list[Any]], place: str) -> Study:
+    """The study with the tests as its sample; mistakes in these are named as theirs, or of their file."""
     kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
     own = columns.keys() | {DISTANCE}
     kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}
     kept["sample"] = {"points": columns}
     try:
-        return study_from(kept, "", source, path.parent)
+        return study_from(kept, "", str(path), path.parent)
     except StudyError as error:
         keys = [re.sub(r"\bsample(\.points)?\b", "tests", mistake.key) for mistake in error.mistakes]
         raise StudyError(
-            mistake if key == mistake.key else replace(mistake, key=key, source="")
+            mistake
+            if key == mistake.key
+            else replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
             for key, mistake in zip(keys, error.mistakes, strict=True)
         ) from None
 
@@ -413,13 +413,7 @@ def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
         return {str(name): list(values) for name, values in tests.items()}, []
     if not isinstance(tests, str | PathLike):
         raise refused("tests", literal(tests), "a CSV file, or columns by name")
-    try:
-        table = read_table(Path(tests), (LIFE,), AXES, FileTable(), LONGEST_AXIS)
-    except StudyError as error:
-        # A table of tests has no keys such as encoding: the other way out is left.
-        keys = r"^encoding = .*; or |, or columns = .*"
-        cut = (replace(each, allowed=re.sub(keys, "", each.allowed)) for each in error.mistakes)
-        raise StudyError(cut) from None
+    table = read_table(Path(tests), (LIFE,), AXES, None, LONGEST_AXIS)
     if not table.cells:
         raise refused("", "no tests", "a row for each test", str(tests))
     columns = {name: table.values(name) for name in table.headers if name}

@@ -43,6 +43,8 @@ FORMATS = (
 COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
+#: Cells, in small letters, without a value: MATLAB and pandas write NaN.
+MISSING = ("", "nan")
 #: Number of the line of a row, and its cells.
 Row = tuple[int, list[str]]
 
@@ -164,7 +166,7 @@ def read_columns(
         "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
         mistake, and so is another unit without `scale`, or with the inverse of its factor.
     gaps
-        Whether rows with an empty cell are left out, with a message; otherwise they are mistakes.
+        Whether rows with an empty cell or NaN are left out, with a message; otherwise they are mistakes.
 
     Raises
     ------
@@ -190,7 +192,8 @@ def read_columns(
             if labels and name in names:
                 report += _wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [table.headers.index(form.header(name)) for name in names]
-        empty = [line for line, cells in table.cells if not all(cells[k] for k in columns)] if gaps else []
+        empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
+        empty = empty if gaps else []
         if empty and len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
@@ -224,7 +227,7 @@ def read_table(
     path: Path,
     names: Sequence[str],
     known: Collection[str],
-    form: FileTable,
+    form: FileTable | None,
     most: int = MOST_ROWS,
     told: Report | None = None,
 ) -> UserTable:
@@ -239,7 +242,7 @@ def read_table(
     known
         Further columns that it may have, which tell its separator.
     form
-        Its form, as far as it is given.
+        Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
     most
         Largest number of rows.
     told
@@ -251,7 +254,7 @@ def read_table(
     StudyError
         A ValueError with what is wrong, and in which line.
     """
-    source = str(path)
+    source, keys, form = str(path), form is not None, form or FileTable()
     try:
         data = read_file(path, LARGEST_TABLE)
     except OSError as error:
@@ -261,8 +264,8 @@ def read_table(
         content: str | list[Row]
         source, content = _sheet(data, form, source)
     else:
-        content = _text(data, form, source, report)
-    separator, above = _found_header(content, names, known, form, source, report)
+        content = _text(data, form, source, report, keys)
+    separator, above = _found_header(content, names, known, form, source, report, keys)
     if separator == form.decimal == ",":
         report("separator, decimal", "both ','", "two different signs")
         form = form.model_copy(update={"decimal": None})
@@ -285,8 +288,8 @@ def read_table(
         raise refused("", f"more than {most} rows", f"at most {most}", source)
     for place, own in cells:
         if len(own) - (own[-1] == "") > len(headers):
-            allowed = "as many as columns: a comma between cells, a point in numbers; "
-            allowed += "or say separator and decimal"
+            allowed = "as many as columns: a comma between cells, a point in numbers"
+            allowed += "; or say separator and decimal" * keys
             raise refused(f"line {place}", f"{len(own)} cells under {len(headers)} columns", allowed, source)
         own += [""] * (len(headers) - len(own))
     if form.decimal is None:
@@ -314,7 +317,7 @@ def _skipped_words(rows: Sequence[Row]) -> str:
     return f"{lines} skipped, {literal(' '.join(filter(None, rows[0][1])), 40)}"
 
 
-def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
+def _text(data: bytes, form: FileTable, source: str, report: Report, keys: bool) -> str:
     """The text in a file, its lines ended by newlines; of a wrong encoding as in Windows'."""
     for start, what, way in FORMATS:
         if data.startswith(start):
@@ -336,11 +339,10 @@ def _text(data: bytes, form: FileTable, source: str, report: Report) -> str:
         piece = data[begin : error.start + 8].partition(b"\n")[0]
         read = literal(piece.decode(ENCODINGS[0], "replace").strip())
         found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
-        allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"'
-        report.append(Mistake("", found, f"{allowed}; or the file saved as UTF-8", source))
+        allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"; or '
+        report.append(Mistake("", found, f"{allowed * keys}the file saved as UTF-8", source))
         text = data.decode(ENCODINGS[0], "replace")
     if "\0" in text:
-        report.refuse()
         raise refused("", "a binary file", "a table in a text file", source)
     return io.StringIO(text, newline=None).read()
 
@@ -394,6 +396,7 @@ def _found_header(
     form: FileTable,
     source: str,
     report: Report,
+    keys: bool,
 ) -> tuple[str, int]:
     """The separator, and the number of rows above the header: the row with most of the names asked for."""
     wanted, others = {*map(form.header, names)}, {*map(form.header, known)}
@@ -421,7 +424,7 @@ def _found_header(
     if headers and wanted <= {*headers}:
         return own, header[own]
     report.refuse()  # in another encoding headers may be right
-    found, allowed = _missing(headers, names, form)
+    found, allowed = _missing(headers, names, form, keys)
     others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(names) > len(headers)
     if likely != own and others_fit:
         found, allowed = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
@@ -436,15 +439,16 @@ def _parts(rows: Sequence[Row], line: int) -> bool:
     return own > 1 and own in below
 
 
-def _missing(headers: list[str], names: Sequence[str], form: FileTable) -> tuple[str, str]:
+def _missing(headers: list[str], names: Sequence[str], form: FileTable, keys: bool) -> tuple[str, str]:
     """Say which column a header lacks, and what is allowed."""
+    if not headers:
+        return "an empty file", f"a header{' with ' * bool(names)}{', '.join(names)}, and rows of values"
     for name in names:
         if name in form.columns and form.header(name) not in headers:
             own = form.header(name)
             return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
-    if not headers:
-        return "an empty file", f"a header{' with ' * bool(names)}{', '.join(names)}, and rows of values"
-    allowed = f"a header with {', '.join(names)}, or columns = {{...}} that says which these are"
+    allowed = f"a header with {', '.join(names)}"
+    allowed += ", or columns = {...} that says which these are" * keys
     return f"the columns {', '.join(headers)}", allowed
 
 

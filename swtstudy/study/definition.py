@@ -148,7 +148,7 @@ def _text_of(file: Path, source: str) -> str:
     except (OSError, ValueError) as error:
         found, allowed = reason_of(error), _READABLE
         if isinstance(error, ValueError):
-            found, allowed = _OTHER_FILES.get(file.suffix.lower(), (found, allowed))
+            found, allowed = _OTHER_FILES.get(file.suffix.lower(), (found, f"{allowed}, saved as UTF-8"))
         elif isinstance(error, FileNotFoundError):
             allowed = "a study file (TOML)"
             if not file.suffix:

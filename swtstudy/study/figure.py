@@ -159,7 +159,7 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
     for role, name in layout.roles():
         is_name = name in AXES and AXES[name].kind == "name"
         if role in ("x", "vertical") and is_name and layout.kind != "heatmap":
-            yield f"figure.{role}", literal(name), "an axis of numbers"
+            yield f"figure.{role}", literal(name), f"an axis of numbers, and {name} as hue or panels"
         if name == SAMPLE and (role != "x" or kind.of != "sample"):
             yield f"figure.{role}", f"{name!r}", f"an axis; a sample is x of kind {of_samples}"
     if kind.of == "sample" and layout.x != SAMPLE:

@@ -21,7 +21,7 @@ from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
 from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
-from swtstudy.units.life import SCATTERED, Scatter
+from swtstudy.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.units.material import KEYS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
@@ -51,8 +51,12 @@ _LEAST_SHARE = 1e-6
 _CONSTANTS = {
     name: Parameter(name, name, "", name, lower=low, upper=high, open_lower=high > 0.0)
     for name in SCATTERED
-    for low, high in [(-10.0, 0.0) if name.endswith("exponent") else (0.0, 1e12)]
+    for low, high in [(-10.0, 0.0) if "exponent" in name else (0.0, 1e12)]
 }
+#: Words for `SCATTERED`.
+_CAN_SCATTER = (
+    f"{', '.join(CONSTANTS)}, with {TORSION} before it in torsion, with _1 or _2 behind it of one body"
+)
 _MATRIX = "a table of variances and covariances, such as strength = { strength = 900, ductility = -0.5 }"
 
 
@@ -273,7 +277,7 @@ def _designed(
         found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
         if name in KEYS:
             found = f"{name}, a constant that cannot scatter"
-            allowed = f"constants that can: {', '.join(SCATTERED)}; or a parameter"
+            allowed = f"constants that can: {_CAN_SCATTER}; or a parameter"
         if name in rows:
             found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
         report(f"sample.ranges.{name}", found, allowed)
@@ -402,7 +406,7 @@ def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: R
     given = {name for part in (table.ranges, table.points) for name in part if name in SCATTERED}
     if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
         return None
-    if contacts is None or not contacts.materials:
+    if contacts is None or not (contacts.materials or contacts.shear_materials):
         if not any(mistake.key.startswith("material") for mistake in report):
             report("sample", "constants that scatter", "with the constants of lives in [material]")
         return None
@@ -411,10 +415,18 @@ def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: R
         report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
     found = {name: np.array(column) for name, column in _drawn(table, contacts, report).items()}
     for name, column in found.items():
-        one, other = (getattr(constants, name) for constants in contacts.materials)
-        if one != other:
-            report(f"sample.{name}", f"{name} of {one:g} and {other:g}", "one value for both bodies")
-        if wrong := int((column * (-1.0 if name.endswith("exponent") else 1.0) <= 0.0).sum()):
+        own, base = _own_values(name, contacts), name.removesuffix("_1").removesuffix("_2")
+        if len({*own}) > 1:
+            words, allowed = (
+                " and ".join(f"{value:g}" for value in own),
+                f"{name}_1, {name}_2, or one of them",
+            )
+            report(f"sample.{name}", f"{name}, which is {words} in the bodies", allowed)
+        elif not own:
+            report(f"sample.{name}", f"{name}, a constant without a value", f"{base} in [material]")
+        if name != base and base in found:
+            report(f"sample.{name}", f"{name} beside {base}", "one of the two")
+        if wrong := int((column * (-1.0 if "exponent" in name else 1.0) <= 0.0).sum()):
             allowed = "less scatter, or a distribution that is cut off"
             report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
     if len(report) > before or not found:
@@ -422,6 +434,14 @@ def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: R
     names = tuple(name for name in SCATTERED if name in found)
     draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
     return Scatter(names, draws, target)
+
+
+def _own_values(name: str, contacts: ContactDetails) -> list[float]:
+    """The values of a constant of `SCATTERED` in [material]: of the body in its name, or of both bodies."""
+    materials = contacts.shear_materials if name.startswith(TORSION) else contacts.materials
+    body = slice(int(name[-1]) - 1, int(name[-1])) if name[-2:] in ("_1", "_2") else slice(None)
+    key = name.removeprefix(TORSION).removesuffix("_1").removesuffix("_2")
+    return [getattr(constants, key) for constants in materials[body]]
 
 
 def _drawn(table: SampleTable, contacts: ContactDetails, report: Report) -> Mapping[str, Any]:
@@ -441,7 +461,7 @@ def _drawn(table: SampleTable, contacts: ContactDetails, report: Report) -> Mapp
 
     unit = design.points(dimensions)
     draws = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
-    about = np.array([getattr(contacts.materials[0], name) for name in correlated])
+    about = np.array([(_own_values(name, contacts) or [math.nan])[0] for name in correlated])
     normal = ndtri(np.clip(unit[:, len(ranges) :], 1e-12, 1.0 - 1e-12))
     return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
 
@@ -454,7 +474,7 @@ def _root(
     sound = all(isinstance(row, dict) for row in covariance.values())
     names = [*dict.fromkeys([*covariance, *(n for row in covariance.values() if sound for n in row)])]
     if not sound or not {*names} <= {*SCATTERED}:
-        report("sample.covariance", literal(covariance), f"{_MATRIX}, of {', '.join(SCATTERED)}")
+        report("sample.covariance", literal(covariance), f"{_MATRIX}, of {_CAN_SCATTER}")
         return nothing
     for name in (each for each in names if each in ranges):
         report(f"sample.covariance.{name}", f"{name}, which has a range", "one of the two")

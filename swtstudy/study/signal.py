@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -271,14 +271,14 @@ def signal_from(
         raise refused(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")
     if samples < 2.0 - 1e-9:
         raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
-    values = _without_spikes(name, time, values, rows, period, count, given.despike)
-    signal = Signal(name, time, values, period, count, given.absolute, highest)
+    clean = _without_spikes(name, time, values, rows, period, count, given.despike)
+    signal = Signal(name, time, clean if given.despike else values, period, count, given.absolute, highest)
     if highest and not cycles.determined(signal.phase, highest):
         allowed = "less than half as many as samples at different phases of the cycle"
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
-    for line in _doubts(signal, key, given):
+    for line in _doubts(replace(signal, values=clean), key, given):  # a spike is told once
         warnings.warn(f"{name}: {line}", stacklevel=2)
     return signal
 
@@ -329,7 +329,7 @@ def _without_spikes(
     count: int,
     despike: bool,
 ) -> FloatArray:
-    """The values; spikes are told, and with ``despike`` they take the values that other samples suggest."""
+    """The values, spikes replaced by the values that other samples suggest; tell that, or propose it."""
     out, usual = cycles.spikes(time, values, period, count)
     rows, columns = np.nonzero(out)
     if not rows.size:
@@ -346,4 +346,4 @@ def _without_spikes(
         told = f"{found}, where the other samples suggest {usual[row, column]:.4g}{more}: a spike? "
         told += "despike = true takes it out"
     warnings.warn(f"{name}: {told}", stacklevel=3)
-    return np.where(out, usual, values) if despike else values
+    return np.where(out, usual, values)

@@ -161,6 +161,11 @@ class Contact:
         return self.stress_scale / self.moduli.shear[body]
 
     @property
+    def flat(self) -> float:
+        """Radius of its flat face, or half its width; 0 without one."""
+        return max((self.shape.get(name, 0.0) for name in ("flat_radius", "flat_half_width")), default=0.0)
+
+    @property
     def contact_radius(self) -> float:
         """The contact radius a at the mean depth δ0; half the width of a strip."""
         return self.length_scale * float(self._at_rest().radius(np.ones((1, 1)))[0, 0])

@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, as_number
+from swtstudy.points.values import Value, amplitudes_of, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
-from swtstudy.units.life import Block, FatigueConstants, Scatter, ShearConstants
+from swtstudy.units.life import TORSION, Block, FatigueConstants, LifeTerms, Scatter, ShearConstants, terms_of
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -66,6 +66,13 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
     return found
+
+
+def scaling_of(loads: Iterable[Value]) -> set[str]:
+    """Names of the amplitudes that scale some of the loads that are loops; 0 times an amplitude is none."""
+    names, loops = amplitudes_of(loads), [load for load in loads if isinstance(load, Loop)]
+    constant = bool(loops) and all(load.normal_ends == (0.0, 0.0) for load in loops)
+    return names - {"normal_amplitude"} if constant else names
 
 
 def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
@@ -137,6 +144,23 @@ class ContactDetails:
         own: tuple[FatigueConstants | ShearConstants, ...]
         own = getattr(self, CRITERIA[criterion].constants[-1])
         return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
+
+    def scatters(self, criterion: str) -> bool:
+        """Return whether the constants of which a criterion makes lives scatter."""
+        kinds = CRITERIA[criterion].constants
+        if self.scatter is None or not kinds:
+            return False
+        torsion = bool(kinds[1:] and self.shear_materials)
+        return any(name.startswith(TORSION) == torsion for name in self.scatter.names)
+
+    def terms(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeTerms]:
+        """Levels and slopes of both terms of the life of each body by a criterion, or of each draw."""
+        constants = self.constants(criterion, poisson_ratios)
+        if not drawn or self.scatter is None:
+            return [terms_of(type(each), vars(each)) for each in constants]
+        estimated = bool(CRITERIA[criterion].constants[1:]) and not self.shear_materials
+        tensile = self.materials if estimated else (None, None)
+        return [self.scatter.terms(each, body, tensile[body]) for body, each in enumerate(constants)]
 
     @property
     def target_life(self) -> float:
@@ -332,6 +356,7 @@ class PhysicalGrid(ContactDetails, Grid):
             "profile": self.each(lambda contact: code_of(contact.pure_profile), np.int64),
             "length_scale": self.each(SCALES["a_H"].of),
             "curvature": self.each(_curvature),
+            "face": self.each(_rounded_face),
             "slip_scale": self.each(lambda contact: contact.slip_scale / contact.length_scale),
             "body_share": self._strain_share,
         }
@@ -376,6 +401,11 @@ class PhysicalGrid(ContactDetails, Grid):
 def _curvature(contact: Contact) -> float:
     """a_H/R; tables have the R of the paraboloid with their a and δ0."""
     return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
+
+
+def _rounded_face(contact: Contact) -> float:
+    """Radius of a flat face with rounded edges, in a_H: beside it a/R is the slope; 0 without one."""
+    return contact.flat / contact.length_scale * (contact.profile in ("rounded_punch", "rounded_flat"))
 
 
 def _scalar(value: float) -> xr.DataArray:

@@ -19,6 +19,8 @@ from swtstudy.vocabulary.quantities import COUNTED_SIZES
 #: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
 #: the last step of a logarithm, whose square is beyond rounding.
 _STEPS, _ROUNDING = 60, 1e-9
+#: Levels and slopes of both terms of a life over the logarithm of 2N: of shape (2,), or (n, 2) for n draws.
+LifeTerms = tuple[FloatArray, FloatArray]
 #: Words for the basis of a life, in comments of data variables.
 ROUNDS = (
     "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
@@ -42,6 +44,10 @@ class _Constants:
         report.refuse()
         for name, value in vars(self).items():
             object.__setattr__(self, name, plain_number(value))
+
+    @property
+    def _terms(self) -> LifeTerms:
+        return terms_of(type(self), vars(self))
 
 
 @dataclass(frozen=True)
@@ -67,14 +73,6 @@ class FatigueConstants(_Constants):
     strength_exponent: float
     ductility: float
     ductility_exponent: float
-
-    @property
-    def _terms(self) -> tuple[FloatArray, FloatArray]:
-        """Level and slope of the elastic and the plastic term over the logarithm of 2N."""
-        elastic = 2.0 * math.log(self.strength) - math.log(self.young_modulus)
-        plastic = math.log(self.strength) + math.log(self.ductility)
-        slopes = 2.0 * self.strength_exponent, self.strength_exponent + self.ductility_exponent
-        return np.array([elastic, plastic]), np.array(slopes)
 
     def swt(self, cycles: ArrayLike) -> FloatArray:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
@@ -257,12 +255,6 @@ class ShearConstants(_Constants):
             tensile.ductility_exponent,
         )
 
-    @property
-    def _terms(self) -> tuple[FloatArray, FloatArray]:
-        """Level and slope of both terms over the logarithm of 2N."""
-        level = math.log(self.strength / self.shear_modulus), math.log(self.ductility)
-        return np.array(level), np.array([self.strength_exponent, self.ductility_exponent])
-
     def parameter(self, cycles: ArrayLike) -> FloatArray:
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
         return at_cycles(*self._terms, cycles)
@@ -298,8 +290,37 @@ class ShearConstants(_Constants):
         return rounds(*self._terms, parameter, counted, counted_number, "parameter")
 
 
-#: Constants that may scatter, in the order of `FatigueConstants`.
-SCATTERED = ("strength", "strength_exponent", "ductility", "ductility_exponent")
+def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
+    """Levels and slopes of the elastic and the plastic term of the life over the logarithm of 2N.
+
+    Parameters
+    ----------
+    kind
+        The class of the constants.
+    values
+        Its attributes: numbers, or arrays of n draws.
+
+    Returns
+    -------
+    tuple of arrays
+        Each of shape (2,), or (n, 2).
+    """
+    b, c = values["strength_exponent"], values["ductility_exponent"]
+    strength, ductility = np.log(values["strength"]), np.log(values["ductility"])
+    if issubclass(kind, ShearConstants):
+        columns = strength - np.log(values["shear_modulus"]), ductility, b, c
+    else:
+        columns = 2.0 * strength - np.log(values["young_modulus"]), strength + ductility, 2.0 * b, b + c
+    stacked = np.stack(np.broadcast_arrays(*columns), axis=-1)
+    return stacked[..., :2], stacked[..., 2:]
+
+
+#: Constants that may scatter; those in torsion have `TORSION` before the name, those of one body `_1` or `_2`
+#: behind it.
+CONSTANTS, TORSION = ("strength", "strength_exponent", "ductility", "ductility_exponent"), "shear_"
+SCATTERED = tuple(
+    f"{before}{name}{body}" for body in ("", "_1", "_2") for before in ("", TORSION) for name in CONSTANTS
+)
 
 
 @dataclass(frozen=True)
@@ -320,13 +341,21 @@ class Scatter:
     draws: tuple[tuple[float, ...], ...]
     target: float = 0.0
 
-    def terms(self, constants: FatigueConstants) -> tuple[FloatArray, FloatArray]:
-        """Levels and slopes of both terms of the life over the logarithm of 2N, each of shape (n, 2)."""
+    def terms(
+        self, constants: FatigueConstants | ShearConstants, body: int, tensile: FatigueConstants | None = None
+    ) -> LifeTerms:
+        """Levels and slopes of both terms of the life of a body, 0 or 1, each of shape (n, 2).
+
+        Shear constants that are estimated from tensile ones scatter in proportion to these.
+        """
         own = dict(zip(self.names, np.array(self.draws), strict=True))
-        every = (own.get(n, np.full(len(self.draws[0]), getattr(constants, n))) for n in SCATTERED)
-        strength, b, ductility, c = every
-        level = 2.0 * np.log(strength) - np.log(constants.young_modulus), np.log(strength) + np.log(ductility)
-        return np.stack(level, axis=-1), np.stack([2.0 * b, b + c], axis=-1)
+        values = {name: np.full(len(self.draws[0]), value) for name, value in vars(constants).items()}
+        before = TORSION if isinstance(constants, ShearConstants) and tensile is None else ""
+        for name in CONSTANTS:
+            for key in {f"{before}{name}", f"{before}{name}_{body + 1}"} & {*own}:
+                ratio = getattr(constants, name) / getattr(tensile, name) if tensile else 1.0
+                values[name] = own[key] * ratio
+        return terms_of(type(constants), values)
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from swtstudy.points import rules
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.rules import check_shapes_given
-from swtstudy.points.values import NamedValues, Value, amplitudes_of, as_number, index_at, read_value
+from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.units import grid as grids
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
@@ -36,7 +36,7 @@ from swtstudy.units.rows import (
     rows,
     wrong_mean_load,
 )
-from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, SWT, is_plane, without_life
+from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
 from swtstudy.vocabulary.parameter import Parameter
@@ -114,9 +114,9 @@ def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report
         if row.normal_unit and not getattr(given, row.normal_unit):
             allowed = f"a stress: the criterion {name} measures the normal stress in it"
             report(f"material.{row.normal_unit.removesuffix('s')}", "nothing", allowed)
-    if given.scatter and rows and SWT not in rows:
-        allowed = f'criterion = ["{SWT}", …] among [axes]: lives by {SWT} alone have percentiles of draws'
-        report("sample", f"constants that scatter, with the criterion {', '.join(rows)} alone", allowed)
+    if given.scatter and rows and not any(map(given.scatters, rows)):
+        found = f"{', '.join(given.scatter.names)}, of which no life by {', '.join(rows)} is made"
+        report("sample", found, "scatter of the constants of that life")
     if (names := without_life(criteria)) and (given.materials or given.shear_materials):
         allowed = "none: the Findley stress is compared with a limit, and has no life"
         report("material", f"constants with the criterion {names} alone", allowed)
@@ -149,7 +149,7 @@ def completed(
     given |= replaced_by(given)
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
-    scaling = amplitudes_of(loads)
+    scaling = grids.scaling_of(loads)
     fixed = fixed | grids.still_load(profiles, given | scaling)
     fixed = fixed | grids.measured_amplitudes(given, loads)
     given |= {*fixed} | replaced_by(fixed)
@@ -229,13 +229,11 @@ def _check_given(
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report.of("body", literal(list(good["body"])), "1 or 2")
-    scaling = amplitudes_of(loops)
+    scaling = grids.scaling_of(loops)
     sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
     if "bulk_stress_ratio" in everything and not sized:
         report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
     mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
-    if all(load.normal_ends == (0.0, 0.0) for load in loops):
-        scaling.discard("normal_amplitude")  # it scales nothing
     profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
         still = grids.still_load(profiles, {*everything, *scaling})
@@ -333,8 +331,9 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
                 sizes = f"a contact radius of {edge:.4g}{unit} over R is {ratio:.3g}"
                 found = f"profile {profile.name}: {sizes}, p0 over E* is {pressure:.3g}"
                 lines.setdefault("table", f"{found}: are heights and positions in one unit?")
-        elif radius is not None and edge - contact.shape.get("flat_radius", 0.0) > radius:
-            found = f"radius {radius:g}{unit} is smaller than the contact ({edge:.3g}{unit})"
+        elif radius is not None and (curved := edge - contact.flat) > radius:
+            face = " beside its flat face" * (contact.flat > 0.0)
+            found = f"radius {radius:g}{unit} is smaller than the contact{face} ({curved:.3g}{unit})"
             lines.setdefault("radius", f"{found}: is the radius in another unit, such as metres?")
     yield from lines.values()
 

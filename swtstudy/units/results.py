@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
 from swtstudy.points.values import index_at
-from swtstudy.units.life import ROUNDS, UNCOUNTED, Block, FatigueConstants, ShearConstants, lives
+from swtstudy.units.life import ROUNDS, UNCOUNTED, Block, LifeTerms, lives
 from swtstudy.units.rows import LABELS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
@@ -66,7 +67,8 @@ def derived(grid: PhysicalGrid, asked: Request) -> Iterator[Derived]:
     words["target"] = number_words(grid.target_life)
     for row in DERIVED.values():
         given = not row.of and bool(grid.values(row.name)) and row.name != grid.of_loads
-        lacks = row.needs and not any(getattr(grid, name) for name in row.needs)
+        lacks = bool(row.needs) and not any(getattr(grid, name) for name in row.needs)
+        lacks |= row.kind in RANKS and not grid.scatters(row.criterion)
         given |= grid.plane and row.name == "depth"  # which a plane contact has not
         if row.of in known and row.criterion in criteria and not lacks and not given:
             known.add(row.name)
@@ -99,14 +101,17 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
     """Results of a grid of real contacts, with SWT, lives and all that has a unit."""
     found = dataset.rename({old: new for old, new in NORMALISED.items() if old in dataset.data_vars})
     comments = {LIFE: ROUNDS if asked.counts else UNCOUNTED, REPETITIONS: _REPEATED, SHARE: _SHARED}
-    scattered: dict[str, xr.DataArray] = {}
+    ranks: dict[str, xr.DataArray] = {}
     for row in derived(grid, asked):
         if row.kind in (REPETITIONS, SHARE):
             values = _of_blocks(found[row.of], row.kind, grid)
         elif row.kind in RANKS:
-            if row.of not in scattered:
-                scattered[row.of] = _of_scatter(found, row.of, grid)
-            values = scattered[row.of][RANKS.index(row.kind)]
+            if row.of not in ranks:
+                kind = CRITERIA[row.criterion]
+                of = found[f"{kind.name}{row.of.removeprefix(kind.life)}"]
+                make = partial(_ranks, target=grid.target_life)
+                ranks[row.of] = _of_constants(of, grid, found, row.criterion, make, drawn=True)
+            values = ranks[row.of].isel(rank=RANKS.index(row.kind))
         else:
             values = _measured(found, row, grid)
         label = "1" if row.unit == "1" else grid.labels.label(row.unit) or f"unit of {row.unit}"
@@ -138,7 +143,7 @@ def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataA
     if row.criterion and grid.dimension("criterion") is not None:
         is_own = np.array([value == row.criterion for value in grid.values("criterion")])
         values = values.where(grid.over_dimension("criterion", is_own))
-    return _lives(values, grid, dataset, row.criterion) if row.kind == LIFE else values
+    return _of_constants(values, grid, dataset, row.criterion, _life) if row.kind == LIFE else values
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -156,25 +161,57 @@ def _counted_in(dataset: xr.Dataset) -> list[xr.DataArray]:
     return [dataset[name] for name in COUNTED] if known else []
 
 
-def _lives(value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str) -> xr.DataArray:
-    """Rounds to a crack at SWT, or at a Fatemi–Socie parameter, of strain cycles if they are counted."""
+def _of_constants(
+    value: xr.DataArray,
+    grid: PhysicalGrid,
+    dataset: xr.Dataset,
+    criterion: str,
+    make: Callable[[LifeTerms, FloatArray, list[FloatArray]], FloatArray],
+    drawn: bool = False,
+) -> xr.DataArray:
+    """Lives at values of a criterion, or ranks of lives, by the constants of each body.
+
+    Parameters
+    ----------
+    value
+        SWT, or a Fatemi–Socie parameter, or a mean of it.
+    grid, dataset
+        The contacts, and their results with counted cycles.
+    criterion
+        The name of the criterion.
+    make
+        Function of the terms of the life, of values and of counted cycles: an array of values' shape, or
+        with the ranks of lives before it.
+    drawn
+        True to call it with the terms of each draw of constants.
+    """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
-    ratios = grid.of_both("poisson_ratio")
-    both = [*dict.fromkeys(grid.constants(criterion, two) for two in ratios)]
-
-    def of_bodies(two: Sequence[FatigueConstants | ShearConstants], at: Mapping[str, Any]) -> xr.DataArray:
-        own = value.isel(at, missing_dims="ignore")
-        counted = [each.isel(at, missing_dims="ignore") for each in _counted_in(dataset)]
-        one, other = (
-            each.rounds(own, *counted) if counted else own.copy(data=each.cycles(own.values)) for each in two
-        )
-        return one.where(grid.bodies.isel(at, missing_dims="ignore") == 0, other)
-
-    if len(both) == 1:
-        return of_bodies(both[0], {}).transpose(*value.dims)
+    both = list(grid.of_both("poisson_ratio"))
+    if grid.constants(criterion, both[0]) == grid.constants(criterion, both[-1]):
+        both = both[:1]
     dim = grid.dimension("poisson_ratio") or ""  # estimated ones differ from one Poisson ratio to another
-    parts = [of_bodies(constants, {dim: [k]}) for k, constants in enumerate(both)]
-    return xr.concat(parts, dim).transpose(*value.dims)
+    parts = []
+    for k, ratios in enumerate(both):
+        at = {dim: [k]} if len(both) > 1 else {}
+        own = value.isel(at, missing_dims="ignore")
+        dims = (*own.dims, *COUNTED_SIZES)
+        counted = [
+            each.isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
+            for each in _counted_in(dataset)
+        ]
+        one, other = grid.terms(criterion, ratios, drawn)
+        found = make(one, own.values, counted)
+        if not np.array_equal(one, other):
+            is_first = (grid.bodies.isel(at, missing_dims="ignore") == 0).broadcast_like(own)
+            found = np.where(is_first.transpose(*own.dims), found, make(other, own.values, counted))
+        before = ("rank",) * drawn
+        parts.append(xr.DataArray(found, own.coords, (*before, *own.dims)))
+    return (xr.concat(parts, dim) if parts[1:] else parts[0]).transpose(*before, *value.dims)
+
+
+def _life(terms: LifeTerms, values: FloatArray, counted: list[FloatArray]) -> FloatArray:
+    """Load cycles to a crack."""
+    return lives(*terms, values, *counted)
 
 
 def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArray:
@@ -224,26 +261,9 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     return f"{rounds}{':' if several[0].startswith('no crack') else ','} {'; '.join(several)}"
 
 
-def _of_scatter(dataset: xr.Dataset, life: str, grid: PhysicalGrid) -> xr.DataArray:
-    """Percentiles of a life by tension and the failure probability, as of `RANKS`, over the draws."""
-    assert grid.scatter is not None
-    values = dataset[f"SWT{life.removeprefix(LIFE)}"]
-    dims = (*values.dims, *COUNTED_SIZES)
-    counted = [each.broadcast_like(values).transpose(*dims).values for each in _counted_in(dataset)]
-    of_each = [
-        _ranks(values.values, counted, *grid.scatter.terms(constants), grid.scatter.target)
-        for constants in dict.fromkeys(grid.materials)
-    ]
-    first = xr.zeros_like(values, bool) | (grid.bodies == 0)
-    ranks = np.where(first.transpose(*values.dims), of_each[0], of_each[-1])
-    return xr.DataArray(ranks, dims=("rank", *values.dims))
-
-
-def _ranks(
-    values: FloatArray, counted: list[FloatArray], level: FloatArray, slopes: FloatArray, target: float
-) -> FloatArray:
+def _ranks(terms: LifeTerms, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
     """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...)."""
-    flat = values.ravel()
+    flat, (level, slopes) = values.ravel(), terms
     of_each = [each.reshape(len(flat), *each.shape[-2:]) for each in counted]
     found = np.full((len(PERCENTS) + 1, len(flat)), np.nan)
     size = max(1, _AT_ONCE // (len(level) * (of_each[0][0].size if of_each else 1)))

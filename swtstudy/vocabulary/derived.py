@@ -86,16 +86,19 @@ def _of_life(row: Criterion, end: str) -> Iterator[Derived]:
         yield Derived(f"{start}{kind}{end}", symbol, meaning, of=life, needs=("blocks",), kind=kind)
 
 
-def _of_scatter(row: Criterion, end: str) -> Iterator[Derived]:
+def _of_scatter(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
     """Percentiles of a life, and the probability of a crack before a target, of constants that scatter."""
-    life, place = f"{row.life}{end}", end.removeprefix("_")
+    life, place, start = f"{row.life}{end}", end.removeprefix("_"), row.life.removesuffix(LIFE)
+    of = {"of": life, "criterion": criterion}
     for percent in map(str, PERCENTS):
-        meaning = f"rounds to a crack{end.replace('_', ' ')}, before which {percent} % fail"
-        symbol = _indexed("N", place, percent)
-        yield Derived(f"{life}_{percent}", symbol, meaning, of=life, needs=("scatter",), kind=percent)
-    symbol, of = _indexed("P", place), f"by the life of a {place}" if place else "at the worst point"
-    meaning = f"probability of a crack before {{target}} load cycles, {of}"
-    yield Derived(f"{FAILED}{end}", symbol, meaning, of=life, needs=("target_life",), kind=FAILED)
+        words = f"{end.replace('_', ' ')}{'{shear}' * bool(row.by)}"
+        meaning = f"rounds to a crack{words}, before which {percent} % fail"
+        symbol = _indexed("N", row.subscript, place, percent)
+        yield Derived(f"{life}_{percent}", symbol, meaning, needs=("scatter",), kind=percent, **of)
+    symbol, where = _indexed("P", row.subscript, place), f"by the life of a {place}"
+    meaning = f"probability of a crack before {{target}} load cycles{row.by},"
+    meaning += f" {where if place else 'at the worst point'}"
+    yield Derived(f"{start}{FAILED}{end}", symbol, meaning, needs=("target_life",), kind=FAILED, **of)
 
 
 def _rows() -> Iterator[Derived]:
@@ -104,12 +107,13 @@ def _rows() -> Iterator[Derived]:
         yield from _of_criterion(criterion, row)
     for name, alike in read_table(__file__, "derived").items():
         yield Derived(name, **alike)
-    with_life = [row for row in CRITERIA.values() if row.life]
-    for row in with_life:
+    with_life = {name: row for name, row in CRITERIA.items() if row.life}
+    for row in with_life.values():
         for end in _ENDS.values():
             yield from _of_life(row, end)
-    for end in _ENDS.values():
-        yield from _of_scatter(with_life[0], end)
+    for name, row in with_life.items():
+        for end in _ENDS.values():
+            yield from _of_scatter(name, row, end)
 
 
 #: Ends of names by what they are made of: s, and its means over a critical distance.

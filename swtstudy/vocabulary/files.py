@@ -53,6 +53,8 @@ def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
 
 def reason_of(error: Exception) -> str:
     """Say why a file cannot be read, without its name; for a missing one, the most similar name beside it."""
+    if isinstance(error, IsADirectoryError):
+        return "a folder"
     if not isinstance(error, FileNotFoundError) or not error.filename:
         return getattr(error, "strerror", None) or str(error)
     path = Path(os.fsdecode(error.filename))

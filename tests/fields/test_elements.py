@@ -64,7 +64,7 @@ def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
         np.testing.assert_allclose(found.findley_stress, findley, rtol=1e-9)
     done = call("history", rig, tmp_path / "theirs.csv", "-o", tmp_path / "lives.csv")
     assert done.exit_code == 0, done.output
-    assert f"largest SWT = {solved.s.item():.4g} MPa at id = P0, x = 0.0, y = 0.0, z = 0.5" in done.stdout
+    assert f"largest SWT = {solved.s.item():.4g} MPa at id = P0, x = 0, y = 0, z = 0.5" in done.stdout
     header, first, _ = (tmp_path / "lives.csv").read_text().splitlines()
     assert dict(zip(header.split(","), first.split(","), strict=True))["SWT_normal_y"] in ("0.0", "-0.0")
 
@@ -164,3 +164,23 @@ def test_plane_elements_have_no_shear_across(tmp_path: Path, names: str) -> None
     file.write_text(f"id,step,{names.rpartition(',')[0]}\na,0,1,2,3\n")
     with pytest.raises(StudyError, match="of plane elements without those across"):
         read_history(file)
+
+
+def test_rows_of_several_points_without_their_names_are_refused(tmp_path: Path) -> None:
+    rows = "\n".join(f"{step},{100 * step},0,0,0,0,0" for step in (0, 1, 0, 1))
+    (tmp_path / "stresses.csv").write_text(f"step,xx,yy,zz,yz,xz,xy\n{rows}\n")
+    with pytest.raises(
+        StudyError, match=r"stresses\.csv: found step 0 in several rows; allowed: each step once"
+    ):
+        read_history(tmp_path / "stresses.csv")
+
+
+def test_the_command_names_files_of_another_kind(tmp_path: Path) -> None:
+    (tmp_path / "stresses.csv").write_text("step,xx,yy,zz,yz,xz,xy\n0,100,0,0,0,0,0\n1,0,0,0,0,0,0\n")
+    file, own = tmp_path / "stresses.csv", study(tmp_path)
+    other = call("history", own, file, "-o", tmp_path / "lives.vtk")
+    assert "lives.vtk; allowed: a file that ends with .csv, .vtu, .nc" in other.output
+    assert not (tmp_path / "lives.vtk").exists()
+    assert (
+        "stresses.csv: found a table of values (CSV); allowed: a study" in call("history", file, own).output
+    )

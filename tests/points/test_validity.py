@@ -50,6 +50,10 @@ def test_contact_radius_over_r(rig):
     table = swtstudy.TabulatedProfile("cap", cap, cap**2 / 100.0)
     flat = physical(**{**own, "radius": None, "profile": table}, depth=0.01, tangential_amplitude=1e-3)
     np.testing.assert_allclose(flat.solve(1e-2).radius_ratio, np.sqrt(0.01 / 50.0), rtol=1e-6)
+    # Beside a flat face the slope of the profile is (a − b)/R: a wide face alone is no reason for doubt.
+    pad = physical(**{**own, "profile": "rounded_flat"}, flat_half_width=6.5, normal_force=1e3,
+                   tangential_force_amplitude=100.0).solve(1e-2)  # fmt: skip
+    np.testing.assert_allclose(pad.radius_ratio, (float(pad.contact_radius) - 6.5) / 50.0, rtol=1e-6)
     # Heights in µm beside radii in mm.
     wrong = swtstudy.TabulatedProfile("cap", cap, 10.0 * cap**2)
     own |= {"radius": None, "profile": wrong, "normal_force": 200.0, "tangential_force_amplitude": 1.0}

@@ -301,6 +301,15 @@ def test_a_table_of_tests_is_told_no_keys_that_it_has_not(rig, tmp_path):
         swtstudy.fit(rig[0], path)
 
 
+def test_mistakes_in_a_file_of_tests_name_it(rig, tmp_path):
+    path = tmp_path / "tests.csv"
+    path.write_text("normal_forc,tangential_force_amplitude,life\n200,60,1e6\n200,80,1e5\n")
+    with pytest.raises(StudyError, match=r"tests\.csv: normal_forc: found unknown parameter"):
+        swtstudy.fit(rig[0], path)
+    with pytest.raises(StudyError, match=r"tests\.csv: found a table of values \(CSV\); allowed: a study"):
+        swtstudy.fit(path, rig[0])
+
+
 def test_all_mistakes_of_a_table_are_named_as_its_own(rig):
     wrong = {"normal_force": [-5, 200, 300], "frictoin": [1, 2, 3], "life": [0, "no", 1e5]}
     with pytest.raises(StudyError) as caught:

@@ -344,7 +344,7 @@ def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, wo
 
 
 def test_a_folder_is_no_signal() -> None:
-    with pytest.raises(StudyError, match=r"^\.: found Is a directory; allowed: a CSV file that"):
+    with pytest.raises(StudyError, match=r"^\.: found a folder; allowed: a CSV file that"):
         read_signal(".")
 
 
@@ -511,3 +511,24 @@ def test_a_record_of_many_cycles_read_as_one_is_told(tmp_path: Path) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         read_signal(tmp_path / "both.csv")
+
+
+def test_a_spike_in_the_first_cycle_is_told_once(tmp_path: Path) -> None:
+    values = np.tile(CYCLE[:, :2] if CYCLE.shape[0] > 8 else np.repeat(CYCLE[:, :2], 8, axis=0), (8, 1))
+    values[5, 0] += 900.0
+    write(tmp_path / "spike.csv", values, "normal,tangential")
+    with pytest.warns(UserWarning, match=r"in cycle 1, line 7 of the file, .*: a spike\?") as told:
+        read_signal(tmp_path / "spike.csv", recorded_cycles=8, absolute=True)
+    assert len(told) == 1
+
+
+def test_nan_is_a_missing_value_and_a_picture_no_table(tmp_path: Path) -> None:
+    rows = [f"{k / 40},{200 + k % 7},{60 * np.sin(np.pi * k / 20)}" for k in range(40)]
+    rows[7] = f"{7 / 40},NaN,0"
+    (tmp_path / "rig.csv").write_text("\n".join(["time,normal,tangential", *rows]))
+    with pytest.warns(UserWarning, match=r"rig\.csv: line 9 left out: a value is missing"):
+        read_signal(tmp_path / "rig.csv", time="time")
+    for content, words in ((b"\x89PNG\r\n\x00\xff", "a binary file"), (b"", "an empty file")):
+        (tmp_path / "rig.csv").write_bytes(content)
+        with pytest.raises(StudyError, match=f"found {words}"):
+            read_signal(tmp_path / "rig.csv", time="time", columns={"normal": "Fn"})

@@ -477,7 +477,7 @@ def test_what_is_no_path_and_no_text_is_no_study(wrong):
 
 
 def test_a_folder_is_no_study(tmp_path):
-    with pytest.raises(StudyError, match="directory"):
+    with pytest.raises(StudyError, match="found a folder"):
         Study.from_toml(tmp_path)
 
 

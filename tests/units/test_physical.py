@@ -549,3 +549,18 @@ def test_loops_are_in_range_by_their_size_not_by_their_factor(scale):
     assert found.solve().SWT.item() == pytest.approx(0.36364926 / scale**2, rel=1e-4)
     with pytest.raises(swtstudy.StudyError, match=r": found 10000 at .*, 3540 μ E.*allowed: at most 28"):
         swtstudy.physical(**own, load=loop, normal_amplitude=1.0, tangential_amplitude=1e4, body=1)
+
+
+def test_a_plane_contact_under_a_constant_normal_load_is_controlled_by_forces() -> None:
+    rig = {
+        "young_modulus": 73.1e3,
+        "poisson_ratio": 0.33,
+        "radius": 50.0,
+        "friction": 0.5,
+        "normal_force": 200.0,
+    }
+    load = swtstudy.LoadPath("swing", [[0, 60], [0, -60]])
+    loop = swtstudy.physical(**rig, profile="cylinder", load=load, tangential_force_amplitude=1.0).solve(1e-3)
+    sines = swtstudy.physical(**rig, profile="cylinder", tangential_force_amplitude=60.0).solve(1e-3)
+    assert loop.control.item() == sines.control.item() == "forces"
+    np.testing.assert_allclose(loop.SWT, sines.SWT, rtol=1e-3)
