@@ -8,7 +8,7 @@ from threading import local
 import numpy as np
 
 from swtstudy.kernel.body import OF_BODY
-from swtstudy.kernel.circle import CIRCLE, search_circles, search_shifted_circles
+from swtstudy.kernel.circle import CIRCLE, search_circles
 from swtstudy.kernel.compiled import new_record, new_records
 from swtstudy.kernel.contact import CYCLE
 from swtstudy.kernel.control import prescribe
@@ -150,10 +150,7 @@ def _solve(profiles, which, loads, asks, out):
     """Solve the points of a chunk: on the line, and on circles where the line may not be enough."""
     solve_points(*memory(*OF_POINT), profiles, which, loads, asks, out)
     if out["circle"].any() and not out["overflow"].any():
-        records = *memory(CIRCLE, *OF_BODY, *OF_POINT), profiles, which, loads, asks, out
-        search_circles(*records)
-        if (out["circle"] * out["shift"]).any():
-            search_shifted_circles(*records)
+        search_circles(*memory(CIRCLE, *OF_BODY, *OF_POINT), profiles, which, loads, asks, out)
 
 
 def count_batch(x, double_angle, *points, **given):

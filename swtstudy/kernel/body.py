@@ -52,7 +52,8 @@ HERE = np.dtype(
         *fields("f8", "out other", (6,)),
         ("first", "f8", (3,)),  # normal of the best plane so far
         ("missing", "f8"),  # what the value may still lack, relative
-        ("angle", "f8"),  # of a place on a circle of the surface, from x
+        ("on_circle", "i8"),  # 1: the place is on a circle of the surface, at an angle from x
+        ("angle", "f8"),
         ("unsure", "f8"),  # values h above it are confirmed
     ]
 )
@@ -89,7 +90,7 @@ def sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, coarsest):
         Intervals of a part.
     """
     open_place(B, C, R, P, Q, x, y, z, largest)
-    S.unsure, C.overflow = np.inf, max(C.overflow, B.overflow)
+    S.on_circle, S.unsure, C.overflow = 0, np.inf, max(C.overflow, B.overflow)
     begin_parts(H, C, P, B.sigma if B.omega < DEEP * largest else 0.0, x, y, largest, C.shift)
     lay_parts(H, C, P, L, coarsest)
     write_stresses(S, B, H, C, P, L, Q)
@@ -109,19 +110,16 @@ def fill_circle(S, H, first, Q):
 
 
 @jit
-def write_on_circle(body):
-    """Write the stress at the new instants of a circle of the surface, from the history on the line."""
-    S, B, H, W, G, C, R, P, K, L, Q = body
+def write_new(S, B, H, C, P, K, L, Q):
+    """Write the stress at the new instants: of a circle of the surface from the history on the line."""
     first = H.written
-    write_stress(H, C, P, L, K, Q)
-    fill_circle(S, H, first, Q)
-
-
-@jit
-def write_in_body(body):
-    """Write the stress at the new instants of a place of the body."""
-    S, B, H, W, G, C, R, P, K, L, Q = body
-    write_stresses(S, B, H, C, P, L, Q)
+    if S.on_circle:
+        write_stress(H, C, P, L, K, Q)
+        fill_circle(S, H, first, Q)
+    else:
+        write_stresses(S, B, H, C, P, L, Q)
+    for i in range(first, H.instants):
+        S.stress[6, i] = strain_factor(Q) * (S.stress[0, i] + S.stress[1, i] + S.stress[2, i])
 
 
 @jit
@@ -170,7 +168,7 @@ def add_peaks(S, H, W):
 
 
 @jit
-def settle_place(body, write_new, tolerance):
+def settle_place(body, tolerance):
     """Double parts that may hide a higher value on the best plane, until none does; returns h there.
 
     Values above a limit are confirmed as on the line (`swtstudy.kernel.line.resolve`), on the plane of the
@@ -185,10 +183,7 @@ def settle_place(body, write_new, tolerance):
             doubled = mark_highest(H, W, C)
         if not refine_marked(H, C, P, L, doubled):
             break
-        first = H.written
-        write_new(body)
-        for i in range(first, H.instants):
-            S.stress[6, i] = strain_factor(Q) * (S.stress[0, i] + S.stress[1, i] + S.stress[2, i])
+        write_new(S, B, H, C, P, K, L, Q)
         G.best, before = 0.0, h
         climb_from(G, S.stress, H.instants, Q, G.normal[0], G.normal[1], G.normal[2])
         h = value_on_plane(S, H, W, G, Q)
@@ -203,7 +198,7 @@ def settle_place(body, write_new, tolerance):
 
 
 @jit
-def highest_here(body, write_new, least, tolerance, proof):
+def highest_here(body, least, tolerance, proof):
     """Largest h over all planes of the sampled cycle, with its plane's normal in G and what it may miss in S.
 
     The normal in G before is a guess, or 0. Parts are doubled on its plane, before all planes are searched.
@@ -212,8 +207,6 @@ def highest_here(body, write_new, least, tolerance, proof):
     ----------
     body
         Records of HERE, PLACE, HISTORY, WORK, PLANES, CYCLE, GROWTH, PROFILE, TABLE, LOAD and ASK.
-    write_new
-        `write_in_body` or `write_on_circle`.
     least
         Values of h below it may be low.
     tolerance
@@ -233,7 +226,7 @@ def highest_here(body, write_new, least, tolerance, proof):
         highest_plane(G, S.stress, H.instants, Q, least, proof)
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
         return G.best
-    h = settle_place(body, write_new, allowed)
+    h = settle_place(body, allowed)
     for _ in range(RIVALS):
         missing, first[0], first[1], first[2] = S.missing, n[0], n[1], n[2]
         best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), proof)
@@ -242,7 +235,7 @@ def highest_here(body, write_new, least, tolerance, proof):
             or abs(first[0] * n[0] + first[1] * n[1] + first[2] * n[2]) > SAME_PLANE
         ):
             break
-        other = settle_place(body, write_new, allowed)
+        other = settle_place(body, allowed)
         if other <= h:
             n[0], n[1], n[2], S.missing = first[0], first[1], first[2], missing
             break
@@ -265,7 +258,7 @@ def largest_at(body, x, y, z, largest, floor, tolerance, proof, coarsest):
     sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, coarsest)
     if C.overflow:
         return np.nan, np.nan
-    h = highest_here(body, write_in_body, lift(Q, floor), tolerance, proof)
+    h = highest_here(body, lift(Q, floor), tolerance, proof)
     return value_of(Q, h), value_of(Q, h) * S.missing
 
 

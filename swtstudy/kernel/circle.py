@@ -21,7 +21,7 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel import INNERMOST, NEAREST
-from swtstudy.kernel.body import COARSEST, fill_circle, highest_here, largest_at, write_on_circle
+from swtstudy.kernel.body import COARSEST, fill_circle, highest_here, largest_at
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
@@ -81,27 +81,20 @@ def begin_circle(D, H, C, R, P, K, L, Q):
 
 
 @jit
-def turned(D, body, angle, floor):
-    """Largest h over the planes at an angle, from the history on the line; below the floor it may be low."""
+def value_at(D, body, angle, floor):
+    """Largest h over the planes at an angle; below the floor it may be low."""
     S, B, H, W, G, C, R, P, K, L, Q = body
-    S.angle, S.unsure = angle, (1.0 - Q.line) * D.best
-    fill_circle(S, H, 0, Q)
-    return highest_here(body, write_on_circle, floor, Q.line, 0.5 * Q.line)
-
-
-@jit
-def solved(D, body, angle, floor):
-    """The same as of a place of the body, where the stick zone is shifted."""
-    Q = body[10]
-    own = D.largest, value_of(Q, floor), Q.line, 0.5 * Q.line, FIRST
-    return lift(Q, largest_at(body, D.x * cos(angle), D.x * sin(angle), 0.0, *own)[0])
-
-
-@jit
-def value_at(D, body, search, angle, floor):
-    """Largest h over the planes at an angle, by one of the two functions above; the floor at least."""
-    G, h = body[4], search(D, body, angle, floor)
-    D.tension, D.swing, D.best = G.most[0], max(D.swing, G.most[1]), max(D.best, h)
+    tolerance = Q.line, 0.5 * Q.line
+    if C.shift == 0.0:
+        S.on_circle, S.angle, S.unsure = 1, angle, (1.0 - Q.line) * D.best
+        fill_circle(S, H, 0, Q)
+        h = highest_here(body, floor, *tolerance)
+    else:
+        place = D.x * cos(angle), D.x * sin(angle), 0.0, D.largest
+        own = value_of(Q, floor), *tolerance, FIRST
+        h = lift(Q, largest_at(body, *place, *own)[0])
+    D.tension, D.swing = G.most[0], max(D.swing, G.most[1])
+    D.best = max(D.best, h)
     return max(h, floor)
 
 
@@ -130,13 +123,13 @@ def set_end(D, G, k, end, angle, value):
 
 
 @jit
-def first_arcs(D, body, search):
+def first_arcs(D, body):
     """Look at evenly spaced angles; returns the number of arcs between them."""
     G, L = body[4], body[9]
     arcs = ARCS // 2 if L.mirrored else ARCS
     for k in range(arcs + 1):
         angle = pi * k / ARCS
-        value = value_at(D, body, search, angle, FAR * D.best)
+        value = value_at(D, body, angle, FAR * D.best)
         if k < arcs:
             set_end(D, G, k, 0, angle, value)
         if k > 0:
@@ -145,7 +138,7 @@ def first_arcs(D, body, search):
 
 
 @jit
-def search_circle(D, body, search, place, known):
+def search_circle(D, body, place, known):
     """Largest value on the circle at a place s, if it is above what is known; else that."""
     S, B, H, W, G, C, R, P, K, L, Q = body
     D.place, D.x = place, sqrt(P.flat_radius * P.flat_radius + place * abs(place))
@@ -155,7 +148,7 @@ def search_circle(D, body, search, place, known):
     D.swing, D.highest = 0.0, 0.0
     D.best = least = lift(Q, known)
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
-    m = first_arcs(D, body, search)
+    m = first_arcs(D, body)
     for i in range(m):
         square = (D.ends[i, 1] - D.ends[i, 0]) * (D.ends[i, 1] - D.ends[i, 0])
         D.highest = max(D.highest, above(D.most[i, 0], D.most[i, 1], D.of_tension * square))
@@ -167,13 +160,13 @@ def search_circle(D, body, search, place, known):
                 k, bound = i, own
         if bound <= D.best * (1.0 + Q.line):
             break
-        halve_arc(D, body, search, k, m)
+        halve_arc(D, body, k, m)
         m += 1
     return value_of(Q, D.best) if D.best > least else known
 
 
 @jit
-def halve_arc(D, body, search, k, m):
+def halve_arc(D, body, k, m):
     """Halve arc k; its upper half becomes arc m."""
     G, Q = body[4], body[10]
     angle, half = 0.5 * (D.ends[k, 0] + D.ends[k, 1]), 0.5 * (D.ends[k, 1] - D.ends[k, 0])
@@ -187,7 +180,7 @@ def halve_arc(D, body, search, k, m):
     higher = 1 if D.value[k, 1] > D.value[k, 0] else 0
     for c in range(3):
         G.normal[c] = D.normal[k, higher, c]
-    value = value_at(D, body, search, angle, max(D.best - 0.125 * drop, FAR * D.best))
+    value = value_at(D, body, angle, max(D.best - 0.125 * drop, FAR * D.best))
     set_end(D, G, k, 1, angle, value)
     set_end(D, G, m, 0, angle, value)
 
@@ -211,7 +204,7 @@ def may_be_anywhere(L, Q):
 
 
 @jit
-def surface_value(D, body, search, found):
+def surface_value(D, body, found):
     """Largest value on the circle through the point's maximum; s itself if that is not exceeded.
 
     NaN where the maximum is at the singular edge of a face: next to it the pressure has no bound. Where a
@@ -234,12 +227,12 @@ def surface_value(D, body, search, found):
     D.largest = place_of(P, C.largest)
     if nowhere:
         place = D.largest
-    top = search_circle(D, body, search, place, known)
+    top = search_circle(D, body, place, known)
     if has_bulk(L) and not P.singular:
         place = place_of(P, max(C.smallest, 0.0))
         if P.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
             place = max(place, INNERMOST * D.largest)
-        top = search_circle(D, body, search, place, top)
+        top = search_circle(D, body, place, top)
     return top if top > known else s
 
 
@@ -247,15 +240,7 @@ def surface_value(D, body, search, found):
 def search_circles(D, B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points, where the line may not be enough."""
     for i in range(which.shape[0]):
-        if found[i].circle and found[i].shift == 0.0:
+        if found[i].circle:
             body = S, B, H, W, G, C, R, profiles[which[i]], K, loads[i], asks[i]
-            found[i].s_surface, found[i].overflow = surface_value(D, body, turned, found[i]), C.overflow
-
-
-@jit
-def search_shifted_circles(D, B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
-    """The same of points with a shifted stick zone."""
-    for i in range(which.shape[0]):
-        if found[i].circle and found[i].shift != 0.0:
-            body = S, B, H, W, G, C, R, profiles[which[i]], K, loads[i], asks[i]
-            found[i].s_surface, found[i].overflow = surface_value(D, body, solved, found[i]), C.overflow
+            found[i].s_surface = surface_value(D, body, found[i])
+            found[i].overflow = C.overflow
