@@ -31,7 +31,7 @@ from swtstudy.kernel.dense import highest_on_planes
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import extremes, fill
-from swtstudy.kernel.point import RESULT, solve_points, workspace
+from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.work import CONJUGATE
@@ -171,7 +171,7 @@ def _in_plane(ν: Array, r: Array, share: Array | float) -> tuple[Array, Array]:
 
 
 #: Memory for the kernel.
-_MEMORY, _CONJUGATE = workspace(), new_record(CONJUGATE)
+_MEMORY, _CONJUGATE = tuple(map(new_record, OF_POINT)), new_record(CONJUGATE)
 
 
 @jit
@@ -180,7 +180,7 @@ def highest_at_states(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, s
     for i in range(places.shape[0]):
         for side in range(2):
             sign = 1.0 - 2.0 * side
-            write_stress(H, C, R, P, K, states, places[i], largest, sign, Q.poisson_ratio, Q.friction)
+            write_stress(H, C, R, P, K, Q, states, places[i], largest, sign)
             fill(H, W, sign, Q)
             found[i, side, 0], found[i, side, 1] = 0.0, 0.0
             for k in range(cosines.shape[0]):

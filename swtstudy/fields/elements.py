@@ -211,11 +211,12 @@ def cycle_shares(
     criterion, poisson_ratio, **parameters
         As of `swtstudy.kernel.line.ask`. The shear stress counts along the longest chord of its path.
     """
-    from swtstudy.kernel.cycles import count_cycles, counting
+    from swtstudy.kernel.compiled import new_record
+    from swtstudy.kernel.cycles import COUNTING, count_cycles
     from swtstudy.kernel.field import curves_on_plane
     from swtstudy.kernel.line import ask
 
-    memory, own, found = counting(), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
+    memory, own, found = new_record(COUNTING), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
     memory["points"] = count = stress.shape[1]
     for history, normal in zip(stress, normals, strict=True):
         tension, *curves = curves_on_plane(history, normal, poisson_ratio, criterion == SWT)

@@ -17,9 +17,9 @@ from math import acos, cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import jit, jit_reordered, new_record
+from swtstudy.kernel.compiled import fields, jit, jit_reordered, new_record
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, slope_bound, value_of
-from swtstudy.kernel.planes import NOISE, above
+from swtstudy.kernel.planes import NOISE, above, halve_top
 
 #: Rows of a history: xx, yy, zz, yz, xz, xy; ν tr σ or 0; two components of the shear stress on a plane.
 ROWS = 9
@@ -44,18 +44,15 @@ OF_J2 = 2.0 / np.sqrt(3.0)
 PLANES = np.dtype(
     [
         ("normal", "f8", (3,)),  # of the best plane; before the search a guess, or 0
-        ("best", "f8"),  # h there
-        ("limit", "f8"),  # what a higher value must exceed
+        *fields("f8", "best limit"),  # h there, and what a higher value must exceed
         ("planes", "i8"),  # that have been looked at
         ("unsettled", "i8"),  # 1: the search ended before its bound was met
         ("noise", "f8"),  # tension that rounding may make
         ("instant", "i8"),  # of the largest principal stress
-        ("of_tension", "f8"),  # bounds of the derivatives over twice the angle
-        ("of_swing", "f8"),
+        *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over twice the angle
         ("most", "f8", (2,)),  # bounds of T and A
         ("seen", "f8", (3,)),  # h, T, A of the last plane, from above
-        ("trial", "f8", (3,)),  # normal of a climb
-        ("kept", "f8", (3,)),
+        *fields("f8", "trial kept", (3,)),  # normals of a climb: the last one and the highest
         ("tangent", "f8", (2, 3)),
         ("form", "f8", (3, 6)),  # tensors of σ_n and of the swing at a climb's instants, the square of this
         ("jet", "f8", (3, 6)),  # value, first derivatives 1, 2, second ones 11, 22, 12 of each on the sphere
@@ -103,37 +100,37 @@ def climb_from_principal(G, S, m, Q):
 
 
 @jit
-def deviator(S, i, a, b, c, yz, xz, xy):
-    """J2 of instant i less a tensor with these components."""
-    p, q, r = S[0, i] - a, S[1, i] - b, S[2, i] - c
+def deviator(S, i, T):
+    """J2 of instant i less a tensor T."""
+    p, q, r = S[0, i] - T[0], S[1, i] - T[1], S[2, i] - T[2]
     normal = ((p - q) * (p - q) + (q - r) * (q - r) + (r - p) * (r - p)) / 6.0
-    yz, xz, xy = S[3, i] - yz, S[4, i] - xz, S[5, i] - xy
+    yz, xz, xy = S[3, i] - T[3], S[4, i] - T[4], S[5, i] - T[5]
     return normal + yz * yz + xz * xz + xy * xy
 
 
 @jit
-def middle(S, m, c):
-    """Middle of the values of a component."""
-    low, high = S[c, 0], S[c, 0]
-    for i in range(m):
-        low, high = min(low, S[c, i]), max(high, S[c, i])
-    return 0.5 * (low + high)
+def strain_factor(Q):
+    """Factor ν of tr σ in the normal strain; 0 of a shear stress."""
+    return Q.poisson_ratio if Q.criterion == SWT else 0.0
 
 
 @jit
 def measure(G, S, m, Q):
     """Write what of the history bounds T and A, and their derivatives."""
-    nu = Q.poisson_ratio if Q.criterion == SWT else 0.0
-    mid = G.form[0]
+    nu = strain_factor(Q)
+    mid, zero = G.form[0], G.form[1]
     for c in range(6):
-        mid[c] = middle(S, m, c)
+        low, high = S[c, 0], S[c, 0]
+        for i in range(m):
+            low, high = min(low, S[c, i]), max(high, S[c, i])
+        mid[c], zero[c] = 0.5 * (low + high), 0.0
     stress, change, low, high, tension = 0.0, 0.0, 1e300, -1e300, -1e300
     for i in range(m):
         p = (S[0, i] + S[1, i] + S[2, i]) / 3.0
         S[6, i] = 3.0 * nu * p
-        j2 = deviator(S, i, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        j2 = deviator(S, i, zero)
         stress, low, high = max(stress, j2), min(low, p), max(high, p)
-        change = max(change, deviator(S, i, mid[0], mid[1], mid[2], mid[3], mid[4], mid[5]))
+        change = max(change, deviator(S, i, mid))
         if p + OF_J2 * sqrt(j2) > tension:
             principal = largest_principal(S, i)
             if principal > tension:
@@ -232,24 +229,15 @@ def longest_chord(G, S, m, Q, T, tolerance):
         return best, bound
     depth = LINES
     while depth > 0:
-        depth -= 1
-        angle, f1, step, f2 = (
-            G.waiting[depth, 0],
-            G.waiting[depth, 1],
-            G.waiting[depth, 2],
-            G.waiting[depth, 3],
-        )
-        if above(f1, f2, bound * step * step) <= best * (1.0 + tolerance) or step < 1e-6:
+        row = G.waiting[depth - 1]
+        if above(row[1], row[3], bound * row[2] * row[2]) <= best * (1.0 + tolerance) or row[2] < 1e-6:
+            depth -= 1
             continue
-        step *= 0.5
-        f = width(S, m, cos(angle + step), sin(angle + step))
+        angle = row[0] + 0.5 * row[2]
+        f = width(S, m, cos(angle), sin(angle))
         if f > best:
-            G.line, best = angle + step, f
-        G.waiting[depth, 2], G.waiting[depth, 3] = step, f
-        depth += 1
-        G.waiting[depth, 0], G.waiting[depth, 1] = angle + step, f
-        G.waiting[depth, 2], G.waiting[depth, 3] = step, f2
-        depth += 1
+            G.line, best = angle, f
+        depth = halve_top(G.waiting, depth, f)
     return best, best * (1.0 + tolerance)
 
 

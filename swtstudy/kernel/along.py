@@ -32,24 +32,25 @@ def excess(S, k, limit):
 @jit
 def map_line(S, H, W, C, R, P, K, L, Q, limit):
     """Halve the line until no interval hides anything that exceeds its ends or the limit; write it into S."""
-    smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
-    while m + 2 <= MAX_INTERVALS and S.positions <= min(MOST_POSITIONS, MAX_SEEN - 1):
+    point = H, W, C, R, P, K, L, Q
+    begin_search(S, point)
+    while S.intervals + 2 <= MAX_INTERVALS and S.positions <= min(MOST_POSITIONS, MAX_SEEN - 1):
         k, most = FIRST, 0.0
-        for i in range(m):
+        for i in range(S.intervals):
             hidden = excess(S, i, limit)
             if hidden > most:
                 k, most = i, hidden
         if most <= 1.0:
             break
-        m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
+        cut(S, point, k, limit)
 
 
 @jit
 def plane_at(S, H, W, C, R, P, K, L, Q, largest, x):
     """2θ of the critical plane at a signed x."""
-    S.best, S.positions, b = 0.0, 0, P.flat_radius
+    S.best, S.positions, S.largest, b = 0.0, 0, largest, P.flat_radius
     place = sqrt(abs(x * x - b * b)) * (1.0 if abs(x) >= b else -1.0)
-    evaluate(S, H, W, C, R, P, K, L, Q, largest, place, ASKED, ASKED)
+    evaluate(S, (H, W, C, R, P, K, L, Q), place, ASKED, ASKED)
     if L.mirrored:
         return S.seen_angle[0, 0] if x >= 0.0 else -S.seen_angle[0, 0]
     return S.seen_angle[0, 0 if x >= 0.0 else 1]

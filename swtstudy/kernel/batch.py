@@ -7,18 +7,19 @@ from threading import local
 
 import numpy as np
 
-from swtstudy.kernel.body import body_workspace
-from swtstudy.kernel.circle import circles, search_circles
+from swtstudy.kernel.body import OF_BODY
+from swtstudy.kernel.circle import CIRCLE, search_circles
 from swtstudy.kernel.compiled import new_record, new_records
+from swtstudy.kernel.contact import CYCLE
 from swtstudy.kernel.control import prescribe
-from swtstudy.kernel.cycles import COUNTED, count_points, counting
+from swtstudy.kernel.cycles import COUNTED, COUNTING, count_points
+from swtstudy.kernel.growth import GROWTH
 from swtstudy.kernel.line import ASK, ask
 from swtstudy.kernel.load import LOAD
 from swtstudy.kernel.loads import leave_bulk_out, load_of
-from swtstudy.kernel.point import RESULT, solve_points, workspace
+from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import PROFILE
 from swtstudy.kernel.profiles import is_plane, profile_record
-from swtstudy.kernel.shifted_circle import search_shifted_circles
 from swtstudy.kernel.work import CONJUGATE, MARGIN, OF_CYCLE, cycles_of, margins_of
 
 #: Points of one compiled call: their loads and profiles take some 10 MB.
@@ -98,7 +99,7 @@ def chunks(
     strain = zero + 1.0 if pulled is None else pulled
     for first in range(0, n, CHUNK):
         rows = range(first, min(first + CHUNK, n))
-        loads, asks = _loads()[: len(rows)], new_records(len(rows), ASK)
+        loads, asks = memory(LOAD)[0][: len(rows)], new_records(len(rows), ASK)
         keys = []
         for j, i in enumerate(rows):
             loop = None if loops is None else loops[i]
@@ -142,18 +143,14 @@ def solve_batch(*points, **given):
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.point.RESULT`.
     """
-    parts = []
-    for _, profiles, which, loads, asks in chunks(*points, **given):
-        parts.append(new_records(len(which), RESULT))
-        solve_points(*_workspace(), profiles, which, loads, asks, parts[-1])
-        _refuse_overflow(parts[-1]["overflow"].any())
-        if parts[-1]["circle"].any():
-            search_circles(*_circles(), *_workspace(), profiles, which, loads, asks, parts[-1])
-            if (parts[-1]["circle"] * parts[-1]["shift"]).any():
-                places = _of_this_thread("body", body_workspace)
-                search_shifted_circles(*places, *_workspace(), profiles, which, loads, asks, parts[-1])
-            _refuse_overflow(parts[-1]["overflow"].any())
-    return _joined(parts, RESULT)
+    return _each_chunk(_solve, RESULT, chunks(*points, **given))
+
+
+def _solve(profiles, which, loads, asks, out):
+    """Solve the points of a chunk: on the line, and on circles where the line may not be enough."""
+    solve_points(*memory(*OF_POINT), profiles, which, loads, asks, out)
+    if out["circle"].any() and not out["overflow"].any():
+        search_circles(*memory(CIRCLE, *OF_BODY, *OF_POINT), profiles, which, loads, asks, out)
 
 
 def count_batch(x, double_angle, *points, **given):
@@ -172,16 +169,16 @@ def count_batch(x, double_angle, *points, **given):
     list
         For each point and place the values of the criterion of its cycles over the largest one, descending.
     """
-    found, N = [], _of_this_thread("counting", counting)
+    found, room = [], memory(*OF_POINT, COUNTING)
     for rows, profiles, which, loads, asks in chunks(*points, **given):
         out, first = new_records(len(which), COUNTED), np.int64(0)
         at = np.ascontiguousarray(x[rows]), np.ascontiguousarray(double_angle[rows])
         while first < len(which):
-            done = np.int64(count_points(*_workspace(), N, profiles, which, loads, asks, *at, first, out))
+            done = np.int64(count_points(*room, profiles, which, loads, asks, *at, first, out))
             for row, load in zip(out[first:done], loads[first:done], strict=True):
                 _refuse_overflow(row["overflow"])
                 ends = row["begin"][: row["places"] + 1]
-                shares = (N["shares"][begin:end] for begin, end in pairwise(ends))
+                shares = (room[-1]["shares"][begin:end] for begin, end in pairwise(ends))
                 found.append([np.repeat(-np.sort(-each), load["rounds"]) for each in shares])
             first = done
     return found
@@ -202,14 +199,8 @@ def cycle_batch(with_ratio, *points, **given):
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.work.OF_CYCLE`.
     """
-    U = _of_this_thread("conjugate", partial(new_record, CONJUGATE))
-    cycle, growth = _workspace()[:2]
-    parts = []
-    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE, reach=1.0):
-        parts.append(new_records(len(which), OF_CYCLE))
-        cycles_of(cycle, growth, U, profiles, which, loads, asks, np.bool_(with_ratio), parts[-1])
-        _refuse_overflow(parts[-1]["overflow"].any())
-    return _joined(parts, OF_CYCLE)
+    solve = partial(cycles_of, *memory(CYCLE, GROWTH, CONJUGATE), np.bool_(with_ratio))
+    return _each_chunk(solve, OF_CYCLE, chunks(*points, **given, rtol=OF_PROFILE, reach=1.0))
 
 
 def margins_batch(*points, **given):
@@ -225,16 +216,18 @@ def margins_batch(*points, **given):
     numpy.ndarray
         Shape (n,) of `swtstudy.kernel.work.MARGIN`.
     """
-    parts = []
-    for _, profiles, which, loads, asks in chunks(*points, **given, rtol=OF_PROFILE):
-        parts.append(new_records(len(which), MARGIN))
-        margins_of(_workspace()[0], profiles, which, loads, asks, parts[-1])
-    return _joined(parts, MARGIN)
+    records = chunks(*points, **given, rtol=OF_PROFILE)
+    return _each_chunk(partial(margins_of, *memory(CYCLE)), MARGIN, records)
 
 
-def _joined(parts, kind):
-    """The records of all chunks."""
-    return np.concatenate(parts).view(np.recarray) if parts else new_records(0, kind)
+def _each_chunk(solve, kind, records):
+    """Results of all chunks: records of a kind. The function writes them into its last argument."""
+    parts = [new_records(0, kind)]
+    for _, profiles, which, loads, asks in records:
+        parts.append(new_records(len(which), kind))
+        solve(profiles, which, loads, asks, parts[-1])
+        _refuse_overflow("overflow" in kind.names and parts[-1]["overflow"].any())
+    return np.concatenate(parts).view(np.recarray)
 
 
 def _refuse_overflow(overflow):
@@ -249,23 +242,10 @@ def _raise_to(largest, keys, loads):
         largest[key] = max(largest[key], float(load["normal_range"][1]))
 
 
-def _loads():
-    """Room of this thread for the loads of a chunk."""
-    return _of_this_thread("loads", partial(new_records, CHUNK, LOAD))
-
-
-def _workspace():
-    """The memory of this thread."""
-    return _of_this_thread("workspace", workspace)
-
-
-def _circles():
-    """The same for the circles."""
-    return _of_this_thread("circles", circles)
-
-
-def _of_this_thread(name, make):
-    """Memory of this thread, made once."""
-    if not hasattr(_of_thread, name):
-        setattr(_of_thread, name, make())
-    return getattr(_of_thread, name)
+def memory(*kinds):
+    """Records of this thread, one of each kind, or the room for the loads of a chunk; made once."""
+    own = _of_thread.__dict__
+    for kind in kinds:
+        if id(kind) not in own:
+            own[id(kind)] = new_records(CHUNK, kind) if kind is LOAD else new_record(kind)
+    return [own[id(kind)] for kind in kinds]

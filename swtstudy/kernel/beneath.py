@@ -19,21 +19,12 @@ from math import asin, asinh, cos, cosh, exp, hypot, pi, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import jit, jit_reordered
+from swtstudy.kernel.compiled import fields, jit, jit_reordered
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN
 from swtstudy.kernel.growth import find_stretch, solved_places
 from swtstudy.kernel.load import bulk_at, load_at
 from swtstudy.kernel.profile import MEAN_LOAD, place_of, radius_of
-from swtstudy.kernel.punch import (
-    FUNCTIONS,
-    OF_STRIP,
-    components,
-    disc,
-    disc_moments,
-    strip,
-    strip_moments,
-    upper_root,
-)
+from swtstudy.kernel.punch import FUNCTIONS, components, disc, disc_moments, strip, strip_moments, upper_root
 from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.surface import acosh, inside_end
 
@@ -57,31 +48,21 @@ NEXT_TO_AXIS = 1e-40
 
 PLACE = np.dtype(
     [
-        ("x", "f8"),
-        ("y", "f8"),
-        ("z", "f8"),
-        ("r", "f8"),
-        ("functions", "i8"),
-        ("sigma", "f8"),
-        ("omega", "f8"),
+        *fields("f8", "x y z r"),
         ("overflow", "i8"),
+        *fields("f8", "sigma omega"),
         ("begin", "f8", (MAX_CELLS,)),  # s at the lower ends of the cells
         ("scale", "f8", (MAX_CELLS, 2)),  # u at the lower end, and 2 over the length
         ("kind", "i8", (MAX_CELLS,)),
         ("series", "f8", (MAX_CELLS, ORDER + 1, FUNCTIONS)),  # of running integrals
-        ("first", "i8", (MAX_PIECES + 1,)),  # cells of a density: 0 the profile, 1 + i what grew as piece i
-        ("last", "i8", (MAX_PIECES + 1,)),
+        *fields("i8", "first last", (MAX_PIECES + 1,)),  # cells of a density: 0 the profile, 1 + i piece i
         ("total", "f8", (MAX_PIECES + 1, FUNCTIONS)),  # of all cells
         ("at_axis", "f8", (FUNCTIONS,)),  # of the closed forms
         ("up_to_start", "f8", (MAX_PIECES, FUNCTIONS)),  # ∫ (do/dG - own slope) up to a piece's start
-        ("normal", "f8", (FUNCTIONS,)),  # of the springs at an instant
-        ("drag", "f8", (FUNCTIONS,)),
+        *fields("f8", "normal drag nothing", (FUNCTIONS,)),  # of the springs at an instant
         ("work", "f8", (2, FUNCTIONS)),
         ("other", "f8", (6,)),
-        ("shift", "f8"),  # of the stick zone; coordinate and place of the edge
-        ("load", "f8"),
-        ("reach", "f8"),
-        ("nothing", "f8", (FUNCTIONS,)),
+        *fields("f8", "shift load reach"),  # of the stick zone; coordinate and place of the edge
         ("drag_to_start", "f8", (MAX_PIECES, 6)),  # the stress up to a piece's start, where there is a shift
         ("one_drag", "f8", (3, 6)),
     ]
@@ -93,7 +74,6 @@ def set_place(B, P, x, y, z):
     """Note a place, and where the functions are singular in s."""
     r = abs(x) if P.plane else hypot(x, y)
     B.x, B.y, B.z, B.r, B.overflow = x, y, z, r, 0
-    B.functions = OF_STRIP if P.plane else FUNCTIONS
     b = P.flat_radius
     real, imaginary = (r - b) * (r + b) - z * z, 2.0 * r * z
     B.sigma, B.omega = upper_root(real, imaginary)
@@ -239,7 +219,7 @@ def add(to, factor, f):
 
 
 @jit
-def drag_of(B, P, s, nu):
+def drag_of(B, P, Q, s):
     """Write the stress by Hertz's traction on the stick zone of size s about its own centre, times π."""
     d, f, z = centre_of(P, B.shift, B.load, B.reach, s), B.work[1], B.z
     x = B.x - d
@@ -250,21 +230,21 @@ def drag_of(B, P, s, nu):
         f[2] += 0.5 * pi * z
     else:
         disc_moments(hypot(x, B.y), z, s, f)
-    components(P.plane, B.nothing, f, x, B.y, z, nu, B.one_drag[0], B.one_drag[1])
+    components(P.plane, B.nothing, f, x, B.y, z, Q.poisson_ratio, B.one_drag[0], B.one_drag[1])
 
 
 @jit
-def add_drag(B, P, s, factor, nu, to):
+def add_drag(B, P, Q, s, factor, to):
     """Add a multiple of the stress by the traction on a stick zone."""
     if factor == 0.0 or s <= 0.0:
         return
-    drag_of(B, P, s, nu)
+    drag_of(B, P, Q, s)
     for c in range(6):
         to[c] += factor * B.one_drag[0, c]
 
 
 @jit
-def open_drags(B, C, P, nu):
+def open_drags(B, C, P, Q):
     """Sum the stress by the pieces up to the start of each."""
     for j in range(FUNCTIONS):
         B.nothing[j] = 0.0
@@ -276,30 +256,30 @@ def open_drags(B, C, P, nu):
             sums[c] = 0.0 if beneath == NONE else B.drag_to_start[beneath, c]
         if beneath != NONE:
             jump += C.slope[beneath]
-        add_drag(B, P, C.start_s[i], jump, nu, sums)
+        add_drag(B, P, Q, C.start_s[i], jump, sums)
 
 
 @jit
-def shifted_stress(B, C, P, k, edge, front, sign, nu, mu, out, other):
-    """`stress_of_state` where the stick zone is shifted: stresses of pressure and of drag on their own."""
+def shifted_stress(B, C, P, Q, k, edge, front, sign, out, other):
+    """`centred_stress` where the stick zone is shifted: stresses of pressure and of drag on their own."""
     push, i = C.push[k], C.piece[k]
     up_to(B, P, edge, B.normal)
-    components(P.plane, B.normal, B.nothing, B.x, B.y, B.z, nu, out, other)
+    components(P.plane, B.normal, B.nothing, B.x, B.y, B.z, Q.poisson_ratio, out, other)
     drag = B.one_drag[2]
     for c in range(6):
         drag[c] = 0.0 if i == NONE else B.drag_to_start[i, c]
     slope = push if i == NONE else C.slope[i]
     if front < edge:
-        add_drag(B, P, front, slope - push, nu, drag)
+        add_drag(B, P, Q, front, slope - push, drag)
         slope = push
-    add_drag(B, P, edge, slope, nu, drag)
+    add_drag(B, P, Q, edge, slope, drag)
     for c in range(6):
-        pressure, shear = out[c] / pi, sign * mu / pi * drag[c]
+        pressure, shear = out[c] / pi, sign * Q.friction / pi * drag[c]
         out[c], other[c] = pressure + shear, pressure - shear
 
 
 @jit
-def open_place(B, C, R, P, x, y, z, largest, nu):
+def open_place(B, C, R, P, Q, x, y, z, largest):
     """Tabulate the densities at a place, and ∫ o′ times the functions up to the start of each piece.
 
     Parameters
@@ -320,7 +300,7 @@ def open_place(B, C, R, P, x, y, z, largest, nu):
     else:
         disc_moments(B.r, z, 0.0, B.at_axis)
     if B.shift != 0.0:
-        open_drags(B, C, P, nu)
+        open_drags(B, C, P, Q)
         return
     f = B.work[1]
     for i in range(C.pieces):
@@ -345,24 +325,9 @@ def open_place(B, C, R, P, x, y, z, largest, nu):
 
 
 @jit
-def stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, other):
-    """Write the stress in stretch k with its edge and front at these places s.
-
-    Parameters
-    ----------
-    sign
-        -1 in the mirrored half of the cycle, else 1.
-    other
-        The same under the opposite shear: of a mirrored load half a cycle later.
-    """
+def centred_stress(B, C, P, Q, k, edge, front, sign, out, other):
+    """`stress_of_state` without the bulk stress, where all springs are about the axis."""
     push, i, n, t, f = C.push[k], C.piece[k], B.normal, B.drag, B.work[1]
-    if push == OPEN or edge <= 0.0:
-        for j in range(6):
-            out[j], other[j] = 0.0, 0.0
-        return
-    if B.shift != 0.0:
-        shifted_stress(B, C, P, k, edge, front, sign, nu, mu, out, other)
-        return
     up_to(B, P, edge, n)
     for j in range(FUNCTIONS):
         t[j] = push * n[j]  # ∫ o′ beyond the front
@@ -378,23 +343,42 @@ def stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, other):
                 add(t, jump, f)
             else:
                 add(t, jump, n)
-    pressure, friction = 1.0 / pi, sign * mu / pi
+    pressure, friction = 1.0 / pi, sign * Q.friction / pi
     for j in range(FUNCTIONS):
         n[j] *= pressure
         t[j] *= friction
-    components(P.plane, n, t, B.x, B.y, B.z, nu, out, other)
+    components(P.plane, n, t, B.x, B.y, B.z, Q.poisson_ratio, out, other)
 
 
 @jit
-def with_bulk(P, bulk, nu, out):
-    """Add the bulk stress along x, of plane strain in a plane contact."""
+def stress_of_state(B, C, P, Q, k, edge, front, sign, bulk, out, other):
+    """Write the stress in stretch k with its edge and front at these places s.
+
+    Parameters
+    ----------
+    sign
+        -1 in the mirrored half of the cycle, else 1.
+    bulk
+        The bulk stress along x, of plane strain in a plane contact.
+    other
+        The same under the opposite shear: of a mirrored load half a cycle later.
+    """
+    if C.push[k] == OPEN or edge <= 0.0:
+        for j in range(6):
+            out[j], other[j] = 0.0, 0.0
+    elif B.shift != 0.0:
+        shifted_stress(B, C, P, Q, k, edge, front, sign, out, other)
+    else:
+        centred_stress(B, C, P, Q, k, edge, front, sign, out, other)
     out[0] += bulk
+    other[0] += bulk
     if P.plane:
-        out[1] += nu * bulk
+        out[1] += Q.poisson_ratio * bulk
+        other[1] += Q.poisson_ratio * bulk
 
 
 @jit
-def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
+def stress_field(B, C, R, P, L, Q, places, time, largest, out):
     """Write the stress at places (n, 3) and instants (m,) of the cycle, shape (n, m, 6)."""
     m = time.shape[0]
     stretch, sign, state, bulk = np.empty(m, np.int64), np.empty(m), np.empty((m, 2)), np.empty(m)
@@ -403,13 +387,12 @@ def stress_field(B, C, R, P, L, nu, mu, places, time, largest, out):
         stretch[i], bulk[i] = k, bulk_at(L, t)
         state[i, 0], state[i, 1] = solved_places(C, P, L, k, t)
     for p in range(places.shape[0]):
-        open_place(B, C, R, P, places[p, 0], places[p, 1], places[p, 2], largest, nu)
+        open_place(B, C, R, P, Q, places[p, 0], places[p, 1], places[p, 2], largest)
         if B.overflow:
             return
         for i in range(m):
-            k, edge, front = stretch[i], state[i, 0], state[i, 1]
-            stress_of_state(B, C, P, k, edge, front, sign[i], nu, mu, out[p, i], B.other)
-            with_bulk(P, bulk[i], nu, out[p, i])
+            own = stretch[i], state[i, 0], state[i, 1], sign[i], bulk[i]
+            stress_of_state(B, C, P, Q, *own, out[p, i], B.other)
 
 
 @jit

@@ -5,7 +5,7 @@ slip front passes above the place. The parts that may hide a higher value on the
 until none does; then the planes are searched again.
 """
 
-from math import sqrt
+from math import cos, sin, sqrt
 
 import numpy as np
 
@@ -18,36 +18,24 @@ from swtstudy.kernel.all_planes import (
     highest_plane,
     measure,
     project,
+    strain_factor,
 )
-from swtstudy.kernel.beneath import PLACE, open_place, stress_of_state, with_bulk
-from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import jit, new_record
-from swtstudy.kernel.contact import SHORTEST
+from swtstudy.kernel.beneath import PLACE, open_place, stress_of_state
+from swtstudy.kernel.chebyshev import barycentric
+from swtstudy.kernel.compiled import fields, jit, jit_reordered
+from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
-from swtstudy.kernel.growth import places_at
-from swtstudy.kernel.history import (
-    MAX_INSTANTS,
-    MAX_PARTS,
-    ROOM,
-    SPACED,
-    add_part,
-    approaches,
-    find_passing,
-    is_calm,
-    split,
-)
+from swtstudy.kernel.history import write_stress
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, mark_unresolved
-from swtstudy.kernel.profile import coordinate_at
+from swtstudy.kernel.parts import MAX_INSTANTS, begin_parts, lay_parts, refine_marked
+from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, mark_highest, mark_unresolved
 
 #: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
 COARSEST, OF_VON_MISES = np.array([4, 8])
 #: If the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25
-#: Purposes for which a part is sampled, and rows of a history that are room; no literals, for which Numba
-#: would compile anew.
-FOR_BOTH, FOR_ONE = np.array([True, False])
+#: Rows of a history that are room; no literals, for which Numba would compile anew.
 ALONG, ACROSS = np.array([7, 8])
 #: Most rounds in which parts of a cycle are doubled.
 ROUNDS = 8
@@ -61,82 +49,37 @@ HERE = np.dtype(
     [
         ("stress", "f8", (ROWS, MAX_INSTANTS)),
         ("mirrored", "f8", (6, MAX_INSTANTS)),  # half a cycle later
-        ("out", "f8", (6,)),
-        ("other", "f8", (6,)),
+        *fields("f8", "out other", (6,)),
         ("first", "f8", (3,)),  # normal of the best plane so far
         ("missing", "f8"),  # what the value may still lack, relative
-        ("overflow", "i8"),
+        ("on_circle", "i8"),  # 1: the place is on a circle of the surface, at an angle from x
+        ("angle", "f8"),
+        ("unsure", "f8"),  # values h above it are confirmed
     ]
 )
-
-
-def body_workspace():
-    """The memory for places of the body that one thread needs, beside the line's memory."""
-    return tuple(new_record(kind) for kind in (PLACE, HERE, PLANES))
+#: Kinds of the records that a thread needs for places of the body, beside those of points.
+OF_BODY = PLACE, HERE, PLANES
 
 
 @jit
-def sample_instant(S, B, C, P, L, k, t, edge, front, sign, m, mirrored, nu, mu):
-    """Write instant m of the history, and where asked what it is half a cycle later."""
-    out = S.out
-    stress_of_state(B, C, P, k, edge, front, sign, nu, mu, out, S.other)
-    bulk = bulk_at(L, t)
-    with_bulk(P, bulk, nu, out)
-    for c in range(6):
-        S.stress[c, m] = out[c]
-    if mirrored:
-        with_bulk(P, bulk, nu, S.other)
-        for c in range(6):
-            S.mirrored[c, m] = S.other[c]
-
-
-@jit
-def sample_part(S, B, H, z, intervals, C, P, L, nu, mu, both):
-    """Sample part z at the Lobatto points of so many intervals; instants that it had before are copied.
-
-    For both halves of a mirrored cycle, or for the one that the part is in.
-    """
-    k, cusps = H.stretch[z], H.cusps[z]
-    begin, end = H.time[z, 0], H.time[z, 1]
-    whole = cusps == 0 and begin == C.time[k, 0] and end == C.time[k, 1] and intervals <= C.intervals[k]
-    old, known, m, step = H.first[z], H.intervals[z], H.instants, FINEST // intervals
-    sign = -1.0 if H.mirror[z] else 1.0
-    for j in range(intervals + 1):
-        if known > 0 and j * known % intervals == 0:
+def write_stresses(S, B, H, C, P, L, Q):
+    """Write the stress at the new instants. A known one is copied, perhaps from half a cycle before."""
+    for m in range(H.written, H.instants):
+        i, z = H.known[m], H.part[m]
+        if i != NONE:
+            mirrored = H.mirror[z] != H.mirror[H.part[i]]
             for c in range(6):
-                S.stress[c, m + j] = S.stress[c, old + j * known // intervals]
+                S.stress[c, m] = S.mirrored[c, i] if mirrored else S.stress[c, i]
             continue
-        t = begin + 0.5 * (end - begin) * (SPACED[cusps, j * step] + 1.0)
-        if j == 0 or j == intervals:
-            edge, front = H.places[z, j // intervals, 0], H.places[z, j // intervals, 1]
-        elif whole:
-            edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
-        else:
-            edge, front = places_at(C, P, L, k, t, H.weight)
-        sample_instant(S, B, C, P, L, k, t, edge, front, sign, m + j, both and L.mirrored, nu, mu)
-    H.first[z], H.intervals[z] = m, intervals
-    H.instants = m + intervals + 1
+        own = H.stretch[z], H.state[m, 0], H.state[m, 1], -1.0 if H.mirror[z] else 1.0
+        stress_of_state(B, C, P, Q, *own, bulk_at(L, H.instant[m]), S.out, S.other)
+        for c in range(6):
+            S.stress[c, m], S.mirrored[c, m] = S.out[c], S.other[c]
+    H.written = H.instants
 
 
 @jit
-def sample_ends(S, B, H, C, P, L, k, nu, mu):
-    """A part for stretch k of which only the ends are sampled; they are shared with the part before."""
-    edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
-    edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
-    near = approaches(H.G, C.edge[k, 0], C.edge[k, 1]) | approaches(H.front_G, C.front[k, 0], C.front[k, 1])
-    z = add_part(H, k, C.time[k, 0], C.time[k, 1], edge, edge_end, front, front_end, near)
-    m, mirrored = H.instants, L.mirrored
-    if k > 0 and abs(C.time[k, 0] - C.time[k - 1, 1]) <= SHORTEST * L.period:
-        m -= 1
-    else:
-        sample_instant(S, B, C, P, L, k, C.time[k, 0], edge, front, 1.0, m, mirrored, nu, mu)
-    t = C.time[k, 1]
-    sample_instant(S, B, C, P, L, k, t, edge_end, front_end, 1.0, m + 1, mirrored, nu, mu)
-    H.first[z], H.intervals[z], H.instants = m, 1, m + 2
-
-
-@jit
-def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
+def sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, coarsest):
     """All parts of the cycle at (x, y, z), coarsely.
 
     Parameters
@@ -146,64 +89,37 @@ def sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, nu, mu, coarsest):
     coarsest
         Intervals of a part.
     """
-    open_place(B, C, R, P, x, y, z, largest, nu)
-    S.overflow = B.overflow
-    H.instants, H.parts, H.plane = 0, 0, P.plane
-    H.X, H.all_outside, H.G = B.sigma, 1, -1.0
-    if B.sigma > 0.0 and B.omega < DEEP * largest:
-        H.G = coordinate_at(P, B.sigma) if B.sigma <= largest else np.inf
-    H.shift, H.load, H.reach = C.shift, C.largest, largest
-    find_passing(H, P, x, y)
-    for k in range(C.stretches):
-        if H.parts + 7 >= MAX_PARTS or H.instants + ROOM >= MAX_INSTANTS:
-            S.overflow = 1
-            return
-        if is_calm(H, C, L, k):
-            sample_ends(S, B, H, C, P, L, k, nu, mu)
-            continue
-        before = H.parts
-        split(H, C, P, K, L, k, nu, mu)
-        for part in range(before, H.parts):
-            sample_part(S, B, H, part, coarsest, C, P, L, nu, mu, FOR_BOTH)
-    if L.mirrored:
-        parts, instants = H.parts, H.instants
-        if 2 * parts >= MAX_PARTS or 2 * instants >= MAX_INSTANTS:
-            S.overflow = 1
-            return
-        for y in range(parts):
-            add_mirror_image(H, y, instants)
-        for i in range(instants):
-            for c in range(6):
-                S.stress[c, instants + i] = S.mirrored[c, i]
-        H.instants = 2 * instants
+    open_place(B, C, R, P, Q, x, y, z, largest)
+    S.on_circle, S.unsure, C.overflow = 0, np.inf, max(C.overflow, B.overflow)
+    begin_parts(H, C, P, B.sigma if B.omega < DEEP * largest else 0.0, x, y, largest, C.shift)
+    lay_parts(H, C, P, L, coarsest)
+    write_stresses(S, B, H, C, P, L, Q)
+
+
+@jit_reordered
+def fill_circle(S, H, first, Q):
+    """Write the stress at an angle of the circle, from an instant on: rr, φφ, zz, φz, rz, rφ for xx to xy."""
+    nu, C, D, T = Q.poisson_ratio, cos(S.angle), sin(S.angle), S.stress
+    of_sum = (nu - 0.5) / (1.0 + nu)
+    for i in range(first, H.instants):
+        p, within, bulk = H.p[i], H.within[i], H.bulk[i]
+        T[0, i] = within - p + C * H.xx[i] + C * C * bulk
+        T[1, i] = -within - 2.0 * nu * p + C * H.yy[i] + D * D * bulk
+        T[2, i], T[3, i], T[4, i] = -p, D * H.q[i], -C * H.q[i]
+        T[5, i] = D * (of_sum * (H.xx[i] + H.yy[i]) - H.yy[i]) - C * D * bulk
 
 
 @jit
-def add_mirror_image(H, y, instants):
-    """A part like y of the mirrored half of the cycle."""
-    z = H.parts
-    H.parts += 1
-    H.stretch[z], H.mirror[z], H.cusps[z], H.intervals[z] = H.stretch[y], 1, H.cusps[y], H.intervals[y]
-    H.first[z], H.time[z, 0], H.time[z, 1] = H.first[y] + instants, H.time[y, 0], H.time[y, 1]
-    for e in range(2):
-        H.places[z, e, 0], H.places[z, e, 1] = H.places[y, e, 0], H.places[y, e, 1]
-
-
-@jit
-def refine_part(S, B, H, z, C, P, L, nu, mu):
-    """Double the intervals of part z, or give it some if only its ends are known; cut the finest in two."""
-    if H.intervals[z] < FINEST:
-        sample_part(S, B, H, z, max(2 * H.intervals[z], COARSEST), C, P, L, nu, mu, FOR_ONE)
-        return
-    k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
-    t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
-    edge, front = places_at(C, P, L, k, t, H.weight)
-    y = add_part(H, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
-    H.mirror[y] = H.mirror[z]
-    H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
-    H.places[z, 1, 0], H.places[z, 1, 1] = edge, front
-    sample_part(S, B, H, z, FINEST // 2, C, P, L, nu, mu, FOR_ONE)
-    sample_part(S, B, H, y, FINEST // 2, C, P, L, nu, mu, FOR_ONE)
+def write_new(S, B, H, C, P, K, L, Q):
+    """Write the stress at the new instants: of a circle of the surface from the history on the line."""
+    first = H.written
+    if S.on_circle:
+        write_stress(H, C, P, L, K, Q)
+        fill_circle(S, H, first, Q)
+    else:
+        write_stresses(S, B, H, C, P, L, Q)
+    for i in range(first, H.instants):
+        S.stress[6, i] = strain_factor(Q) * (S.stress[0, i] + S.stress[1, i] + S.stress[2, i])
 
 
 @jit
@@ -239,57 +155,78 @@ def value_on_plane(S, H, W, G, Q):
 
 
 @jit
-def settle_place(S, B, H, W, G, C, P, L, Q, tolerance):
-    """Double parts that may hide a higher value on the best plane, until none does; returns h there."""
-    m, nu = H.instants, Q.poisson_ratio if Q.criterion == SWT else 0.0
-    for _ in range(ROUNDS):
-        value_on_plane(S, H, W, G, Q)
-        doubled, _, S.missing = mark_unresolved(H, W, C, Q, 1.0, 0.0, tolerance)
-        if doubled == 0 or H.instants + doubled * ROOM > MAX_INSTANTS or H.parts + doubled >= MAX_PARTS:
-            break
-        for z in range(H.parts):
-            if W.double[z]:
-                refine_part(S, B, H, z, C, P, L, Q.poisson_ratio, Q.friction)
-        for i in range(m, H.instants):
-            S.stress[6, i] = nu * (S.stress[0, i] + S.stress[1, i] + S.stress[2, i])
-        m, G.best = H.instants, 0.0
-        climb_from(G, S.stress, m, Q, G.normal[0], G.normal[1], G.normal[2])
-    return value_on_plane(S, H, W, G, Q)
+def add_peaks(S, H, W):
+    """Write the stress at the maxima of the three curves behind the instants; returns the number of both."""
+    for which in range(3):
+        z, m = W.part[which], H.instants + which
+        barycentric(W.place[which], H.intervals[z], W.weight)
+        for c in range(7):
+            S.stress[c, m] = 0.0
+            for j in range(H.intervals[z] + 1):
+                S.stress[c, m] += W.weight[j] * S.stress[c, H.first[z] + j]
+    return H.instants + 3
 
 
 @jit
-def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest):
-    """The criterion at (x, y, z) over all planes, with its plane's normal in G, and what it may miss.
+def settle_place(body, tolerance):
+    """Double parts that may hide a higher value on the best plane, until none does; returns h there.
+
+    Values above a limit are confirmed as on the line (`swtstudy.kernel.line.resolve`), on the plane of the
+    maxima between the instants.
+    """
+    S, B, H, W, G, C, R, P, K, L, Q = body
+    h = value_on_plane(S, H, W, G, Q)
+    for _ in range(ROUNDS):
+        doubled, _, S.missing = mark_unresolved(H, W, C, Q, 1.0, 0.0, tolerance)
+        confirming = doubled == 0 and h > S.unsure
+        if confirming:
+            doubled = mark_highest(H, W, C)
+        if not refine_marked(H, C, P, L, doubled):
+            break
+        write_new(S, B, H, C, P, K, L, Q)
+        G.best, before = 0.0, h
+        climb_from(G, S.stress, H.instants, Q, G.normal[0], G.normal[1], G.normal[2])
+        h = value_on_plane(S, H, W, G, Q)
+        if confirming and abs(h - before) <= tolerance * h:
+            break
+    before = 0.0
+    while h > max(S.unsure, before * (1.0 + tolerance)):
+        G.best, before = 0.0, h
+        climb_from(G, S.stress, add_peaks(S, H, W), Q, G.normal[0], G.normal[1], G.normal[2])
+        h = value_on_plane(S, H, W, G, Q)
+    return max(h, before)
+
+
+@jit
+def highest_here(body, least, tolerance, proof):
+    """Largest h over all planes of the sampled cycle, with its plane's normal in G and what it may miss in S.
 
     The normal in G before is a guess, or 0. Parts are doubled on its plane, before all planes are searched.
 
     Parameters
     ----------
-    floor
-        Values below it may be low.
+    body
+        Records of HERE, PLACE, HISTORY, WORK, PLANES, CYCLE, GROWTH, PROFILE, TABLE, LOAD and ASK.
+    least
+        Values of h below it may be low.
     tolerance
         Relative, of the value on its plane.
     proof
         No plane is higher by more, relative, at the instants that there are.
-    coarsest
-        Intervals of a part at first.
     """
-    sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, Q.poisson_ratio, Q.friction, coarsest)
-    if S.overflow:
-        return np.nan, np.nan
-    least, allowed, n, first = lift(Q, floor), 0.5 * tolerance, G.normal, S.first
-    S.missing = 0.0
+    S, B, H, W, G, C, R, P, K, L, Q = body
+    allowed, n, first = 0.5 * tolerance, G.normal, S.first
     measure(G, S.stress, H.instants, Q)
-    G.best, G.limit = 0.0, 0.0
+    G.best, G.limit, S.missing = 0.0, 0.0, 0.0
     if Q.criterion == SWT and G.most[0] <= NO_TENSION * G.of_tension:
-        return 0.0, 0.0
+        return 0.0
     if n[0] != 0.0 or n[1] != 0.0 or n[2] != 0.0:
         climb_from(G, S.stress, H.instants, Q, n[0], n[1], n[2])
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
         highest_plane(G, S.stress, H.instants, Q, least, proof)
     if G.best <= (1.0 - CLOSE) * least or G.best <= 0.0:
-        return value_of(Q, G.best), 0.0
-    h = settle_place(S, B, H, W, G, C, P, L, Q, allowed)
+        return G.best
+    h = settle_place(body, allowed)
     for _ in range(RIVALS):
         missing, first[0], first[1], first[2] = S.missing, n[0], n[1], n[2]
         best = highest_plane(G, S.stress, H.instants, Q, max((1.0 - allowed) * h, least), proof)
@@ -298,63 +235,62 @@ def largest_at(S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, toleran
             or abs(first[0] * n[0] + first[1] * n[1] + first[2] * n[2]) > SAME_PLANE
         ):
             break
-        other = settle_place(S, B, H, W, G, C, P, L, Q, allowed)
+        other = settle_place(body, allowed)
         if other <= h:
             n[0], n[1], n[2], S.missing = first[0], first[1], first[2], missing
             break
         h = other
+    return h
+
+
+@jit
+def largest_at(body, x, y, z, largest, floor, tolerance, proof, coarsest):
+    """The criterion at (x, y, z) over all planes, and what it may miss; parameters as of `highest_here`.
+
+    Parameters
+    ----------
+    floor
+        Values below it may be low.
+    coarsest
+        Intervals of a part at first.
+    """
+    S, B, H, W, G, C, R, P, K, L, Q = body
+    sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, coarsest)
+    if C.overflow:
+        return np.nan, np.nan
+    h = highest_here(body, lift(Q, floor), tolerance, proof)
     return value_of(Q, h), value_of(Q, h) * S.missing
 
 
 @jit
 def largest_at_places(
-    S,
-    B,
-    H,
-    W,
-    G,
-    C,
-    R,
-    P,
-    K,
-    L,
-    Q,
-    places,
-    largest,
-    floor,
-    tolerance,
-    coarsest,
-    alone,
-    values,
-    missing,
-    normals,
+    S, B, H, W, G, C, R, P, K, L, Q, places, largest, floor, tolerance, coarsest, alone, found, normals
 ):
-    """Write the criterion, what it may miss and the normal of its plane at places, (n, 3).
+    """Write the criterion and what it may miss, (n, 2), and the normal of its plane at places, (n, 3).
 
     Each place takes the plane of the one before as a guess, unless it is alone.
     """
+    body = S, B, H, W, G, C, R, P, K, L, Q
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     proof = 0.5 * tolerance if alone else PROOF * tolerance
     for i in range(places.shape[0]):
         if alone:
             G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
-        values[i], missing[i] = largest_at(
-            S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, coarsest
-        )
+        found[i, 0], found[i, 1] = largest_at(body, x, y, z, largest, floor, tolerance, proof, coarsest)
         for c in range(3):
             normals[i, c] = G.normal[c]
-        if values[i] == 0.0:  # no plane ever sees tension
+        if found[i, 0] == 0.0:  # no plane ever sees tension
             normals[i, 0], normals[i, 1], normals[i, 2] = np.nan, np.nan, np.nan
 
 
 @jit
-def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
+def von_mises_at_places(S, B, H, C, R, P, L, Q, places, largest, values):
     """Write the largest von Mises stress of the cycle at places, (n, 3)."""
     for i in range(places.shape[0]):
         x, y, z = places[i, 0], places[i, 1], places[i, 2]
-        sample_place(S, B, H, C, R, P, K, L, x, y, z, largest, Q.poisson_ratio, Q.friction, OF_VON_MISES)
-        if S.overflow:
+        sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, OF_VON_MISES)
+        if C.overflow:
             values[i] = np.nan
             continue
         largest_square = 0.0
@@ -364,18 +300,3 @@ def von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values):
             normal = (xx - yy) * (xx - yy) + (yy - zz) * (yy - zz) + (zz - xx) * (zz - xx)
             largest_square = max(largest_square, 0.5 * normal + 3.0 * (yz * yz + xz * xz + xy * xy))
         values[i] = sqrt(largest_square)
-
-
-@jit
-def write_instants(H, L, time):
-    """Write the instants of the parts of the cycle at a place; returns how many there are."""
-    m = 0
-    for z in range(H.parts):
-        begin, end, step = H.time[z, 0], H.time[z, 1], FINEST // H.intervals[z]
-        for j in range(H.intervals[z] + 1):
-            if m >= time.shape[0]:
-                return m
-            time[m] = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z] & 3, j * step] + 1.0)
-            time[m] += 0.5 * L.period * H.mirror[z]
-            m += 1
-    return m

@@ -114,6 +114,11 @@ def jit_reordered(function):
     return function if numba.config.DISABLE_JIT else Compiled(function, reordered=True)
 
 
+def fields(kind, names, *shape):
+    """Fields of a record that are of one kind and shape, by their names with blanks between them."""
+    return [(name, kind, *shape) for name in names.split()]
+
+
 def new_record(kind):
     """A record of zeros whose fields are attributes, also where nothing is compiled."""
     return new_records(1, kind)[0]

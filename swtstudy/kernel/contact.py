@@ -19,7 +19,7 @@ events the state is smooth: a stretch of time in which the edge moves, and perha
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.events import out_of_equilibrium, turning_points
 from swtstudy.kernel.load import DIFFERENCE, NORMAL, SUM, instant_of, load_at, rates_at
 
@@ -34,32 +34,24 @@ ALPHA, STICK, BETA, OPEN = 1, 0, -1, 2
 MAX_PIECES, MAX_STRETCHES, MAX_EVENTS = 8190, 8190, 6151
 CYCLE = np.dtype(
     [
-        ("pieces", "i8"),
-        ("stretches", "i8"),
-        ("events", "i8"),
+        *fields("i8", "pieces stretches events"),
         ("overflow", "i8"),  # 1: more pieces or stretches than there is room for
         ("no_equilibrium", "i8"),  # 1: there is no cycle
         ("may_slide", "i8"),  # 1: the whole contact slips, or parts
-        ("gross_slip", "i8"),
-        ("lift_off", "i8"),
-        ("any_slip", "i8"),
-        ("largest", "f8"),  # largest and smallest coordinate of the edge
-        ("smallest", "f8"),
+        *fields("i8", "gross_slip lift_off any_slip"),
+        *fields("f8", "largest smallest"),  # coordinate of the edge
         ("shift", "f8"),  # of the stick zone, see `swtstudy.kernel.shift`
         ("event", "f8", (MAX_EVENTS,)),
-        ("beneath", "i8", (MAX_PIECES,)),
-        ("kind", "i8", (MAX_PIECES,)),
+        *fields("i8", "beneath kind", (MAX_PIECES,)),
         ("used", "i8", (MAX_PIECES,)),  # 1: in the diagram at some instant of the cycle
-        ("level", "f8", (MAX_PIECES,)),  # of a LINE
-        ("slope", "f8", (MAX_PIECES,)),  # of a LINE, else 0
+        *fields("f8", "level slope", (MAX_PIECES,)),  # of a LINE; else the slope is 0
         ("born", "f8", (MAX_PIECES, 2)),  # GROWN: the time it grew in
-        ("start", "f8", (MAX_PIECES,)),  # coordinate of the lower end
-        ("start_s", "f8", (MAX_PIECES,)),  # its place on the profile
+        *fields("f8", "start start_s", (MAX_PIECES,)),  # coordinate and place of the lower end
         ("time", "f8", (MAX_STRETCHES, 2)),  # begin and end of the stretches
         ("piece", "i8", (MAX_STRETCHES,)),  # the piece that holds the front
         ("push", "i8", (MAX_STRETCHES,)),  # ALPHA, BETA, STICK or OPEN
-        ("edge", "f8", (MAX_STRETCHES, 2)),  # coordinate of the edge at both ends
-        ("front", "f8", (MAX_STRETCHES, 2)),  # and of the front, or of the edge in stick
+        # Coordinates of the edge, and of the front, or of the edge in stick, at both ends.
+        *fields("f8", "edge front", (MAX_STRETCHES, 2)),
         ("intervals", "i8", (MAX_STRETCHES,)),  # between the instants whose places are known
         ("interpolated", "i8", (MAX_STRETCHES,)),  # 1: places at any instant follow from these
         ("place", "f8", (MAX_STRETCHES, FINEST + 1, 2)),  # s of edge and front at Lobatto points of time

@@ -90,26 +90,23 @@ def _tabulate(load, profile):
     load["waves"] = max(reach / profile["longest"] - reach / 0.5, 0.0)
 
 
-def _other_coordinate(profile, x):
-    """Force at depths, or depth at forces, as the profile's coordinate is; array of any shape."""
-    place, force = np.empty(x.size), np.empty(x.size)
-    unit = _places(profile, x.ravel(), place, force)
-    if not profile["in_force"]:
-        return (force / unit).reshape(x.shape)
-    depth = np.empty(place.size)
-    _depths(profile, place, depth)
-    return depth.reshape(x.shape)
-
-
 @jit
-def _depths(P, places, depth):
-    """Write G at places of a profile in the force: ∫ dG/ds ds by Gauss's rule on each panel."""
-    before = np.zeros(P.panels + 1)
-    for p in range(P.panels):
+def _write_other(P, places, out):
+    """Write force at depths, or depth at forces, of a profile; ∫ dG/ds ds by Gauss's rule on each panel."""
+    before, unit = np.zeros(P.panels + 1), force_at(P, place_of(P, 1.0))
+    for p in range(P.panels if P.in_force else 0):
         before[p + 1] = before[p] + rise(P, P.begin[p], P.end[p])
     for i in range(places.shape[0]):
-        p = panel_of(P.begin, 0, P.panels, places[i])
-        depth[i] = before[p] + rise(P, P.begin[p], places[i])
+        s = place_of(P, places[i])
+        p = panel_of(P.begin, 0, P.panels, s)
+        out[i] = before[p] + rise(P, P.begin[p], s) if P.in_force else force_at(P, s) / unit
+
+
+def _other_coordinate(profile, x):
+    """Force at depths, or depth at forces, as the profile's coordinate is; array of any shape."""
+    found = np.empty(x.size)
+    _write_other(profile, x.ravel(), found)
+    return found.reshape(x.shape)
 
 
 @jit
@@ -119,12 +116,3 @@ def rise(P, a, b):
     for i in range(NODE.shape[0]):
         total += WEIGHT[i] * density_at(P, a + 0.5 * (b - a) * (NODE[i] + 1.0))
     return 0.5 * (b - a) * total
-
-
-@jit
-def _places(P, x, place, force):
-    """Write the places of coordinates and ∫ ξ dG up to there; returns that up to the coordinate 1."""
-    for i in range(x.shape[0]):
-        place[i] = place_of(P, x[i])
-        force[i] = force_at(P, place[i])
-    return force_at(P, place_of(P, 1.0))

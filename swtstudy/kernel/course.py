@@ -2,12 +2,13 @@
 
 import numpy as np
 
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import OPEN, offset, piece_at
 from swtstudy.kernel.growth import coordinates_at, find_stretch
-from swtstudy.kernel.history import begin_history, split, stress
+from swtstudy.kernel.history import begin_history, stress
 from swtstudy.kernel.line import ASKED, evaluate
 from swtstudy.kernel.load import bulk_at, load_at
+from swtstudy.kernel.parts import split
 from swtstudy.kernel.profile import coordinate_at, place_of
 from swtstudy.kernel.work import answer_at, other_at, over_piece
 
@@ -16,14 +17,10 @@ STATE = np.dtype(
         ("stretch", "i8"),
         ("sign", "f8"),  # of all that is tangential: -1 in the mirrored half of a cycle
         ("push", "i8"),  # what pushes the springs
-        ("normal", "f8"),  # n, v and B
-        ("tangential", "f8"),
-        ("bulk", "f8"),
+        *fields("f8", "normal tangential bulk"),  # n, v and B
         ("front", "f8"),  # coordinate of the slip front: of the edge in stick
-        ("edge_s", "f8"),  # places of edge and front
-        ("front_s", "f8"),
-        ("other_normal", "f8"),  # what is not prescribed: the normal load, and the tangential one
-        ("answer", "f8"),
+        *fields("f8", "edge_s front_s"),  # places of edge and front
+        *fields("f8", "other_normal answer"),  # the loads that are not prescribed
     ]
 )
 
@@ -76,19 +73,18 @@ def write_springs(C, R, P, L, U, states, places, largest, compression, force):
 
 
 @jit
-def write_stress(H, C, R, P, K, states, place, largest, side, nu, mu):
+def write_stress(H, C, R, P, K, Q, states, place, largest, side):
     """Write the stress at place s on one side, as a history of the instants of the states."""
     begin_history(H, C, R, P, K, place, largest, side)
     for i in range(states.shape[0]):
         state = states[i]
-        stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, nu, mu)
-        H.xx[i], H.yy[i], H.q[i] = state.sign * H.xx[i], state.sign * H.yy[i], state.sign * H.q[i]
+        stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, state.sign, Q)
         H.bulk[i] = state.bulk
     H.instants = states.shape[0]
 
 
 @jit
-def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
+def write_parts(H, C, R, P, K, L, place, largest, side):
     """Cut the cycle where the stress at place s on one side has cusps in time.
 
     The times of the parts are in the history; a mirrored cycle has half of them.
@@ -98,14 +94,14 @@ def write_parts(H, C, R, P, K, L, place, largest, side, nu, mu):
         if H.parts + 7 >= H.first.shape[0]:
             C.overflow = 1
             return
-        split(H, C, P, K, L, k, nu, mu)
+        split(H, C, P, L, k)
 
 
 @jit
 def write_values(S, H, W, C, R, P, K, L, Q, largest, places, values, angles):
     """Write the criterion and 2θ of the critical plane at places s, at x > 0 and at x < 0."""
     for i in range(places.shape[0]):
-        S.best, S.positions = 0.0, 0
-        evaluate(S, H, W, C, R, P, K, L, Q, largest, places[i], ASKED, ASKED)
+        S.best, S.positions, S.largest = 0.0, 0, largest
+        evaluate(S, (H, W, C, R, P, K, L, Q), places[i], ASKED, ASKED)
         for side in range(2):
             values[i, side], angles[i, side] = S.value[side], S.seen_angle[0, side]

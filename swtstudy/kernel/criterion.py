@@ -16,7 +16,7 @@ from math import acos, atan2, hypot, pi, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 
 SWT, FATEMI_SOCIE, FINDLEY = np.arange(3)
 NAMES = ("swt", "fatemi_socie", "findley")
@@ -24,9 +24,7 @@ CRITERION = [
     ("criterion", "i8"),
     ("sensitivity", "f8"),  # k
     ("of_swing", "i8"),  # 1: h = T A^m, 0: h = A T^m
-    ("power", "f8"),  # m
-    ("outer", "f8"),  # value = factor · h^outer
-    ("factor", "f8"),
+    *fields("f8", "power outer factor"),  # m; value = factor · h^outer
 ]
 
 

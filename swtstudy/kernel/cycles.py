@@ -17,13 +17,14 @@ from math import cos, isnan, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, vertex
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_STRETCHES, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field, lifted, sensitivities, swing_weights, value_of
 from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, ROOM, refine, sample_cycle
+from swtstudy.kernel.history import sample_cycle, write_stress
 from swtstudy.kernel.line import cusps, ends_group, resolve
-from swtstudy.kernel.load import bulk_at, largest_bulk, smallest_bulk
+from swtstudy.kernel.load import bulk_at
+from swtstudy.kernel.parts import MAX_INSTANTS, MAX_PARTS, ROOM, refine
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
 from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
@@ -61,24 +62,19 @@ COARSELY, CLOSELY, FINELY = np.int64(4), np.int64(8), np.int64(FINEST)
 COUNTING = np.dtype(
     [
         ("rank", "i8", (MAX_PARTS,)),  # parts in the order of time
-        ("points", "i8"),  # of the history on a plane:
-        ("swing", "f8", (MAX_INSTANTS,)),
-        ("stress", "f8", (MAX_INSTANTS,)),
-        ("level", "f8", (MAX_INSTANTS,)),  # turning points whose cycles are still open
-        ("highest", "f8", (MAX_INSTANTS,)),  # largest stress from one to the next
+        ("points", "i8"),  # of the history on a plane
+        *fields("f8", "swing stress", (MAX_INSTANTS,)),
+        # Turning points whose cycles are still open, and the largest stress from one to the next.
+        *fields("f8", "level highest", (MAX_INSTANTS,)),
         ("cycles", "i8"),  # closed cycles, and their values of the criterion
         ("value", "f8", (MAX_INSTANTS,)),
         ("ends", "i8"),  # pieces of the line that are looked at, less one
-        ("end", "f8", (4 * MAX_STRETCHES,)),
-        ("reach", "f8", (4 * MAX_STRETCHES,)),  # how high cycles at these are, over what would matter
+        # Ends of these pieces, and how high cycles are there, over what would matter.
+        *fields("f8", "end reach", (4 * MAX_STRETCHES,)),
         ("largest", "f8"),  # value of the largest cycle at the critical place
-        ("known", "f8", (len(POWERS),)),  # largest sums that are kept, over the power of that
-        (
-            "better",
-            "f8",
-            (len(POWERS),),
-        ),  # largest sums that a look found, if better than at the critical place
-        ("found", "i8", (len(POWERS),)),  # whether there is one
+        # By power: the largest sums that are kept, and larger ones that a look found.
+        *fields("f8", "known better", (len(POWERS),)),
+        ("found", "i8", (len(POWERS),)),  # whether there is a larger one
         ("where", "f8", (len(POWERS), 3)),  # and where: number of the piece and share of its angle, side, 2θ
         ("shares", "f8", (MAX_SHARES,)),  # values of cycles over the largest one's
     ]
@@ -90,11 +86,6 @@ COUNTED = np.dtype(
         ("overflow", "i8"),
     ]
 )
-
-
-def counting():
-    """The memory for counting that one thread needs, beside its workspace."""
-    return new_record(COUNTING)
 
 
 @jit
@@ -229,7 +220,7 @@ def reach_of(N, Q, top, swing):
 @jit
 def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals, side):
     """Sample the cycle at place s on one side with so many intervals of each part."""
-    sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, side)
+    sample_cycle(H, C, R, P, K, L, Q, place, largest, side)
     sample_closely(H, C, P, K, L, Q, intervals)
     rank_parts(N, H, L)
 
@@ -239,7 +230,8 @@ def sample_closely(H, C, P, K, L, Q, intervals):
     """Give all parts of the sampled cycle so many intervals, but short sides of which the ends are enough."""
     for z in range(H.parts):
         while 1 < H.intervals[z] < intervals and H.instants + ROOM < MAX_INSTANTS:
-            refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
+            refine(H, z, C, P, L)
+    write_stress(H, C, P, L, K, Q)
 
 
 @jit
@@ -379,7 +371,7 @@ def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
 @jit
 def count_far(N, P, L, Q):
     """Count the cycles far from the contact, where there is a bulk stress alone."""
-    angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)[1]
+    angle = far_field(Q, L.bulk_range[1], L.bulk_range[0], P.plane)[1]
     C, S, nu = cos(angle), sin(angle), Q.poisson_ratio
     of_b, of_c = swing_weights(Q, C, S)
     of_tension = 0.5 * (1.0 + C)

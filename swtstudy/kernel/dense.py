@@ -2,7 +2,8 @@
 
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.criterion import lifted, swing_weights, value_of
-from swtstudy.kernel.history import MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
+from swtstudy.kernel.history import sample_cycle, write_stress
+from swtstudy.kernel.parts import MAX_INSTANTS, ROOM, may_be_refined, refine
 from swtstudy.kernel.planes import extremes, fill
 
 
@@ -25,11 +26,12 @@ def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, h
         for side in range(2):
             sign = 1.0 - 2.0 * side
             if side == 0 or C.shift != 0.0:
-                sample_cycle(H, C, R, P, K, L, places[i], largest, Q.poisson_ratio, Q.friction, sign)
+                sample_cycle(H, C, R, P, K, L, Q, places[i], largest, sign)
                 for _ in range(halved):
                     for z in range(H.parts):
                         if may_be_refined(H, C, z) and H.instants + 2 * ROOM < MAX_INSTANTS:
-                            refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
+                            refine(H, z, C, P, L)
+                write_stress(H, C, P, L, K, Q)
             fill(H, W, sign, Q)
             found[i, side, 0], found[i, side, 1] = 0.0, 0.0
             for k in range(cosines.shape[0]):

@@ -29,8 +29,6 @@ CELLS, CELLS_PER_WAVE = 24, 20
 SAME_INSTANT = 1e-10
 #: Rounding of a load.
 ROUNDING = 1e-12
-#: Cells next to an instant at which contact is made or lost, each a tenth of the one before.
-GRADES = 8
 #: Steps between two events at which the ratio of the forces is looked at, and how often, each time about the
 #: highest one: in the end 1e-5 of the time between them, in which a maximum changes by its square.
 STEPS, LOOKS = 32, 5
@@ -114,30 +112,6 @@ def search_cell(L, which, a, before, b, now, out, m):
 
 
 @jit
-def search_beside(L, which, a, b, contacts, out, m):
-    """The same in a cell in which contact is made or lost: there rates of a mapped load have no bound."""
-    z = np.empty(2 + 2 * GRADES * 4)
-    z[0], z[1] = a, b
-    count = 2
-    for i in range(2, contacts):
-        if a <= out[i] <= b and count + 2 * GRADES <= z.shape[0]:
-            share = b - a
-            for _ in range(GRADES):
-                share *= 0.1
-                for t in (out[i] - share, out[i] + share):
-                    if a < t < b:
-                        z[count] = t
-                        count += 1
-    count = distinct(z, count, 0.0)
-    before = event_function(L, which, z[0])
-    for i in range(1, count):
-        now = event_function(L, which, z[i])
-        m = search_cell(L, which, z[i - 1], before, z[i], now, out, m)
-        before = now
-    return m
-
-
-@jit
 def turning_points(L, out):
     """Write the sorted instants at which n, v, α or β turn or n passes 0; returns how many.
 
@@ -156,25 +130,14 @@ def turning_points(L, out):
     step = L.period / cells
     out[0], out[1] = 0.0, L.period
     m = 2
-    contacts = 2  # beyond the instants at which contact is made or lost
     for which in (CONTACT, NORMAL, TANGENTIAL, DIFFERENCE, SUM, BULK_RATE):
         if is_steady(L, which):
             continue
         before = event_function(L, which, 0.0)
         for j in range(1, cells + 1):
-            a, b = (j - 1) * step, j * step
-            now = event_function(L, which, b)
-            beside = False
-            if L.map != UNMAPPED:
-                for i in range(2, contacts):
-                    beside = beside or a <= out[i] <= b
-            if beside:
-                m = search_beside(L, which, a, b, contacts, out, m)
-            else:
-                m = search_cell(L, which, a, before, b, now, out, m)
+            now = event_function(L, which, j * step)
+            m = search_cell(L, which, (j - 1) * step, before, j * step, now, out, m)
             before = now
-        if which == CONTACT:
-            contacts = m
     m = distinct(out, m, SAME_INSTANT * L.period)
     out[m - 1] = L.period
     return m

@@ -5,27 +5,22 @@ from typing import NamedTuple
 import numpy as np
 
 from swtstudy.kernel.along import map_line, plane_at
-from swtstudy.kernel.batch import _of_this_thread, _refuse_overflow, _workspace, chunks
-from swtstudy.kernel.beneath import edges, stress_field
-from swtstudy.kernel.body import (
-    COARSEST,
-    body_workspace,
-    largest_at_places,
-    von_mises_at_places,
-    write_instants,
-)
+from swtstudy.kernel.batch import _refuse_overflow, chunks, memory
+from swtstudy.kernel.beneath import PLACE, edges, stress_field
+from swtstudy.kernel.body import COARSEST, HERE, OF_BODY, largest_at_places, von_mises_at_places
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.contact import solve_cycle
+from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
-from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.history import MAX_INSTANTS
+from swtstudy.kernel.growth import GROWTH, lay_out
+from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import MAX_SEEN
-from swtstudy.kernel.mean import FIRST, cells, mean_at
+from swtstudy.kernel.mean import CELLS, FIRST, mean_at
+from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of, shift_of
 
 #: Tolerance of what grew, of the stress itself: 1e-8 of the largest pressure.
-GROWTH = 1e-7
+OF_GROWTH = 1e-7
 #: Intervals of the smooth parts of the cycle at first, where many values are averaged and for single ones.
 MANY, SINGLE = COARSEST, 2 * COARSEST
 #: Whether a place takes the plane of the one before as a guess: its value depends on the others then.
@@ -53,7 +48,7 @@ class Opened(NamedTuple):
     largest: float
 
 
-def open_cycle(tolerance=GROWTH, **given):
+def open_cycle(tolerance=OF_GROWTH, **given):
     """Solve the load cycle of one point.
 
     Parameters
@@ -69,7 +64,7 @@ def open_cycle(tolerance=GROWTH, **given):
         None if there is no equilibrium.
     """
     _, profiles, _, loads, asks = next(iter(chunks(**given)))
-    C, R = _workspace()[:2]
+    C, R = memory(CYCLE, GROWTH)
     P, L, Q = profiles[0], loads[0], asks[0]
     solve_cycle(C, L)
     if C["no_equilibrium"]:
@@ -121,10 +116,9 @@ def far_field_of(opened):
 def stress_at(opened, places, angle):
     """Stress at places (n, 3) in a_H and angles of the common period (m,), shape (n, m, 6)."""
     C, R, P, L, Q, largest = opened
-    B = _of_this_thread("body", body_workspace)[0]
+    (B,) = memory(PLACE)
     stress = np.empty((len(places), angle.size, 6))
-    own = float(Q["poisson_ratio"]), float(Q["friction"])
-    stress_field(B, C, R, P, L, *own, places, instants_of(opened, angle), largest, stress)
+    stress_field(B, C, R, P, L, Q, places, instants_of(opened, angle), largest, stress)
     _refuse_overflow(B["overflow"])
     return stress
 
@@ -153,13 +147,12 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
         Shape (n, 3): unit normals of the planes; n and -n are one plane.
     """
     C, R, P, L, Q, largest = opened
-    H, W, K = _workspace()[3:]
-    B, S, G = _of_this_thread("body", body_workspace)
-    values, missing, normals = np.empty(len(places)), np.empty(len(places)), np.empty((len(places), 3))
+    B, S, G, H, W, K = memory(*OF_BODY, *OF_POINT[3:])
+    found, normals = np.empty((len(places), 2)), np.empty((len(places), 3))
     own = places, largest, floor, tolerance, coarsest, AVERAGED if coarsest == MANY else ALONE
-    largest_at_places(S, B, H, W, G, C, R, P, K, L, Q, *own, values, missing, normals)
-    _refuse_overflow(np.isnan(values).any())
-    return values, missing, normals
+    largest_at_places(S, B, H, W, G, C, R, P, K, L, Q, *own, found, normals)
+    _refuse_overflow(np.isnan(found).any())
+    return *found.T, normals
 
 
 def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
@@ -186,9 +179,7 @@ def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
         `FIRST`, or `ROUGHLY` of a mean that only leads to another: cells at first.
     """
     C, R, P, L, Q, largest = opened
-    H, W, K = _workspace()[3:]
-    B, S, G = _of_this_thread("body", body_workspace)
-    M = _of_this_thread("cells", cells)
+    B, S, G, H, W, K, M = memory(*OF_BODY, *OF_POINT[3:], CELLS)
     own = kind, float(x), *direction, float(distance), largest, float(known), float(rtol), first
     mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
     _refuse_overflow(np.isnan(M["average"]))
@@ -212,7 +203,7 @@ def surface_above(opened, limit, s):
         values below the limit may be low.
     """
     C, R, P, L, Q, _ = opened
-    S, H, W, K = _workspace()[2:]
+    S, H, W, K = memory(*OF_POINT[2:])
     Q = Q.copy()
     Q["near"] = min(float(Q["near"]), limit / s)
     map_line(S, H, W, C, R, P, K, L, Q, float(limit))
@@ -231,7 +222,7 @@ def surface_above(opened, limit, s):
 def direction_at(opened, x):
     """Direction into the body along the critical plane at x of the surface line: to the right, and down."""
     C, R, P, L, Q, largest = opened
-    S, H, W, K = _workspace()[2:]
+    S, H, W, K = memory(*OF_POINT[2:])
     angle = 0.5 * plane_at(S, H, W, C, R, P, K, L, Q, largest, float(x))
     sign = 1.0 if np.cos(angle) >= 0.0 else -1.0
     return -np.sin(angle) * sign, np.cos(angle) * sign
@@ -240,10 +231,9 @@ def direction_at(opened, x):
 def von_mises_at(opened, places):
     """Largest von Mises stress of the cycle at places (n, 3), in E* δ0/a_H."""
     C, R, P, L, Q, largest = opened
-    H, W, K = _workspace()[3:]
-    B, S, _ = _of_this_thread("body", body_workspace)
+    H, B, S = memory(HISTORY, PLACE, HERE)
     values = np.empty(len(places))
-    von_mises_at_places(S, B, H, C, R, P, K, L, Q, places, largest, values)
+    von_mises_at_places(S, B, H, C, R, P, L, Q, places, largest, values)
     _refuse_overflow(np.isnan(values).any())
     return values
 
@@ -254,11 +244,14 @@ def instants_at(opened, place, tolerance):
     They include the angles that gave the value, and others close to the extremes of its curves.
     """
     normal = criterion_at(opened, place[None], tolerance)[2][0]
-    load = opened.load
-    time = np.empty(MAX_INSTANTS)
-    count = write_instants(_workspace()[3], load, time)
-    turn = 2.0 * np.pi / load["period"]
-    angle = np.mod(time[:count] * turn, 2.0 * np.pi)
+    load, (H,) = opened.load, memory(HISTORY)
+    time = [
+        H["instant"][first : first + count + 1] + 0.5 * load["period"] * mirrored
+        for first, count, mirrored in zip(
+            *(H[name][: H["parts"]] for name in ("first", "intervals", "mirror")), strict=True
+        )
+    ]
+    angle = np.mod(np.concatenate(time) * (2.0 * np.pi / load["period"]), 2.0 * np.pi)
     angle = np.unique(np.concatenate([angle, [0.0, 2.0 * np.pi]]))
     nu = float(opened.ask["poisson_ratio"]) if opened.ask["criterion"] == SWT else 0.0
     share = np.arange(1, CLOSER) / CLOSER

@@ -3,7 +3,7 @@
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric, fit, panel_of, tail
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
 from swtstudy.kernel.events import SAME_INSTANT
 from swtstudy.kernel.load import NORMAL, instant_of, load_at, rates_at
@@ -19,10 +19,8 @@ GROWTH = np.dtype(
     [
         ("panels", "i8"),
         ("crowded", "i8"),  # 1: there was no room for as many panels as the tolerance needs
-        ("first", "i8", (MAX_PIECES,)),  # panels of a piece that grew
-        ("last", "i8", (MAX_PIECES,)),
-        ("begin", "f8", (MAX_GROWN,)),  # ends of the panels in s
-        ("end", "f8", (MAX_GROWN,)),
+        *fields("i8", "first last", (MAX_PIECES,)),  # panels of a piece that grew
+        *fields("f8", "begin end", (MAX_GROWN,)),  # ends of the panels in s
         ("density", "f8", (MAX_GROWN, ORDER)),  # do/ds
     ]
 )

@@ -17,12 +17,12 @@ from math import cos, exp, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel import INNERMOST
-from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import fields, jit, new_record
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.criterion import CRITERION, FINDLEY, SWT, lift, set_criterion, value_of
-from swtstudy.kernel.history import FIRST, MAX_INSTANTS, ROOM, may_be_refined, refine, sample_cycle
+from swtstudy.kernel.history import FIRST, sample_cycle, write_stress
 from swtstudy.kernel.load import distinct, has_bulk
+from swtstudy.kernel.parts import refine_marked
 from swtstudy.kernel.planes import (
     BETWEEN,
     MINUS_SWING,
@@ -34,6 +34,7 @@ from swtstudy.kernel.planes import (
     fill,
     find_peaks,
     higher_plane,
+    mark_highest,
     mark_unresolved,
     survey_planes,
 )
@@ -45,43 +46,39 @@ MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
 MOST_POSITIONS = 20_000
 ASK = np.dtype(
     [
-        ("poisson_ratio", "f8"),
-        ("friction", "f8"),
+        *fields("f8", "poisson_ratio friction"),
         ("pulled", "f8"),  # strain of the body with the bulk stress over the mean of both
         *CRITERION,
-        ("line", "f8"),  # relative tolerances: of the search along the line,
-        ("time", "f8"),  # of the series over time,
-        ("plane", "f8"),  # of the search over planes,
-        ("growth", "f8"),  # of the series of dv/dn
+        # Relative tolerances of the search along the line, the series over time, the search over planes,
+        # and the series of dv/dn.
+        *fields("f8", "line time plane growth"),
         ("near", "f8"),  # positions below this share of the best are not looked at closer
     ]
 )
 SEARCH = np.dtype(
     [
         ("cusp", "f8", (14 * MAX_STRETCHES,)),
+        ("last", "i8"),  # number of the last cusp
         ("positions", "i8"),  # that have been evaluated
+        *fields("f8", "smallest largest"),  # places s of the smallest and the largest contact
         ("singular", "i8"),  # 1: the face's edge is singular
         ("crowd", "f8"),  # length over which many cusps are spread; 0 if there are few
-        ("best", "f8"),
-        ("place", "f8"),  # s there
-        ("sign", "f8"),  # of x
-        ("angle", "f8"),  # 2θ
+        *fields("f8", "best place sign angle"),  # the largest value, its place s, the sign of x, and 2θ
         ("tension", "f8"),  # the smaller one of largest σ_n and half the range of the swing, where they count
         ("value", "f8", (2,)),  # at the last position, on both sides
         ("seen", "f8", (MAX_SEEN,)),  # places of the positions, in the order of the search
-        ("seen_value", "f8", (MAX_SEEN, 2)),  # values there on both sides; -1 where none was asked for
-        ("seen_angle", "f8", (MAX_SEEN, 2)),  # 2θ
-        ("ends", "f8", (MAX_INTERVALS, 2)),  # angles on the piece
-        ("piece", "f8", (MAX_INTERVALS, 2)),  # ends of the piece
+        *fields("f8", "seen_value seen_angle", (MAX_SEEN, 2)),  # values and 2θ there; -1 where not asked for
+        ("intervals", "i8"),
+        *fields("f8", "ends piece", (MAX_INTERVALS, 2)),  # ends in angles on the piece, ends of the piece
         ("beside", "f8", (MAX_INTERVALS, 2)),  # lengths of the pieces beside it
-        ("rise", "f8", (MAX_INTERVALS,)),  # among many cusps: relative, over the root of the length
         ("cusps", "i8", (MAX_INTERVALS, 2)),  # a group of pieces: its first and last cusp; 0, 0 if it is none
         ("at_ends", "f8", (MAX_INTERVALS, 2, 2)),  # values at both ends, on both sides
         ("upper", "i8", (MAX_INTERVALS,)),  # 1: the upper half of what was halved
         ("unseen", "i8", (MAX_INTERVALS,)),  # 1: a piece on which the growth may turn, without a value within
         ("beyond", "f8", (MAX_INTERVALS, 2)),  # value at the other end of the other half
         ("drop", "f8", (MAX_INTERVALS, 2)),  # K w² on both sides
-        ("bound", "f8", (MAX_INTERVALS,)),
+        # The bound; and among many cusps the relative rise over the root of the length.
+        *fields("f8", "bound rise", (MAX_INTERVALS,)),
     ]
 )
 #: Most rounds in which parts of a cycle are doubled.
@@ -110,8 +107,8 @@ HIGH, BESIDE, FINEST_ANGLE = 0.99, 0.25, 1e-6
 GRADED = 20.0
 
 
-#: Ends of pieces outside of the contact, in its radii: without and with a stress that reaches far.
-BEYOND, FAR_BEYOND = np.array([1.3, 4.0]), np.array([1.3, 4.0, 12.0, 40.0])
+#: Ends of pieces outside of the contact, in its radii: so many first ones without a stress that reaches far.
+BEYOND, NEARBY = np.array([1.3, 4.0, 12.0, 40.0]), np.int64(2)
 #: Friction from which a contact may have its maximum at the singular edge of a face.
 TEARING = 0.8
 
@@ -123,27 +120,26 @@ def ask(
     record = new_record(ASK)
     record["poisson_ratio"], record["friction"], record["pulled"] = poisson_ratio, friction, pulled
     set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
-    record["line"], record["time"], record["plane"], record["growth"] = (
-        0.45 * rtol,
-        0.25 * rtol,
-        0.1 * rtol,
-        0.1 * rtol,
-    )
+    record["line"], record["time"] = 0.45 * rtol, 0.25 * rtol
+    record["plane"] = record["growth"] = 0.1 * rtol
     record["near"] = NEAR
     return record
 
 
 @jit
-def shifted(C, P, z, m):
-    """Make the last of m cusps, the size of a stick zone, the ends of that zone about its own centre."""
-    if C.shift == 0.0 or m + 1 > z.shape[0]:
-        return m
-    s, largest = z[m - 1], place_of(P, C.largest)
+def put(z, m, value):
+    """Append a value to the first m of z, if there is room; returns how many there are now."""
+    if m < z.shape[0]:
+        z[m] = value
+    return min(m + 1, z.shape[0])
+
+
+@jit
+def put_zone(z, m, C, P, largest, s):
+    """Append the end of a stick zone of size s, or both ends if its centre is not the contact's."""
     off = abs(centre_of(P, C.shift, C.largest, largest, s))
-    if off == 0.0:
-        return m
-    z[m - 1], z[m] = s + off, max(abs(s - off), INNERMOST * largest)
-    return m + 1
+    m = put(z, m, s + off)
+    return put(z, m, max(abs(s - off), INNERMOST * largest)) if off > 0.0 else m
 
 
 @jit
@@ -151,43 +147,30 @@ def cusps(S, C, P, L, Q, largest):
     """Write the sorted ends of the pieces of the line, places s; returns how many."""
     z, b = S.cusp, P.flat_radius
     radius = sqrt(b * b + largest * largest)
-    m = 1
-    z[0] = INNERMOST * largest
+    m = put(z, 0, INNERMOST * largest)
     if P.singular and Q.friction >= TEARING:
         # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
         L_edge = 4.0
         while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
-            z[m] = b * sqrt(2.0) * exp(-0.5 * L_edge)
+            m = put(z, m, b * sqrt(2.0) * exp(-0.5 * L_edge))
             L_edge *= 2.0
-            m += 1
-    if Q.criterion != SWT or has_bulk(L):  # places in mere pressure, and outside of the contact
-        if b > 0.0:
-            z[m] = -b * (1.0 - INNERMOST)
-            m += 1
-        z[m] = 2.0 * largest - place_of(P, C.smallest)
-        m += 1
-        for factor in FAR_BEYOND:
-            z[m] = sqrt(factor * factor * radius * radius - b * b)
-            m += 1
-    else:
-        for factor in BEYOND:
-            z[m] = sqrt(factor * factor * radius * radius - b * b)
-            m += 1
+    anywhere = Q.criterion != SWT or has_bulk(L)  # places in mere pressure, and far outside of the contact
+    if anywhere and b > 0.0:
+        m = put(z, m, -b * (1.0 - INNERMOST))
+    if anywhere:
+        m = put(z, m, 2.0 * largest - place_of(P, C.smallest))
+    for k in range(BEYOND.shape[0] if anywhere else NEARBY):
+        m = put(z, m, sqrt(BEYOND[k] * BEYOND[k] * radius * radius - b * b))
     for j in range(1, min(int(largest / P.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
-        z[m] = j * P.longest
-        m += 1
+        m = put(z, m, j * P.longest)
     for k in range(C.stretches):
         for e in range(2):
             for G in (C.edge[k, e], C.front[k, e]):
                 if G > 0.0:
-                    z[m] = place_of(P, G)
-                    m += 1
-                    m = shifted(C, P, z, m)
+                    m = put_zone(z, m, C, P, largest, place_of(P, G))
     for i in range(C.pieces):
-        if C.used[i] and C.start_s[i] > 0.0 and m < z.shape[0]:
-            z[m] = C.start_s[i]
-            m += 1
-            m = shifted(C, P, z, m)
+        if C.used[i] and C.start_s[i] > 0.0:
+            m = put_zone(z, m, C, P, largest, C.start_s[i])
     return distinct(z, m, 1e-14 * largest)
 
 
@@ -202,23 +185,12 @@ def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
         Ct, St = cos(angle), sin(angle)
         find_peaks(H, W, Q, Ct, St)
         doubled, most, _ = mark_unresolved(H, W, C, Q, Ct, St, Q.time)
-        confirming = False
-        if doubled == 0 and swt > (1.0 - Q.line) * best:
-            confirming = True
-            for which in range(3):
-                z = W.part[which]
-                if H.intervals[z] < FINEST and W.double[z] == 0 and may_be_refined(H, C, z):
-                    W.double[z] = 1
-                    doubled += 1
-        if (
-            doubled == 0
-            or swt * (1.0 + 2.0 * most) < Q.near * best
-            or H.instants + doubled * ROOM > MAX_INSTANTS
-        ):
+        confirming = doubled == 0 and swt > (1.0 - Q.line) * best
+        if confirming:
+            doubled = mark_highest(H, W, C)
+        if swt * (1.0 + 2.0 * most) < Q.near * best or not refine_marked(H, C, P, L, doubled):
             break
-        for z in range(H.parts):
-            if W.double[z]:
-                refine(H, z, C, P, L, K, Q.poisson_ratio, Q.friction)
+        write_stress(H, C, P, L, K, Q)
         fill(H, W, side, Q)
         before = swt
         h, angle = climb(H, W, Q, angle, Q.plane)
@@ -256,8 +228,9 @@ def swt_at(S, H, W, C, P, K, L, Q, side):
 
 
 @jit
-def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
+def evaluate(S, point, place, plus, minus):
     """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
+    H, W, C, R, P, K, L, Q = point
     number = min(S.positions, MAX_SEEN - 1)
     S.positions += 1
     S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
@@ -271,7 +244,7 @@ def evaluate(S, H, W, C, R, P, K, L, Q, largest, place, plus, minus):
             continue
         sign = 1.0 - 2.0 * side
         if not sampled or C.shift != 0.0:
-            sample_cycle(H, C, R, P, K, L, place, largest, Q.poisson_ratio, Q.friction, sign)
+            sample_cycle(H, C, R, P, K, L, Q, place, S.largest, sign)
             sampled = True
         swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
         S.value[side] = swt
@@ -314,7 +287,7 @@ def position(S, k, angle):
 
 
 @jit
-def set_piece(S, k, left, right, Q):
+def set_piece(S, k, left, right):
     """Make interval k a whole piece from left to right, between whose values the trust is a bound."""
     S.piece[k, 0], S.piece[k, 1], S.ends[k, 0], S.ends[k, 1] = left, right, 0.0, pi
     S.upper[k] = 0
@@ -327,66 +300,58 @@ def set_piece(S, k, left, right, Q):
 
 
 @jit
-def set_group(S, k, first, last, cusps, L, Q, smallest, largest):
+def set_group(S, k, first, last, L):
     """Make interval k the pieces between two cusps: a group, or a piece if there is but one."""
     left, right = S.cusp[first], S.cusp[last]
     S.cusps[k, 0], S.cusps[k, 1] = (first, last) if last > first + 1 else (0, 0)
     S.unseen[k] = 0
     if last == first + 1:
-        inside = left >= smallest * (1.0 - 1e-9) and right <= largest * (1.0 + 1e-9)
-        S.unseen[k] = L.sides == 0 and inside and right - left > NARROW * largest
+        inside = left >= S.smallest * (1.0 - 1e-9) and right <= S.largest * (1.0 + 1e-9)
+        S.unseen[k] = L.sides == 0 and inside and right - left > NARROW * S.largest
         S.beside[k, 0] = left - S.cusp[first - 1] if first > 0 else right - left
-        S.beside[k, 1] = S.cusp[last + 1] - right if last < cusps else right
-    set_piece(S, k, left, right, Q)
+        S.beside[k, 1] = S.cusp[last + 1] - right if last < S.last else right
+    set_piece(S, k, left, right)
 
 
 @jit
-def grade(S, H, W, C, R, P, K, L, Q, largest, k, m):
-    """Cut interval k beside much shorter pieces, where the value may be the largest; returns their number.
+def grade(S, point, k):
+    """Cut interval k beside much shorter pieces, where the value may be the largest.
 
     The cusps at the other end of a short piece are close to this one, too. A piece that is at most GRADED
-    times as long as its neighbour has them at some distance, in its angle. Of m intervals, new ones are the
-    last.
+    times as long as its neighbour has them at some distance, in its angle. New intervals are the last ones.
     """
-    new = m
-    while k < m and m + 1 < MAX_INTERVALS and S.cusps[k, 1] == 0:
+    near, new = point[7].near * S.best, S.intervals
+    while k < S.intervals and S.intervals + 1 < MAX_INTERVALS and S.cusps[k, 1] == 0:
         cut = False
         for end in range(2):
-            length = S.piece[k, 1] - S.piece[k, 0]
-            near = max(S.at_ends[k, end, 0], S.at_ends[k, end, 1]) >= Q.near * S.best
-            if length <= 2.0 * GRADED * S.beside[k, end] or not near:
+            length, f = S.piece[k, 1] - S.piece[k, 0], S.at_ends[k]
+            if length <= 2.0 * GRADED * S.beside[k, end] or max(f[end, 0], f[end, 1]) < near:
                 continue
-            step = GRADED * S.beside[k, end]
+            step, m = GRADED * S.beside[k, end], S.intervals
             x = S.piece[k, 1] - step if end else S.piece[k, 0] + step
             # A side that has not been looked at, since it cannot matter, has the value 0 at both ends.
-            plus = max(S.at_ends[k, 0, 0], S.at_ends[k, 1, 0]) > 0.0
-            minus = max(S.at_ends[k, 0, 1], S.at_ends[k, 1, 1]) > 0.0
-            evaluate(S, H, W, C, R, P, K, L, Q, largest, x, plus, minus)
-            outer = S.piece[k, end]
+            evaluate(S, point, x, max(f[0, 0], f[1, 0]) > 0.0, max(f[0, 1], f[1, 1]) > 0.0)
+            near, outer = point[7].near * S.best, S.piece[k, end]
             for side in range(2):
-                S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = S.at_ends[k, end, side], S.value[side]
-                S.at_ends[k, end, side] = S.value[side]
+                S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = f[end, side], S.value[side]
+                f[end, side] = S.value[side]
             S.beside[m, end], S.beside[m, 1 - end], S.beside[k, end] = S.beside[k, end], length - step, step
             S.unseen[m], S.cusps[m, 0], S.cusps[m, 1], S.rise[m] = S.unseen[k], 0, 0, S.rise[k]
-            set_piece(S, m, x if end else outer, outer if end else x, Q)
-            set_piece(S, k, S.piece[k, 0] if end else x, x if end else S.piece[k, 1], Q)
-            m += 1
+            set_piece(S, m, x if end else outer, outer if end else x)
+            set_piece(S, k, S.piece[k, 0] if end else x, x if end else S.piece[k, 1])
+            S.intervals += 1
             cut = True
         if not cut:
             k = max(k + 1, new)
-    return m
 
 
 @jit
-def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
-    """Divide the group of pieces k at its middle cusp; returns the number of intervals.
-
-    A side on which nothing exceeds the limit does not matter.
-    """
-    first, last = S.cusps[k, 0], S.cusps[k, 1]
+def divide(S, point, k, limit):
+    """Divide the group of pieces k at its middle cusp. A side without a value above the limit is left out."""
+    first, last, m, L = S.cusps[k, 0], S.cusps[k, 1], S.intervals, point[6]
     middle = (first + last) // 2
     plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
-    evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[middle], plus, minus)
+    evaluate(S, point, S.cusp[middle], plus, minus)
     left, right, seen = S.piece[k, 0], S.piece[k, 1], 0.0
     share = (S.cusp[middle] - left) / (right - left)
     for side in range(2):
@@ -399,11 +364,11 @@ def divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
         S.at_ends[k, 1, side] = S.value[side]
     seen *= RISE * sqrt(S.crowd / (right - left))
     S.rise[k] = S.rise[m] = min(max(seen, MEMORY * S.rise[k]), RISE)
-    set_group(S, k, first, middle, cusps, L, Q, smallest, largest)
-    set_group(S, m, middle, last, cusps, L, Q, smallest, largest)
-    upper = m
-    m = grade(S, H, W, C, R, P, K, L, Q, largest, k, m + 1)
-    return grade(S, H, W, C, R, P, K, L, Q, largest, upper, m)
+    set_group(S, k, first, middle, L)
+    set_group(S, m, middle, last, L)
+    S.intervals += 1
+    grade(S, point, k)
+    grade(S, point, m)
 
 
 @jit
@@ -415,79 +380,85 @@ def ends_group(S, j, last, largest):
 
 
 @jit
-def first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps):
-    """Evaluate cusps and make intervals of the pieces between them, and groups if there are many.
-
-    Returns the number of intervals.
-    """
-    S.crowd = 0.0
-    if cusps > 2 * GROUPS:
+def first_intervals(S, point):
+    """Evaluate cusps and make intervals of the pieces between them, and groups if there are many."""
+    S.crowd, S.intervals, L = 0.0, 0, point[6]
+    if S.last > 2 * GROUPS:
         k = 0
-        while S.cusp[k] < 0.5 * smallest:
+        while S.cusp[k] < 0.5 * S.smallest:
             k += 1
-        S.crowd = max(largest - S.cusp[k], 1e-6 * largest)
-    m, after, plus, minus = 0, -1, 0.0, 0.0
-    for j in range(cusps, -1, -1):  # the largest values are near the edges
-        if not ends_group(S, j, cusps, largest):
+        S.crowd = max(S.largest - S.cusp[k], 1e-6 * S.largest)
+    after, plus, minus = -1, 0.0, 0.0
+    for j in range(S.last, -1, -1):  # the largest values are near the edges
+        if not ends_group(S, j, S.last, S.largest):
             continue
-        evaluate(S, H, W, C, R, P, K, L, Q, largest, S.cusp[j], ASKED, ASKED)
+        evaluate(S, point, S.cusp[j], ASKED, ASKED)
         if after > 0:
+            m = S.intervals
             S.at_ends[m, 0, 0], S.at_ends[m, 0, 1] = S.value[0], S.value[1]
             S.at_ends[m, 1, 0], S.at_ends[m, 1, 1] = plus, minus
             S.rise[m] = RISE
-            set_group(S, m, j, after, cusps, L, Q, smallest, largest)
-            m += 1
+            set_group(S, m, j, after, L)
+            S.intervals += 1
         after, plus, minus = j, S.value[0], S.value[1]
-    for k in range(m):
-        m = grade(S, H, W, C, R, P, K, L, Q, largest, k, m)
-    return m
+    for k in range(S.intervals):
+        grade(S, point, k)
 
 
 @jit
-def begin_search(S, H, W, C, R, P, K, L, Q):
-    """Places s of the smallest and the largest contact, the last cusp's number, and the first intervals'."""
-    smallest, largest = place_of(P, C.smallest), place_of(P, C.largest)
-    cusp_count = cusps(S, C, P, L, Q, largest) - 1
+def begin_search(S, point):
+    """Make the first intervals of the line."""
+    _, _, C, _, P, _, L, Q = point
+    S.smallest, S.largest = place_of(P, C.smallest), place_of(P, C.largest)
+    S.last = cusps(S, C, P, L, Q, S.largest) - 1
     S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
     S.positions, S.singular = 0, P.singular
-    m = first_intervals(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count)
-    return smallest, largest, cusp_count, m
+    first_intervals(S, point)
 
 
 @jit
-def search_line(S, H, W, C, R, P, K, L, Q):
-    """Find the largest swt on the line; returns by how much a higher one may be hidden."""
-    smallest, largest, cusp_count, m = begin_search(S, H, W, C, R, P, K, L, Q)
+def search_line(S, point):
+    """Find the largest swt on the line; returns by how much a higher one may be hidden.
+
+    Parameters
+    ----------
+    S
+        Record of `SEARCH`.
+    point
+        Records of HISTORY, WORK, CYCLE, GROWTH, PROFILE, TABLE, LOAD and ASK.
+    """
+    L, Q = point[6], point[7]
+    begin_search(S, point)
     while True:
-        k, limit = highest_bound(S, m), S.best * (1.0 + Q.line)
+        k, limit = highest_bound(S), S.best * (1.0 + Q.line)
         if S.bound[k] <= limit:
-            share_curvature(S, m)
+            share_curvature(S)
             if L.sides > 0 and L.bulk_moves:
-                look_beside_cusps(S, m, limit)
-            k = highest_bound(S, m)
-        if S.bound[k] <= limit or m + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
+                look_beside_cusps(S, limit)
+            k = highest_bound(S)
+        if S.bound[k] <= limit or S.intervals + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
             return max(S.bound[k] - S.best, 0.0)
-        m = cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusp_count, k, m, limit)
+        cut(S, point, k, limit)
 
 
 @jit
-def highest_bound(S, m):
-    """The interval of m with the highest bound."""
+def highest_bound(S):
+    """The interval with the highest bound."""
     highest = FIRST
-    for k in range(m):
+    for k in range(S.intervals):
         if S.bound[k] > S.bound[highest]:
             highest = k
     return highest
 
 
 @jit
-def share_curvature(S, m):
+def share_curvature(S):
     """Give the two intervals that meet at the best place the curvature through their three values.
 
     A narrow interval shows a curvature that the wide one beside it has not met.
     """
     left, right, side = NONE, NONE, 0 if S.sign > 0.0 else 1
-    for k in range(m):
+    for k in range(S.intervals):
         if S.cusps[k, 1] == 0 and S.piece[k, 0] < S.place < S.piece[k, 1]:
             if position(S, k, S.ends[k, 1]) == S.place:
                 left = k
@@ -505,14 +476,14 @@ def share_curvature(S, m):
 
 
 @jit
-def look_beside_cusps(S, m, limit):
+def look_beside_cusps(S, limit):
     """Have intervals halved in which the value falls from a high cusp by more than the tolerance.
 
     At a vertex of the load the bulk stress may fall at once while slip begins, whose tension rises like a
     root. The sum has a peak beside the cusp, as narrow as the square of the friction: no value farther away
     shows it.
     """
-    for k in range(m):
+    for k in range(S.intervals):
         if S.cusps[k, 1] > 0 or S.ends[k, 1] - S.ends[k, 0] < FINEST_ANGLE:
             continue
         for end in range(2):
@@ -527,25 +498,26 @@ def look_beside_cusps(S, m, limit):
 
 
 @jit
-def cut(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit):
-    """Cut interval k in two, be it a group of pieces or not; returns the number of intervals."""
+def cut(S, point, k, limit):
+    """Cut interval k in two, be it a group of pieces or not; below the limit nothing matters."""
     if S.cusps[k, 1] > 0:
-        return divide(S, H, W, C, R, P, K, L, Q, smallest, largest, cusps, k, m, limit)
-    halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit)
-    return m + 1
+        divide(S, point, k, limit)
+    else:
+        halve(S, point, k, limit)
 
 
 @jit
-def halve(S, H, W, C, R, P, K, L, Q, largest, k, m, limit):
-    """Halve interval k; its upper half becomes interval m. Below the limit nothing matters.
+def halve(S, point, k, limit):
+    """Halve interval k. Its upper half becomes the last interval.
 
     Curvature follows from the second difference, and from how far the new value is off the parabola through
     the three values before: four times that distance is what a third derivative changes in the drop.
     """
-    middle = 0.5 * (S.ends[k, 0] + S.ends[k, 1])
+    middle, m = 0.5 * (S.ends[k, 0] + S.ends[k, 1]), S.intervals
     whole = S.ends[k, 1] - S.ends[k, 0] > 3.0
     plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
-    evaluate(S, H, W, C, R, P, K, L, Q, largest, position(S, k, middle), plus, minus)
+    evaluate(S, point, position(S, k, middle), plus, minus)
+    S.intervals += 1
     S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]
     S.ends[m, 0], S.ends[m, 1], S.ends[k, 1] = middle, S.ends[k, 1], middle
     # On a piece on which the growth may turn, values at three places within tell what the first one does not.

@@ -13,7 +13,7 @@ from math import cos, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import panel_of
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 
 #: The four functions of time: n, v, α = v - n, β = v + n.
 NORMAL, TANGENTIAL, DIFFERENCE, SUM = np.arange(4)
@@ -33,18 +33,15 @@ LOAD = np.dtype(
         ("fastest", "i8"),  # largest order of the harmonics
         ("mirrored", "i8"),  # 1: n(t + π) = n(t), v(t + π) = -v(t), and B is constant
         ("bulk_moves", "i8"),  # 1: B changes
-        ("bulk_range", "f8", (2,)),  # smallest and largest B
+        *fields("f8", "bulk_range normal_range", (2,)),  # smallest and largest B and n
         ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v; else 0
-        ("normal_range", "f8", (2,)),  # and n
         ("period", "f8"),
         ("rounds", "i8"),  # how often a round of the load runs through the cycle
         ("rest", "f8", (3,)),  # mean of n, v and B
         ("order", "i8", (MAX_HARMONICS,)),
-        ("cosine", "f8", (3, MAX_HARMONICS)),
-        ("sine", "f8", (3, MAX_HARMONICS)),
+        *fields("f8", "cosine sine", (3, MAX_HARMONICS)),
         ("vertex", "f8", (3, MAX_VERTICES)),  # of n, v and B; the first one once more at the end
-        ("normal_force", "i8"),  # 1: the normal load is a force
-        ("tangential_force", "i8"),
+        *fields("i8", "normal_force tangential_force"),  # 1: this load is a force
         ("map", "i8"),  # how n follows from the harmonics: UNMAPPED, BY_POWER or BY_SERIES
         ("waves", "f8"),  # half waves of the profile that the edge passes
         ("map_power", "f8"),
@@ -97,16 +94,24 @@ def mapped(L, x):
 
 
 @jit
+def side_at(L, t):
+    """The side of a polygon at an instant, and the share of it that has passed."""
+    side = int(t)
+    return side - L.sides if side >= L.sides else side, t - side
+
+
+@jit
+def on_side(L, component, t):
+    """A component of a polygon at one instant."""
+    side, share = side_at(L, t)
+    return L.vertex[component, side] + share * (L.vertex[component, side + 1] - L.vertex[component, side])
+
+
+@jit
 def load_at(L, t):
     """N and v at one instant."""
     if L.sides > 0:
-        side = int(t)
-        share = t - side
-        if side >= L.sides:
-            side -= L.sides
-        n = L.vertex[0, side] + share * (L.vertex[0, side + 1] - L.vertex[0, side])
-        v = L.vertex[1, side] + share * (L.vertex[1, side + 1] - L.vertex[1, side])
-        return n, v
+        return on_side(L, NORMAL, t), on_side(L, TANGENTIAL, t)
     n, v = L.rest[0], L.rest[1]
     x, y = cos(t), sin(t)
     for i in range(L.terms):
@@ -122,10 +127,7 @@ def load_at(L, t):
 def rates_at(L, t):
     """N, v and their first and second derivatives: n, v, n′, v′, n″, v″."""
     if L.sides > 0:
-        side = int(t)
-        n, v = load_at(L, t)
-        if side >= L.sides:
-            side -= L.sides
+        side, (n, v) = side_at(L, t)[0], load_at(L, t)
         dn = L.vertex[0, side + 1] - L.vertex[0, side]
         dv = L.vertex[1, side + 1] - L.vertex[1, side]
         return n, v, dn, dv, 0.0, 0.0
@@ -154,29 +156,13 @@ def bulk_at(L, t):
     if L.bulk_moves == 0:
         return L.rest[BULK]
     if L.sides > 0:
-        side = int(t)
-        share = t - side
-        if side >= L.sides:
-            side -= L.sides
-        return L.vertex[BULK, side] + share * (L.vertex[BULK, side + 1] - L.vertex[BULK, side])
+        return on_side(L, BULK, t)
     total = L.rest[BULK]
     x, y = cos(t), sin(t)
     for i in range(L.terms):
         c, s = power(x, y, L.order[i])
         total += L.cosine[BULK, i] * c + L.sine[BULK, i] * s
     return total
-
-
-@jit
-def smallest_bulk(L):
-    """Smallest B of the cycle."""
-    return L.bulk_range[0]
-
-
-@jit
-def largest_bulk(L):
-    """Largest B of the cycle."""
-    return L.bulk_range[1]
 
 
 @jit

@@ -18,7 +18,7 @@ import numpy as np
 
 from swtstudy.kernel.body import COARSEST, PROOF, largest_at
 from swtstudy.kernel.chebyshev import gauss_legendre
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import fields, jit
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
 NODES, FINE = 5, 8
@@ -76,34 +76,18 @@ GAUSS, WEIGHT = 0.5 + 0.5 * GAUSS, 0.5 * WEIGHT
 WHAT = 2
 CELLS = np.dtype(
     [
-        ("kind", "i8"),
-        ("plane", "i8"),
-        ("centre", "f8"),  # distance of the place from the axis
-        ("x", "f8"),
+        *fields("i8", "kind plane along cells evaluated"),
+        *fields("f8", "x centre"),  # the place, and its distance from the axis
         ("into", "f8", (2,)),  # a line's direction: right, down
         ("reach", "f8"),  # ℓ of a sphere, 2ℓ of a line
-        ("along", "i8"),
-        ("cells", "i8"),
-        ("evaluated", "i8"),
-        ("low", "f8", (MAX_CELLS, 2)),  # u and w
-        ("high", "f8", (MAX_CELLS, 2)),
+        *fields("f8", "low high lacking", (MAX_CELLS, 2)),  # of cells, in u and w
+        *fields("f8", "integral missing volume", (MAX_CELLS,)),
         ("value", "f8", (WHAT, NODES, NODES)),  # Legendre series of one cell
-        ("integral", "f8", (MAX_CELLS,)),
-        ("missing", "f8", (MAX_CELLS,)),
-        ("volume", "f8", (MAX_CELLS,)),
-        ("lacking", "f8", (MAX_CELLS, 2)),  # in u and w
-        ("average", "f8"),
-        ("error", "f8"),
-        ("of_cells", "f8"),
+        *fields("f8", "average error of_cells"),
         ("largest", "f8"),  # value
         ("p", "f8", (2, NODES)),  # Legendre polynomials at a point
     ]
 )
-
-
-def cells():
-    """The memory for means that one thread needs, beside the body's memory."""
-    return new_record(CELLS)
 
 
 @jit
@@ -161,16 +145,14 @@ def write_series(M, at):
 
 
 @jit
-def fill_cell(M, k, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, proof):
+def fill_cell(M, k, body, largest, floor, tolerance, proof):
     """Evaluate the criterion at the nodes of cell k, and integrate it."""
     at = np.zeros((WHAT, NODES, NODES))
     for i in range(NODES):
         for j in range(NODES if M.kind == SPHERE else 1):
             for m in range(M.along):
                 x, y, z = node_of(M, k, i, j, m)
-                value, missing = largest_at(
-                    S, B, H, W, G, C, R, P, K, L, Q, x, y, z, largest, floor, tolerance, proof, COARSEST
-                )
+                value, missing = largest_at(body, x, y, z, largest, floor, tolerance, proof, COARSEST)
                 at[0, i, j] += OF_ALONG[M.along, m] * value
                 at[1, i, j] += OF_ALONG[M.along, m] * missing
                 M.largest = max(M.largest, value)
@@ -298,15 +280,14 @@ def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, 
     first
         `FIRST`, or `ROUGHLY` of a mean that only leads to another.
     """
+    body = S, B, H, W, G, C, R, P, K, L, Q
     M.kind, M.plane, M.x, M.centre, M.largest, M.evaluated = kind, P.plane, x, abs(x), 0.0, 0
     M.into[0], M.into[1] = right, down
     G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     if kind == POINT:
         half, tolerance = 0.5 * distance, SINGLE * rtol
-        own = x + half * right, 0.0, half * down
-        value, missing = largest_at(
-            S, B, H, W, G, C, R, P, K, L, Q, *own, largest, 0.0, tolerance, 0.5 * tolerance, 2 * COARSEST
-        )
+        own = x + half * right, 0.0, half * down, largest, 0.0, tolerance, 0.5 * tolerance, 2 * COARSEST
+        value, missing = largest_at(body, *own)
         M.average, M.error = value, max(missing + OF_VALUE * value, OF_POINT * value)
         return
     M.reach, M.along = (distance if kind == SPHERE else 2.0 * distance), 1
@@ -317,7 +298,7 @@ def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, 
     proof = PROOF * tolerance
     lay_cells(M, first)
     for k in range(M.cells):
-        fill_cell(M, k, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, proof)
+        fill_cell(M, k, body, largest, floor, tolerance, proof)
     while True:
         sum_cells(M)
         k, axis = worst_cell(M, rtol)
@@ -325,6 +306,6 @@ def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, 
             break
         halve_cell(M, k, axis)
         for cell in (k, M.cells - 1):
-            fill_cell(M, cell, S, B, H, W, G, C, R, P, K, L, Q, largest, floor, tolerance, proof)
+            fill_cell(M, cell, body, largest, floor, tolerance, proof)
     if kind == LINE:
         M.error += OF_LARGEST * M.largest

@@ -14,9 +14,9 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import FINEST, LOBATTO, barycentric, peak, tail
-from swtstudy.kernel.compiled import jit, jit_reordered
+from swtstudy.kernel.compiled import fields, jit, jit_reordered
 from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, sensitivities, swing_weights
-from swtstudy.kernel.history import MAX_INSTANTS, MAX_PARTS, MONOTONE, may_be_refined
+from swtstudy.kernel.parts import MAX_INSTANTS, MAX_PARTS, may_be_refined
 
 #: Planes of the first look, over 2θ.
 PLANES = 16
@@ -33,11 +33,7 @@ BETWEEN = 5e-3
 RESOLVED = 1e-5
 WORK = np.dtype(
     [
-        ("a", "f8", (MAX_INSTANTS,)),
-        ("b", "f8", (MAX_INSTANTS,)),
-        ("c", "f8", (MAX_INSTANTS,)),
-        ("d", "f8", (MAX_INSTANTS,)),
-        ("double", "i8", (MAX_PARTS,)),  # 1: parts to be doubled
+        *fields("f8", "a b c d", (MAX_INSTANTS,)),
         ("curve", "f8", (2, FINEST + 1)),  # of one part
         ("weight", "f8", (FINEST + 1,)),
         ("value", "f8", (PLANES,)),
@@ -171,14 +167,6 @@ def peak_of_part(H, W, Q, z, which, C, S):
 
 
 @jit
-def in_swing(Q, b, c):
-    """Coefficients of cos 2θ and sin 2θ in the swing, from the coefficients in σ_n."""
-    if Q.criterion == SWT:
-        return (1.0 + Q.poisson_ratio) * b, (1.0 + Q.poisson_ratio) * c
-    return c, -b
-
-
-@jit
 def locate(H, W, Q, which):
     """Write the coefficients of a curve at its maximum over time."""
     z = W.part[which]
@@ -190,8 +178,10 @@ def locate(H, W, Q, which):
         constant += w * (W.a[first + j] if which == STRESS else W.d[first + j])
         of_cos += w * W.b[first + j]
         of_sin += w * W.c[first + j]
-    if which != STRESS:
-        of_cos, of_sin = in_swing(Q, of_cos, of_sin)
+    if which != STRESS and Q.criterion == SWT:
+        of_cos, of_sin = (1.0 + Q.poisson_ratio) * of_cos, (1.0 + Q.poisson_ratio) * of_sin
+    elif which != STRESS:
+        of_cos, of_sin = of_sin, -of_cos
     W.at_peak[which, 0], W.at_peak[which, 1], W.at_peak[which, 2] = constant, of_cos, of_sin
 
 
@@ -267,6 +257,19 @@ def survey_planes(H, W, Q, side):
 
 
 @jit
+def halve_top(waiting, depth, f):
+    """Replace the interval at the top of a stack by its halves, with f in the middle; returns their number.
+
+    Its row is an angle, the value there, the width, and the value at the other end.
+    """
+    lower, upper = waiting[depth - 1], waiting[depth]
+    width = 0.5 * lower[2]
+    upper[0], upper[1], upper[2], upper[3] = lower[0] + width, f, width, lower[3]
+    lower[2], lower[3] = width, f
+    return depth + 1
+
+
+@jit
 def higher_plane(H, W, Q, best, tolerance, closely):
     """A plane after a survey whose h exceeds the best by more than the tolerance, if there is one.
 
@@ -275,17 +278,16 @@ def higher_plane(H, W, Q, best, tolerance, closely):
     """
     where, limit = 0.0, best * (1.0 + tolerance)
     for k in range(PLANES):
-        depth = 1
-        W.waiting[0, 0], W.waiting[0, 1] = STEP * k, W.value[k]
-        W.waiting[0, 2], W.waiting[0, 3] = STEP, W.value[(k + 1) % PLANES]
+        depth, row = 1, W.waiting[0]
+        row[0], row[1], row[2], row[3] = STEP * k, W.value[k], STEP, W.value[(k + 1) % PLANES]
         while depth > 0:
-            depth -= 1
-            angle, f1 = W.waiting[depth, 0], W.waiting[depth, 1]
-            width, f2 = W.waiting[depth, 2], W.waiting[depth, 3]
+            row = W.waiting[depth - 1]
+            f1, width, f2 = row[1], row[2], row[3]
             if above(f1, f2, W.curvature * width * width) <= limit or width < 1e-4:
+                depth -= 1
                 continue
-            width *= 0.5
-            C, S = cos(angle + width), sin(angle + width)
+            angle = row[0] + 0.5 * width
+            C, S = cos(angle), sin(angle)
             of_b, of_c = swing_weights(Q, C, S)
             top, high, low = extremes(W, H.instants, C, S, of_b, of_c)
             f = lifted(Q, top, high - low, W.noise)
@@ -293,17 +295,8 @@ def higher_plane(H, W, Q, best, tolerance, closely):
                 find_peaks(H, W, Q, C, S)
                 f = lifted(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING], W.noise)
             if f > limit:
-                best, where, limit = f, angle + width, f * (1.0 + tolerance)
-            W.waiting[depth, 0], W.waiting[depth, 1], W.waiting[depth, 2], W.waiting[depth, 3] = (
-                angle,
-                f1,
-                width,
-                f,
-            )
-            depth += 1
-            W.waiting[depth, 0], W.waiting[depth, 1] = angle + width, f
-            W.waiting[depth, 2], W.waiting[depth, 3] = width, f2
-            depth += 1
+                best, where, limit = f, angle, f * (1.0 + tolerance)
+            depth = halve_top(W.waiting, depth, f)
     return best, where
 
 
@@ -318,8 +311,6 @@ def unresolved(H, W, Q, z, C, S, tolerance):
     first, intervals, miss = H.first[z], H.intervals[z], 0.0
     of_b, of_c = swing_weights(Q, C, S)
     of_tension, of_swing = sensitivities(Q, W.top[STRESS], W.top[SWING] + W.top[MINUS_SWING])
-    if H.cusps[z] == MONOTONE:
-        return miss
     if intervals == 1:  # of a short side, between whose ends the stress is next to monotone
         db, dc = abs(W.b[first + 1] - W.b[first]), abs(W.c[first + 1] - W.c[first])
         of_b, of_c = max(abs(of_b), abs(of_c)), max(abs(of_b), abs(of_c))
@@ -357,11 +348,23 @@ def mark_unresolved(H, W, C, Q, Ct, St, tolerance):
     """
     marked, most, missing = 0, 0.0, 0.0
     for z in range(H.parts):
-        W.double[z] = 0
+        H.marked[z] = 0
         miss = unresolved(H, W, Q, z, Ct, St, tolerance)
         missing = max(missing, miss)
         if miss > 0.0 and may_be_refined(H, C, z):
-            W.double[z] = 1
+            H.marked[z] = 1
             most = max(most, miss)
             marked += 1
     return marked, most, missing
+
+
+@jit
+def mark_highest(H, W, C):
+    """Mark the parts with the maxima of the three curves, unless they are finest; returns how many."""
+    marked = 0
+    for which in range(3):
+        z = W.part[which]
+        if H.intervals[z] < FINEST and H.marked[z] == 0 and may_be_refined(H, C, z):
+            H.marked[z] = 1
+            marked += 1
+    return marked

@@ -6,13 +6,13 @@ import numpy as np
 
 from swtstudy.kernel import NEAREST
 from swtstudy.kernel.circle import beside_singular_edge, needs_circle
-from swtstudy.kernel.compiled import jit, new_record
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
-from swtstudy.kernel.load import bulk_at, has_bulk, largest_bulk, load_at, smallest_bulk
+from swtstudy.kernel.load import bulk_at, has_bulk, load_at
 from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.shift import shift_of
@@ -37,26 +37,17 @@ SAME = 1e-7
 STICK, PARTIAL_SLIP, GROSS_SLIP, LIFT_OFF, NOT_FINITE, NO_EQUILIBRIUM = np.arange(len(REGIMES))
 RESULT = np.dtype(
     [
-        ("s", "f8"),
-        ("s_error", "f8"),
-        ("critical_x", "f8"),
-        ("critical_angle", "f8"),  # degrees
+        *fields("f8", "s s_error critical_x critical_angle"),  # the angle in degrees
         ("shift", "f8"),  # of the stick zone, see `swtstudy.kernel.shift`
-        ("regime", "i8"),
-        ("positions", "i8"),
-        ("instants", "i8"),
-        ("overflow", "i8"),
+        *fields("i8", "regime positions instants overflow"),
         ("s_surface", "f8"),  # s; NaN at the singular edge of a face; what the circle has where it is higher
         ("circle", "i8"),  # 1: the circle may be higher
         ("place", "f8"),  # s of critical_x on the profile
         ("growth", "f8"),  # tolerance of the tables of what grew
     ]
 )
-
-
-def workspace():
-    """The memory that one thread needs."""
-    return tuple(new_record(kind) for kind in (CYCLE, GROWTH, SEARCH, HISTORY, WORK, TABLE))
+#: Kinds of the records that a thread needs to solve points.
+OF_POINT = CYCLE, GROWTH, SEARCH, HISTORY, WORK, TABLE
 
 
 @jit
@@ -106,7 +97,7 @@ def is_idle(C, L, P, Q):
         still = still and (v == v0 or Q.friction == 0.0)
         pulls = pulls or (v != 0.0 and Q.friction > 0.0)
     if has_bulk(L):
-        return still and largest_bulk(L) == smallest_bulk(L)
+        return still and L.bulk_range[1] == L.bulk_range[0]
     return still or (Q.criterion == SWT and not pulls and (Q.poisson_ratio == 0.5 or P.plane))
 
 
@@ -169,7 +160,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     for _ in range(5):
         out.growth, growth = growth, lay_out(R, C, P, L, growth)
         coarse = growth if growth > out.growth else 0.0
-        gap = search_line(S, H, W, C, R, P, K, L, Q)
+        gap = search_line(S, (H, W, C, R, P, K, L, Q))
         share = tension_share(C, Q, S.tension)
         needed = Q.growth * min(share, 1.0)
         done = needed >= 0.5 * growth or growth <= FINEST_GROWTH
@@ -187,7 +178,7 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
         out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
         out.critical_angle = degrees(S.angle)
     if has_bulk(L):
-        far, angle = far_field(Q, largest_bulk(L), smallest_bulk(L), P.plane)
+        far, angle = far_field(Q, L.bulk_range[1], L.bulk_range[0], P.plane)
         if far > 0.0 and far >= (1.0 - SAME) * S.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
     if beside_singular_edge(P, out.critical_x, BESIDE_EDGE):

@@ -11,14 +11,14 @@ from math import pi, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, MEANS, ORDER, RUN, clenshaw, fit, panel_of
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 
 #: Coordinates of the memory diagram.
 DEPTH, FORCE = 0, 1
 #: Line load N at the mean load, in E* δ0.
 MEAN_LOAD = 0.25 * pi
 
-MAX_PANELS, GUESSES = 1021, 16
+MAX_PANELS = 1021
 PROFILE = np.dtype(
     [
         ("is_hertz", "i8"),  # 1: paraboloid or cylinder, whose functionals have closed forms
@@ -33,22 +33,17 @@ PROFILE = np.dtype(
         ("longest", "f8"),  # longest piece over which the profile is smooth
         ("left_out", "f8"),  # relative error of s by what of the profile is left out
         ("rises", "i8", (2,)),  # near s = 0 the density is as s^j, and the coordinate as sʲ
-        ("begin", "f8", (MAX_PANELS,)),  # ends of the panels in s
-        ("end", "f8", (MAX_PANELS,)),
+        *fields("f8", "begin end", (MAX_PANELS,)),  # ends of the panels in s
         ("density", "f8", (MAX_PANELS, ORDER)),  # dG/ds
         ("first_density", "f8", (ORDER,)),  # of the first panel: over s^j
-        ("coordinate", "f8", (MAX_PANELS, ORDER + 1)),  # its increase within the panel; of the first: over sʲ
-        ("force", "f8", (MAX_PANELS, ORDER + 1)),  # increase of ∫ ξ dG within the panel
-        ("coordinate_begin", "f8", (MAX_PANELS + 1,)),
-        ("force_begin", "f8", (MAX_PANELS + 1,)),
-        ("guess", "f8", (MAX_PANELS, GUESSES + 1)),  # share of the panel at even shares of the coordinate
+        # Increase of the coordinate within a panel, of the first one over sʲ; and of ∫ ξ dG.
+        *fields("f8", "coordinate force", (MAX_PANELS, ORDER + 1)),
+        *fields("f8", "coordinate_begin force_begin", (MAX_PANELS + 1,)),
     ]
 )
 #: Least density of a panel over its largest one, at most which counts: the stress at the edge of a contact
 #: is made where the density may be that much lower than elsewhere in the panel.
 STEEPEST = 0.03
-#: Values between which guesses are interpolated.
-SAMPLES = 4 * GUESSES
 #: What `assemble` returns.
 ENOUGH, MORE, TOO_MANY = np.arange(3)
 
@@ -139,8 +134,6 @@ def assemble(P, settled, order, largest):
         for k in range(ORDER + 1):
             P.coordinate[p, k] /= unit
     first_panel(P, settled[order[0]], weighted)
-    for p in range(P.panels):
-        tabulate_guesses(P, p)
     return status
 
 
@@ -174,24 +167,6 @@ def first_panel(P, row, weighted):
     for k in range(ORDER):
         for i in range(ORDER):
             P.coordinate[0, k] += MEANS[P.rises[1] - 1, k, i] * values[i] / P.unit
-
-
-@jit
-def tabulate_guesses(P, p):
-    """Places within panel p at even shares of its coordinate; of the first one of the root of it."""
-    width, whole = P.end[p] - P.begin[p], P.coordinate_begin[p + 1] - P.coordinate_begin[p]
-    root = 1.0 / P.rises[1]
-    j, share, before = 0, 0.0, 0.0
-    for m in range(1, SAMPLES + 1):
-        new = (coordinate_on(P, p, P.begin[p] + width * m / SAMPLES) - P.coordinate_begin[p]) / whole
-        if p == 0:
-            new = max(new, 0.0) ** root
-        new = max(new, share)
-        while j <= GUESSES and (j <= GUESSES * new or m == SAMPLES):
-            part = (j / GUESSES - share) / (new - share) if new > share else 1.0
-            P.guess[p, j] = (before + min(part, 1.0)) / SAMPLES
-            j += 1
-        share, before = new, m
 
 
 @jit
@@ -252,7 +227,7 @@ def force_at(P, s):
 
 @jit
 def place_of(P, coordinate):
-    """Inverse of `coordinate_at`: a guess from the panel's table, then Newton's method within a bracket."""
+    """Inverse of `coordinate_at`, by Newton's method within a panel."""
     if coordinate <= 0.0:
         return 0.0
     if P.exponent > 0.0:
@@ -263,9 +238,7 @@ def place_of(P, coordinate):
     share = min(max(share, 0.0), 1.0)
     if p == 0:
         share = share ** (1.0 / P.rises[1])
-    z = GUESSES * share
-    j = min(int(z), GUESSES - 1)
-    s = low + (high - low) * (P.guess[p, j] + (z - j) * (P.guess[p, j + 1] - P.guess[p, j]))
+    s = low + (high - low) * share
     for _ in range(60):
         f = coordinate_on(P, p, s) - coordinate
         if f > 0.0:

@@ -27,8 +27,8 @@ import numpy as np
 
 from swtstudy.kernel.compiled import jit
 
-#: Functions of a disc, the larger number, and of a strip.
-FUNCTIONS, OF_STRIP = 10, 4
+#: Functions of a disc; a strip has the first four places.
+FUNCTIONS = 10
 #: Components of the stress, in this order.
 COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 #: Smaller squares lie at the edge of the punch itself.
@@ -118,12 +118,8 @@ def strip_moments(x, z, xi, f):
     w = complex(x, z)
     root = np.sqrt(w - xi) * np.sqrt(w + xi)
     rate = z * w * reciprocal(root)
-    f[0], f[1], f[2], f[3] = (
-        -0.5 * pi * root.real,
-        -0.5 * pi * root.imag,
-        -0.5 * pi * rate.real,
-        -0.5 * pi * rate.imag,
-    )
+    f[0], f[1] = -0.5 * pi * root.real, -0.5 * pi * root.imag
+    f[2], f[3] = -0.5 * pi * rate.real, -0.5 * pi * rate.imag
 
 
 @jit

@@ -19,7 +19,7 @@ from math import asin, ceil, cosh, log, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_PIECES
 
 MAX_TABLES = 17003
@@ -30,8 +30,7 @@ TABLE = np.dtype(
         ("inside", "i8", (MAX_TABLES,)),
         ("before", "f8", (MAX_TABLES, 2)),  # T1, T3 or B, V at the lower end
         ("series", "f8", (MAX_TABLES, 2, ORDER + 1)),
-        ("first", "i8", (MAX_PIECES + 1,)),  # panels of a density: 0 the profile, 1 + i what grew as piece i
-        ("last", "i8", (MAX_PIECES + 1,)),
+        *fields("i8", "first last", (MAX_PIECES + 1,)),  # panels of a density: 0 the profile, 1 + i piece i
         ("total", "f8", (MAX_PIECES + 1, 2)),  # T1, T3 of all that is inside x
     ]
 )

@@ -21,7 +21,7 @@ from math import cos, log, nan, pi, sin
 import numpy as np
 
 from swtstudy.kernel.chebyshev import clenshaw, gauss_legendre, panel_of, vertex
-from swtstudy.kernel.compiled import jit
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, solve_cycle
 from swtstudy.kernel.control import NODE, WEIGHT, rise
 from swtstudy.kernel.events import force_ratio, slide, stick_limit, turning_points
@@ -44,21 +44,18 @@ CONJUGATE = np.dtype(
         ("unit", "f8"),  # ∫ ξ dG up to G = 1: half the normal force at the depth δ0
         ("before", "f8", (MAX_PANELS + 1,)),  # what C needs up to the lower ends of the profile's panels
         ("grown", "f8", (MAX_GROWN + 1,)),  # ∫ o′ dC from the start of what grew up to its panels' lower ends
-        ("inside", "f8", (MAX_PIECES,)),  # ∫ o′ dC up to the start of a piece
-        ("top", "f8", (MAX_PIECES,)),  # largest force ratio in a stretch, as seen
+        # By piece ∫ o′ dC up to its start; by stretch the largest force ratio, as seen.
+        *fields("f8", "inside top", (MAX_PIECES,)),
     ]
 )
 OF_CYCLE = np.dtype(
     [
-        ("work", "f8"),  # of a round, over μF_0 · μE*δ0/G*, and its error
-        ("work_error", "f8"),
+        *fields("f8", "work work_error"),  # of a round, over μF_0 · μE*δ0/G*
         ("stick_radius", "f8"),  # NaN where nothing sticks throughout
-        ("stick_left", "f8"),  # x of the ends of the permanent stick zone
-        ("stick_right", "f8"),
+        *fields("f8", "stick_left stick_right"),  # x of the ends of the permanent stick zone
         ("contact_radius", "f8"),  # largest of the cycle
         ("force_ratio", "f8"),  # largest |F_x|/(μ F_N)
-        ("no_equilibrium", "i8"),
-        ("overflow", "i8"),
+        *fields("i8", "no_equilibrium overflow"),
     ]
 )
 MARGIN = np.dtype(
@@ -393,7 +390,7 @@ def cycle_of(C, R, P, L, Q, U, with_ratio, out):
 
 
 @jit
-def cycles_of(C, R, U, profiles, which, loads, asks, with_ratio, out):
+def cycles_of(C, R, U, with_ratio, profiles, which, loads, asks, out):
     """Quantities of the cycles of points: profile which[i], loads[i], asks[i]."""
     for i in range(which.shape[0]):
         cycle_of(C, R, profiles[which[i]], loads[i], asks[i], U, with_ratio, out[i])

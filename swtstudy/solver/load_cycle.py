@@ -12,7 +12,7 @@ from swtstudy.kernel.course import STATE, write_parts, write_springs, write_stat
 from swtstudy.kernel.field import open_cycle
 from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
-from swtstudy.kernel.point import workspace
+from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
@@ -38,7 +38,7 @@ class LoadCycle:
     profile, load, ask, conjugate
         Records of `swtstudy.kernel`, the last one of the component that is not prescribed.
     cycle, growth, search, history, work, tables
-        Records of `swtstudy.kernel.point.workspace`.
+        Records of the kinds `swtstudy.kernel.point.OF_POINT`.
     largest
         Place s of the largest contact.
     equilibrium
@@ -55,7 +55,7 @@ class LoadCycle:
         # Copies, which outlive the next cycle that the kernel opens.
         self.cycle, self.growth, self.profile, self.load, self.ask = (each.copy() for each in opened[:5])
         self.largest, self.moved = opened.largest, bool(self.cycle.shift != 0.0)
-        _, _, self.search, self.history, self.work, self.tables = workspace()
+        self.search, self.history, self.work, self.tables = map(new_record, OF_POINT[2:])
         self.conjugate = new_record(CONJUGATE)
         tabulate_other(self.conjugate, self.profile)
         tabulate_answer(self.conjugate, self.cycle, self.growth, self.profile)
@@ -122,10 +122,9 @@ class LoadCycle:
         every = (np.arange(load.rounds)[:, None] + np.append(turn, [0.0, 1.0])) / load.rounds
         return 2.0 * np.pi * np.unique(np.clip(every, 0.0, 1.0))
 
-    def _at(self, x: float) -> tuple[float, ...]:
-        """Place s of x/a_H and of the largest contact, the side of x, ν and μ."""
-        place, side = float(self.place(np.array(abs(x)))), -1.0 if x < 0.0 else 1.0
-        return place, self.largest, side, float(self.ask.poisson_ratio), float(self.ask.friction)
+    def _at(self, x: float) -> tuple[float, float, float]:
+        """Place s of x/a_H and of the largest contact, and the side of x."""
+        return float(self.place(np.array(abs(x)))), self.largest, -1.0 if x < 0.0 else 1.0
 
     def stress(self, x: float, states: np.recarray[Any, Any]) -> dict[str, FloatArray]:
         """Stress at x/a_H on the line at T states, each (T,), in E* √(δ0/R).
@@ -135,9 +134,9 @@ class LoadCycle:
         dict
             ``xx``, ``yy``, ``zz``, ``xz``, tension positive, and ``bulk``, its part of xx.
         """
-        own = self._at(x)
-        write_stress(self.history, self.cycle, self.growth, self.profile, self.tables, states, *own)
-        _, _, side, ν, _ = own
+        own = self.history, self.cycle, self.growth, self.profile, self.tables, self.ask
+        write_stress(*own, states, *self._at(x))
+        side, ν = self._at(x)[2], float(self.ask.poisson_ratio)
         names = ("p", "within", "xx", "yy", "q", "bulk")
         p, within, xx, yy, q, bulk = (self.history[name][: len(states)].copy() for name in names)
         across = ν * bulk if self.profile.plane else 0.0

@@ -9,10 +9,11 @@ import rainflow
 from swtstudy import LoadPath
 from swtstudy.kernel import cycles
 from swtstudy.kernel.batch import count_batch
+from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.line import ask
 
 pytestmark = pytest.mark.xdist_group("kernel")
-ROOM = cycles.counting()
+ROOM = new_record(cycles.COUNTING)
 
 
 def counted(swing, stress, **criterion):

@@ -17,7 +17,8 @@ from swtstudy.kernel.batch import solve_batch
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.contact import CYCLE
-from swtstudy.kernel.history import HISTORY, may_be_refined
+from swtstudy.kernel.history import HISTORY
+from swtstudy.kernel.parts import may_be_refined
 
 pytestmark = pytest.mark.xdist_group("kernel")
 TABLE_1 = {

@@ -11,6 +11,7 @@ from solved import solve_points
 
 from swtstudy import TabulatedProfile
 from swtstudy.kernel import mean
+from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.field import MANY, criterion_at, direction_at, mean_about
 
 #: Means of monomials in the offsets over a half sphere of radius 1.
@@ -26,7 +27,7 @@ MOMENTS = {
 
 def of_known(function, kind, size, centre=1.2, along=2, rounds=0, plane=0):
     """Cells of a known function of x, y and z about x = centre, after so many halvings of the worst."""
-    cells = mean.cells()
+    cells = new_record(mean.CELLS)
     cells.kind, cells.plane, cells.centre, cells.x, cells.along = kind, plane, centre, centre, along
     cells.into[:], cells.largest = (0.0, 1.0), 1.0
     cells.reach = size * (1.0 if kind == mean.SPHERE else 2.0)
