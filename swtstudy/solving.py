@@ -145,7 +145,7 @@ def solve_grid(
 
 def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
     """All that is asked of points, solved one chunk after another; raises if one has no value."""
-    # What solves is imported where something is solved.
+    # The solver is imported where something is solved.
     from swtstudy.points.chunk import blank, chunks, fill, put
 
     count = len(points.rows)

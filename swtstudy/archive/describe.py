@@ -48,7 +48,7 @@ _ROUNDING = 1e-9
 def describe(dataset: xr.Dataset) -> Iterator[str]:
     """Describe results line by line: their study and versions, how complete and how accurate they are.
 
-    Those of `swtstudy.solve` have neither study nor versions.
+    Results of `swtstudy.solve` have neither study nor versions.
     """
     yield str(dataset.attrs.get("title", "Results"))
     for line in outcome(dataset):
@@ -349,7 +349,7 @@ def asked_means(dataset: xr.Dataset, life: str) -> list[str]:
     dataset
         Results.
     life
-        Name of the life at the worst point, which those begin with.
+        Name of the life at the worst point, with which the other names begin.
     """
     means = [name for name in LIVES if name in dataset and name.startswith(f"{life}_")]
     return [y for y in shown_in(dataset) if y in means] or [n for n in means if n == f"{life}_volume"]

@@ -143,7 +143,7 @@ def _union(grids: list[Grid]) -> Grid:
         point for grid in grids for point in zip(*(grid.samples[name] for name in sampled[0]), strict=True)
     )
     samples = dict(zip(sampled[0], zip(*points, strict=True), strict=True)) if points else {}
-    # That of a load which was measured is no value of its own.
+    # The mean load of a measured load is no value of its own.
     every = [name for name in AXES if any(name in grid.names for grid in grids) and name not in samples]
     values = {name: distinct([v for grid in grids for v in grid.values(name)]) for name in every}
     axes = dict.fromkeys(name for grid in grids for name in grid.axes)

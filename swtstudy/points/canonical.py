@@ -61,7 +61,7 @@ LOAD_COLUMNS = ("control", COST, "load", *RATIO_COLUMNS, *_numbers("load"))
 SHARED_COLUMNS = ("profile", "control", "load", "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
-#: Those of bodies and criterion; friction is before the Poisson ratio, which the tractions do not depend on.
+#: Columns of bodies and criterion; friction is before the Poisson ratio, on which no traction depends.
 _OTHERS = (*reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
 #: Parameters that are a number of every point, whatever its profile.
 NUMBERS = (*_numbers("load"), *_OTHERS)

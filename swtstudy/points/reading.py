@@ -48,7 +48,7 @@ LONGEST_AXIS = 1_000_000
 class Range:
     """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios.
 
-    Those of `also` are put in among them.
+    The values of `also` are put in among them.
     """
 
     start: object

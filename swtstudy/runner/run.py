@@ -306,7 +306,7 @@ class Job:
         finished(self.study, self.path, archive)
 
     def _written(self, before: xr.Dataset | None) -> xr.Dataset:
-        """Write the archive in the place of one from before."""
+        """Write the archive over one from before."""
         from swtstudy.archive.archive import build, history_line
         from swtstudy.archive.netcdf import read_archive, save
 

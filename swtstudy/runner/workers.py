@@ -143,7 +143,7 @@ class Workers:
     def _until_loss(
         self, waiting: Iterator[Chunk], rtol: float, solver: Solver
     ) -> Generator[Solved, None, list[Chunk]]:
-        """Solve chunks until there are no more, or a worker dies; return those that are lost in flight."""
+        """Solve chunks until there are no more, or a worker dies; return the chunks lost in flight."""
         in_flight: dict[Future[Any], Chunk] = {}
         # Not by `concurrent.futures.wait`, which Ctrl-C may leave with futures locked.
         done: SimpleQueue[Future[Any]] = SimpleQueue()

@@ -108,7 +108,7 @@ class LoadCycle:
         return found
 
     def instants(self, steps: int, x: float | None = None) -> FloatArray:
-        """Cosine-spaced angles φ between the events of the cycle, those at x/a_H among them, ascending."""
+        """Cosine-spaced angles φ between the events of the cycle, with the events at x/a_H; ascending."""
         load, times = self.load, self.cycle.time[: self.cycle.stretches]
         if x is not None:
             own = self.history, self.cycle, self.growth, self.profile, self.tables, load

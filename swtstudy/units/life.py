@@ -315,8 +315,8 @@ def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
     return stacked[..., :2], stacked[..., 2:]
 
 
-#: Constants that may scatter; those in torsion have `TORSION` before the name, those of one body `_1` or `_2`
-#: behind it.
+#: Constants that may scatter. The name of a constant in torsion begins with `TORSION`, the name of a constant
+#: of one body ends in `_1` or `_2`.
 CONSTANTS, TORSION = ("strength", "strength_exponent", "ductility", "ductility_exponent"), "shear_"
 SCATTERED = tuple(
     f"{before}{name}{body}" for body in ("", "_1", "_2") for before in ("", TORSION) for name in CONSTANTS

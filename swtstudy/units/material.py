@@ -84,7 +84,7 @@ def read_given(
     labels, material, fixed
         The tables units, material and fixed.
     folder
-        That of the study.
+        Folder of the study.
     report
         Called with key, found and allowed of each mistake.
     """

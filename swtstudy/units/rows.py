@@ -137,7 +137,7 @@ class Scale(NamedTuple):
     Attributes
     ----------
     of
-        That of a contact.
+        Function of a contact: its scale.
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
     made_of
