@@ -75,8 +75,7 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         distances = ", ".join(f"{value:.4g}" for value in asked.distances)
         yield "distances", f"{distances}{unit_of(dataset[DISTANCE])}"
     if "status" in dataset:
-        states = _counted(dataset.status.values, STATES)
-        yield "complete", ", ".join(f"{count} {state}" for state, count in states.items())
+        yield "complete", completeness(dataset)
     if "rtol" in attributes:
         yield "asked for", f"rtol {attributes['rtol']:g}"
         yield "accurate", accuracy(dataset)
@@ -237,6 +236,11 @@ def _range_words(axis: xr.DataArray) -> str:
         return _axis_words(known)
     ends = int(known.values.argmin()), int(known.values.argmax())
     return f"from {_words(known[ends[0]])} to {_words(known[ends[1]])}"
+
+
+def completeness(dataset: xr.Dataset) -> str:
+    """Count the points that are computed, failed, missing."""
+    return ", ".join(f"{count} {state}" for state, count in _counted(dataset.status.values, STATES).items())
 
 
 def relative_errors(dataset: xr.Dataset) -> FloatArray:

@@ -162,7 +162,7 @@ def test_plane_elements_have_no_shear_across(tmp_path: Path, names: str) -> None
         found = read_history(file)
     assert found.stress.values.tolist() == [[[1, 2, 3, 0, 0, 4], [5, 6, 7, 0, 0, 8]]]
     file.write_text(f"id,step,{names.rpartition(',')[0]}\na,0,1,2,3\n")
-    with pytest.raises(StudyError, match="of plane elements without those across"):
+    with pytest.raises(StudyError, match="of plane elements without the two across"):
         read_history(file)
 
 
