@@ -90,7 +90,7 @@ def sample_place(S, B, H, C, R, P, L, Q, x, y, z, largest, coarsest):
         Intervals of a part.
     """
     open_place(B, C, R, P, Q, x, y, z, largest)
-    S.on_circle, S.unsure, C.overflow = 0, np.inf, max(C.overflow, B.overflow)
+    S.on_circle, S.unsure, C.overflow = 0, np.inf, B.overflow  # each place on its own
     begin_parts(H, C, P, B.sigma if B.omega < DEEP * largest else 0.0, x, y, largest, C.shift)
     lay_parts(H, C, P, L, coarsest)
     write_stresses(S, B, H, C, P, L, Q)

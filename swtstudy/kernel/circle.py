@@ -91,8 +91,9 @@ def value_at(D, body, angle, floor):
         h = highest_here(body, floor, *tolerance)
     else:
         place = D.x * cos(angle), D.x * sin(angle), 0.0, D.largest
-        own = value_of(Q, floor), *tolerance, FIRST
+        own, overflow = (value_of(Q, floor), *tolerance, FIRST), C.overflow
         h = lift(Q, largest_at(body, *place, *own)[0])
+        C.overflow = max(C.overflow, overflow)  # of all places together
     D.tension, D.swing = G.most[0], max(D.swing, G.most[1])
     D.best = max(D.best, h)
     return max(h, floor)

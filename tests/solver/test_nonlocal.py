@@ -332,6 +332,14 @@ def test_a_mean_of_a_thousandth_of_swt_is_known_to_a_hundredth():
     assert error < 0.01 * value
 
 
+def test_a_place_without_a_direction_does_not_stop_the_means_of_others():
+    """On the axis a profile that is steep outside has no series of the stress on the surface."""
+    cycle = opened(points("power_law", exponent=3.6))
+    before = mean_about(cycle, mean.POINT, 0.5, DOWN, 0.05, 0.0, 1e-2)
+    direction_at(cycle, 0.0)
+    assert mean_about(cycle, mean.POINT, 0.5, DOWN, 0.05, 0.0, 1e-2) == before
+
+
 @pytest.mark.parametrize("name", SCENES)
 def test_many_values_are_close_to_single_ones(name):
     """Those that are averaged begin with fewer instants, each with the plane of the one before."""
