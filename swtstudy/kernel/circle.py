@@ -50,7 +50,7 @@ CIRCLE = np.dtype(
         ("best", "f8"),  # h
         *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over φ
         *fields("f8", "swing highest tension"),  # bounds of A and T, and of T at the last angle
-        # Of arcs at both ends: φ, h or more where it does not matter, bound of T.
+        # At both ends of arcs: φ, h or more where it does not matter, bound of T.
         *fields("f8", "ends value most", (MAX_ARCS, 2)),
         ("normal", "f8", (MAX_ARCS, 2, 3)),
     ]

@@ -80,7 +80,7 @@ def test_the_cycle_of_the_paper_as_a_polygon_converges_to_it() -> None:
     ],
 )
 def test_what_points_on_a_smooth_cycle_miss_of_it(ratio, normal, tangential, phase, quick) -> None:
-    """Some 10/k² as a rule, up to 2/k elsewhere; a function of the time misses nothing."""
+    """A few cycles next to nothing, others nearly 3/k; a function of the time misses nothing."""
     p, q = ratio
     load = {"normal_amplitude": normal, "tangential_amplitude": tangential, "rtol": 1e-5}
 

@@ -327,10 +327,11 @@ def thresholds() -> None:
 
 def polygons() -> None:
     (table, _) = tables("loads.md")
-    count = int(table[0][-1].removeprefix("k = "))
-    worst = max(float(row[-1]) for row in table[1:]) / count**2
-    assert 0.5 / count < worst < 2.0 / count
-    says("{} % with {} points", 100 * worst, count)
+    counts = [int(cell.removeprefix("k = ")) for cell in table[0][1:]]
+    worst = {k: max(float(row[1 + j]) for row in table[1:]) / k**2 for j, k in enumerate(counts)}
+    assert all(each < 3.0 / k for k, each in worst.items())
+    said = "by up to {} % with {} points and by up to {} % with {} points"
+    says(said, 100 * worst[32], 32, 100 * worst[512], 512)
 
 
 def lives() -> None:
