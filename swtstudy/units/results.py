@@ -186,8 +186,8 @@ def _of_constants(
         True to call it with the terms of each draw of constants.
     """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
-    both = list(grid.of_both("poisson_ratio"))
-    if grid.constants(criterion, both[0]) == grid.constants(criterion, both[-1]):
+    both = grid.of_both("poisson_ratio")
+    if len({grid.constants(criterion, ratios) for ratios in both}) == 1:
         both = both[:1]
     dim = grid.dimension("poisson_ratio") or ""  # estimated ones differ from one Poisson ratio to another
     parts = []

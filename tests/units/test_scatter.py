@@ -166,6 +166,17 @@ def test_estimated_constants_in_torsion_scatter_with_tensile_ones(tmp_path: Path
         np.testing.assert_allclose(own.FS_cycles_50, np.sort(lives, axis=0)[31], rtol=1e-9)
 
 
+def test_each_point_of_a_sample_has_constants_estimated_by_its_own_poisson_ratio(tmp_path: Path) -> None:
+    """Also where the first and the last Poisson ratio are the same."""
+    text = f"{CONTACT}{SHEAR}{LOADS}tangential_amplitude = 2e-3\n".replace("poisson_ratio = 0.33\n", "")
+    points = "[sample.points]\npoisson_ratio = [0.3, 0.4, 0.3]\n"
+    found = swtstudy.run(Study.from_text(text + points), tmp_path / "sample.nc")
+    for k, nu in enumerate((0.3, 0.4, 0.3)):
+        own, shear = found.isel(sample=k), swtstudy.ShearConstants.estimated(ALUMINIUM, nu)
+        lives = shear.rounds(own.FS, own.counted, own.counted_number)
+        np.testing.assert_allclose(own.FS_cycles, lives, rtol=1e-9)
+
+
 def test_bodies_of_different_materials_have_ranges_of_their_own(tmp_path: Path) -> None:
     ranges = "[sample.ranges]\nstrength_1 = [900, 950]\nstrength_2 = [1800, 2200]\n"
     text = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{ranges}".replace("strength = 927", "strength = [927, 2000]")
