@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -161,10 +162,18 @@ class Grid:
 
     def at(self, places: IndexArray, *names: str) -> list[NDArray]:
         """The numbers of columns at n places of the grid in C order, each of shape (n,)."""
-        along = np.unravel_index(places, self.shape) if self.dims else ()
-        position = dict(zip(self.dims, along, strict=True))
-        columns = (self.columns[name] for name in names)
-        return [np.broadcast_to(v[tuple(position[dim] for dim in dims)], len(places)) for dims, v in columns]
+        return numbers_at((self.columns[name] for name in names), positions(self.sizes, places), len(places))
+
+
+def positions(sizes: Mapping[str, int], places: IndexArray) -> dict[str, IndexArray]:
+    """Positions along the dimensions of n places in C order, by the names of the dimensions."""
+    along = np.unravel_index(places, [*sizes.values()]) if sizes else ()
+    return dict(zip(sizes, along, strict=True))
+
+
+def numbers_at(columns: Iterable[Column], at: Mapping[str, IndexArray], count: int) -> list[NDArray]:
+    """The numbers of columns at n positions, each of shape (n,)."""
+    return [np.broadcast_to(v[tuple(at[dim] for dim in dims)], count) for dims, v in columns]
 
 
 def _number(name: str, value: Value) -> float:

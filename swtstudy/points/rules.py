@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Grid, numbers_at, positions
 from swtstudy.points.values import amplitudes_of, as_number, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -233,11 +233,8 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         refused, found, why = 0, "", None
         for start in range(0, math.prod(sizes.values()), _SLAB):
             places = np.arange(start, min(start + _SLAB, math.prod(sizes.values())))
-            at = dict(zip(sizes, np.unravel_index(places, [*sizes.values()]) if sizes else (), strict=True))
-            code, *shapes, load = (
-                np.broadcast_to(values[tuple(at[dim] for dim in dims)], len(places))
-                for dims, values in columns.values()
-            )
+            at = positions(sizes, places)
+            code, *shapes, load = numbers_at(columns.values(), at, len(places))
             for own, table in tables.items():
                 same = np.flatnonzero(code == own)
                 shape = {name: values[same] for name, values in zip(names, shapes, strict=True)}

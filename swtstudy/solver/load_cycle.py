@@ -134,9 +134,10 @@ class LoadCycle:
         dict
             ``xx``, ``yy``, ``zz``, ``xz``, tension positive, and ``bulk``, its part of xx.
         """
+        place, largest, side = self._at(x)
         own = self.history, self.cycle, self.growth, self.profile, self.tables, self.ask
-        write_stress(*own, states, *self._at(x))
-        side, ν = self._at(x)[2], float(self.ask.poisson_ratio)
+        write_stress(*own, states, place, largest, side)
+        ν = float(self.ask.poisson_ratio)
         names = ("p", "within", "xx", "yy", "q", "bulk")
         p, within, xx, yy, q, bulk = (self.history[name][: len(states)].copy() for name in names)
         across = ν * bulk if self.profile.plane else 0.0

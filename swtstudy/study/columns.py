@@ -192,8 +192,8 @@ def read_columns(
             if labels and name in names:
                 report += _wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [table.headers.index(form.header(name)) for name in names]
-        empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
-        empty = empty if gaps else []
+        rows = table.cells if gaps else []
+        empty = [line for line, cells in rows if any(cells[k].lower() in MISSING for k in columns)]
         if empty and len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:

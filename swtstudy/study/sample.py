@@ -50,8 +50,8 @@ _LEAST_SHARE = 1e-6
 #: Constants of a material as what may be sampled: exponents are negative, and others positive.
 _CONSTANTS = {
     name: Parameter(name, name, "", name, lower=low, upper=high, open_lower=high > 0.0)
-    for name in SCATTERED
-    for low, high in [(-10.0, 0.0) if "exponent" in name else (0.0, 1e12)]
+    for name, row in SCATTERED.items()
+    for low, high in [(-10.0, 0.0) if row.constant.endswith("exponent") else (0.0, 1e12)]
 }
 #: Words for `SCATTERED`.
 _CAN_SCATTER = (
@@ -415,18 +415,17 @@ def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: R
         report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
     found = {name: np.array(column) for name, column in _drawn(table, contacts, report).items()}
     for name, column in found.items():
-        own, base = _own_values(name, contacts), name.removesuffix("_1").removesuffix("_2")
+        own, row = _own_values(name, contacts), SCATTERED[name]
+        base = f"{TORSION * row.torsion}{row.constant}"
         if len({*own}) > 1:
-            words, allowed = (
-                " and ".join(f"{value:g}" for value in own),
-                f"{name}_1, {name}_2, or one of them",
-            )
+            words = " and ".join(f"{value:g}" for value in own)
+            allowed = f"{name}_1, {name}_2, or one of them"
             report(f"sample.{name}", f"{name}, which is {words} in the bodies", allowed)
         elif not own:
             report(f"sample.{name}", f"{name}, a constant without a value", f"{base} in [material]")
         if name != base and base in found:
             report(f"sample.{name}", f"{name} beside {base}", "one of the two")
-        if wrong := int((column * (-1.0 if "exponent" in name else 1.0) <= 0.0).sum()):
+        if wrong := int((column * (-1.0 if row.constant.endswith("exponent") else 1.0) <= 0.0).sum()):
             allowed = "less scatter, or a distribution that is cut off"
             report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
     if len(report) > before or not found:
@@ -437,11 +436,10 @@ def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: R
 
 
 def _own_values(name: str, contacts: ContactDetails) -> list[float]:
-    """The values of a constant of `SCATTERED` in [material]: of the body in its name, or of both bodies."""
-    materials = contacts.shear_materials if name.startswith(TORSION) else contacts.materials
-    body = slice(int(name[-1]) - 1, int(name[-1])) if name[-2:] in ("_1", "_2") else slice(None)
-    key = name.removeprefix(TORSION).removesuffix("_1").removesuffix("_2")
-    return [getattr(constants, key) for constants in materials[body]]
+    """The values of a constant of `SCATTERED` in [material], of each of its bodies; none without one."""
+    torsion, constant, bodies = SCATTERED[name]
+    materials = contacts.shear_materials if torsion else contacts.materials
+    return [getattr(materials[body], constant) for body in bodies if materials]
 
 
 def _drawn(table: SampleTable, contacts: ContactDetails, report: Report) -> Mapping[str, Any]:

@@ -272,15 +272,15 @@ def signal_from(
     if samples < 2.0 - 1e-9:
         raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
     clean = _without_spikes(name, time, values, rows, period, count, given.despike)
-    signal = Signal(name, time, clean if given.despike else values, period, count, given.absolute, highest)
+    signal = Signal(name, time, clean, period, count, given.absolute, highest)
     if highest and not cycles.determined(signal.phase, highest):
         allowed = "less than half as many as samples at different phases of the cycle"
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
-    for line in _doubts(replace(signal, values=clean), key, given):  # a spike is told once
+    for line in _doubts(signal, key, given):  # without spikes, which are told already
         warnings.warn(f"{name}: {line}", stacklevel=2)
-    return signal
+    return signal if given.despike or clean is values else replace(signal, values=values)
 
 
 def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:

@@ -20,9 +20,17 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, amplitudes_of, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
-from swtstudy.units.life import TORSION, Block, FatigueConstants, LifeTerms, Scatter, ShearConstants, terms_of
+from swtstudy.units.life import (
+    SCATTERED,
+    Block,
+    FatigueConstants,
+    LifeTerms,
+    Scatter,
+    ShearConstants,
+    terms_of,
+)
 from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
-from swtstudy.vocabulary.choices import CRITERIA, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
 from swtstudy.vocabulary.parameter import Parameter
@@ -151,7 +159,7 @@ class ContactDetails:
         if self.scatter is None or not kinds:
             return False
         torsion = bool(kinds[1:] and self.shear_materials)
-        return any(name.startswith(TORSION) == torsion for name in self.scatter.names)
+        return any(SCATTERED[name].torsion == torsion for name in self.scatter.names)
 
     def terms(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeTerms]:
         """Levels and slopes of both terms of the life of each body by a criterion, or of each draw."""
@@ -405,7 +413,7 @@ def _curvature(contact: Contact) -> float:
 
 def _rounded_face(contact: Contact) -> float:
     """Radius of a flat face with rounded edges, in a_H: beside it a/R is the slope; 0 without one."""
-    return contact.flat / contact.length_scale * (contact.profile in ("rounded_punch", "rounded_flat"))
+    return contact.flat / contact.length_scale * (contact.profile != SHARP)
 
 
 def _scalar(value: float) -> xr.DataArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -315,12 +315,23 @@ def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
     return stacked[..., :2], stacked[..., 2:]
 
 
+class Scattered(NamedTuple):
+    """A constant that may scatter: whether in torsion, its name in the constants, and its bodies, 0 and 1."""
+
+    torsion: bool
+    constant: str
+    bodies: tuple[int, ...]
+
+
 #: Constants that may scatter. The name of a constant in torsion begins with `TORSION`, the name of a constant
 #: of one body ends in `_1` or `_2`.
 CONSTANTS, TORSION = ("strength", "strength_exponent", "ductility", "ductility_exponent"), "shear_"
-SCATTERED = tuple(
-    f"{before}{name}{body}" for body in ("", "_1", "_2") for before in ("", TORSION) for name in CONSTANTS
-)
+SCATTERED = {
+    f"{TORSION * torsion}{name}{end}": Scattered(torsion, name, bodies)
+    for end, bodies in (("", (0, 1)), ("_1", (0,)), ("_2", (1,)))
+    for torsion in (False, True)
+    for name in CONSTANTS
+}
 
 
 @dataclass(frozen=True)
@@ -348,13 +359,13 @@ class Scatter:
 
         Shear constants that are estimated from tensile ones scatter in proportion to these.
         """
-        own = dict(zip(self.names, np.array(self.draws), strict=True))
         values = {name: np.full(len(self.draws[0]), value) for name, value in vars(constants).items()}
-        before = TORSION if isinstance(constants, ShearConstants) and tensile is None else ""
-        for name in CONSTANTS:
-            for key in {f"{before}{name}", f"{before}{name}_{body + 1}"} & {*own}:
+        in_torsion = isinstance(constants, ShearConstants) and tensile is None
+        for key, draws in zip(self.names, np.array(self.draws), strict=True):
+            torsion, name, bodies = SCATTERED[key]
+            if torsion == in_torsion and body in bodies:
                 ratio = getattr(constants, name) / getattr(tensile, name) if tensile else 1.0
-                values[name] = own[key] * ratio
+                values[name] = draws * ratio
         return terms_of(type(constants), values)
 
 
