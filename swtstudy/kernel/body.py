@@ -27,11 +27,11 @@ from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
 from swtstudy.kernel.history import write_stress
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.parts import MAX_INSTANTS, begin_parts, lay_parts, refine_marked
+from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, begin_parts, lay_parts, refine_marked
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, mark_highest, mark_unresolved
 
-#: Intervals of a part at first, and for the von Mises stress, whose largest value is that at the instants.
-COARSEST, OF_VON_MISES = np.array([4, 8])
+#: Intervals of a part for the von Mises stress, whose largest value is that at the instants.
+OF_VON_MISES = 2 * COARSEST
 #: If the singularity of the springs' field is farther from their line than this share of the contact, no
 #: passage of edge or front has a part of its own.
 DEEP = 0.25

@@ -21,14 +21,14 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel import INNERMOST, NEAREST
-from swtstudy.kernel.body import COARSEST, fill_circle, highest_here, largest_at
+from swtstudy.kernel.body import fill_circle, highest_here, largest_at
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
 from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.history import begin_history, write_stress
+from swtstudy.kernel.history import sample_cycle
 from swtstudy.kernel.load import has_bulk
-from swtstudy.kernel.parts import lay_parts
+from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.planes import above
 from swtstudy.kernel.profile import place_of
 
@@ -66,9 +66,7 @@ def begin_circle(D, H, C, R, P, K, L, Q):
     nu, square, bulk, total = Q.poisson_ratio, 0.0, 0.0, 0.0
     of_sum = (nu - 0.5) / (1.0 + nu)
     for number in range(2 if C.shift != 0.0 else 1):
-        begin_history(H, C, R, P, K, D.place, D.largest, 1.0 - 2.0 * number)
-        lay_parts(H, C, P, L, FIRST)
-        write_stress(H, C, P, L, K, Q)
+        sample_cycle(H, C, R, P, K, L, Q, D.place, D.largest, 1.0 - 2.0 * number, FIRST)
         for i in range(H.instants):
             xx, yy, q = H.xx[i], H.yy[i], H.q[i]
             w = of_sum * (xx + yy) - yy

@@ -24,7 +24,7 @@ from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import sample_cycle, write_stress
 from swtstudy.kernel.line import cusps, ends_group, resolve
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.parts import MAX_INSTANTS, MAX_PARTS, ROOM, refine
+from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, MAX_PARTS, ROOM, refine
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
 from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
@@ -220,7 +220,7 @@ def reach_of(N, Q, top, swing):
 @jit
 def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals, side):
     """Sample the cycle at place s on one side with so many intervals of each part."""
-    sample_cycle(H, C, R, P, K, L, Q, place, largest, side)
+    sample_cycle(H, C, R, P, K, L, Q, place, largest, side, COARSEST)
     sample_closely(H, C, P, K, L, Q, intervals)
     rank_parts(N, H, L)
 

@@ -3,7 +3,7 @@
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.criterion import lifted, swing_weights, value_of
 from swtstudy.kernel.history import sample_cycle, write_stress
-from swtstudy.kernel.parts import MAX_INSTANTS, ROOM, may_be_refined, refine
+from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, ROOM, may_be_refined, refine
 from swtstudy.kernel.planes import extremes, fill
 
 
@@ -26,7 +26,7 @@ def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, h
         for side in range(2):
             sign = 1.0 - 2.0 * side
             if side == 0 or C.shift != 0.0:
-                sample_cycle(H, C, R, P, K, L, Q, places[i], largest, sign)
+                sample_cycle(H, C, R, P, K, L, Q, places[i], largest, sign, COARSEST)
                 for _ in range(halved):
                     for z in range(H.parts):
                         if may_be_refined(H, C, z) and H.instants + 2 * ROOM < MAX_INSTANTS:

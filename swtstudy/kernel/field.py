@@ -7,7 +7,7 @@ import numpy as np
 from swtstudy.kernel.along import map_line, plane_at
 from swtstudy.kernel.batch import _refuse_overflow, chunks, memory
 from swtstudy.kernel.beneath import PLACE, edges, stress_field
-from swtstudy.kernel.body import COARSEST, HERE, OF_BODY, largest_at_places, von_mises_at_places
+from swtstudy.kernel.body import HERE, OF_BODY, largest_at_places, von_mises_at_places
 from swtstudy.kernel.chebyshev import FINEST
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
@@ -15,6 +15,7 @@ from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
 from swtstudy.kernel.line import MAX_SEEN
 from swtstudy.kernel.mean import CELLS, FIRST, mean_at
+from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of
 from swtstudy.kernel.shift import centre_of, shift_of

@@ -7,7 +7,7 @@ import numpy as np
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK
 from swtstudy.kernel.load import bulk_at
-from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, OF_PARTS, begin_parts, lay_parts
+from swtstudy.kernel.parts import MAX_INSTANTS, OF_PARTS, begin_parts, lay_parts
 from swtstudy.kernel.profile import force_at
 from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.surface import MAX_TABLES, hertz, running, strip_hertz, tabulate
@@ -144,7 +144,7 @@ def begin_history(H, C, R, P, K, place, largest, side):
 
 
 @jit
-def sample_cycle(H, C, R, P, K, L, Q, place, largest, side):
+def sample_cycle(H, C, R, P, K, L, Q, place, largest, side, coarsest):
     """All parts of the cycle at x, coarsely.
 
     Parameters
@@ -155,7 +155,9 @@ def sample_cycle(H, C, R, P, K, L, Q, place, largest, side):
         Place s of the largest contact.
     side
         1 or -1: towards which side x is, which matters where the stick zone is shifted.
+    coarsest
+        Intervals of a part.
     """
     begin_history(H, C, R, P, K, place, largest, side)
-    lay_parts(H, C, P, L, COARSEST)
+    lay_parts(H, C, P, L, coarsest)
     write_stress(H, C, P, L, K, Q)

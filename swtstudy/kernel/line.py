@@ -22,7 +22,7 @@ from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.criterion import CRITERION, FINDLEY, SWT, lift, set_criterion, value_of
 from swtstudy.kernel.history import FIRST, sample_cycle, write_stress
 from swtstudy.kernel.load import distinct, has_bulk
-from swtstudy.kernel.parts import refine_marked
+from swtstudy.kernel.parts import COARSEST, refine_marked
 from swtstudy.kernel.planes import (
     BETWEEN,
     MINUS_SWING,
@@ -244,7 +244,7 @@ def evaluate(S, point, place, plus, minus):
             continue
         sign = 1.0 - 2.0 * side
         if not sampled or C.shift != 0.0:
-            sample_cycle(H, C, R, P, K, L, Q, place, S.largest, sign)
+            sample_cycle(H, C, R, P, K, L, Q, place, S.largest, sign, COARSEST)
             sampled = True
         swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
         S.value[side] = swt

@@ -16,9 +16,10 @@ from math import acos, asin, cos, pi, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.body import COARSEST, PROOF, largest_at
+from swtstudy.kernel.body import PROOF, largest_at
 from swtstudy.kernel.chebyshev import gauss_legendre
 from swtstudy.kernel.compiled import fields, jit
+from swtstudy.kernel.parts import COARSEST
 
 #: Nodes of a cell in u and w, and Gauss's points of its integrals.
 NODES, FINE = 5, 8
