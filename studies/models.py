@@ -27,9 +27,9 @@ from swtstudy.kernel.compiled import jit, new_record, new_records
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.course import STATE, write_states, write_stress
 from swtstudy.kernel.criterion import lifted, swing_weights, value_of
+from swtstudy.kernel.cusps import cusps
 from swtstudy.kernel.dense import highest_on_planes
 from swtstudy.kernel.growth import lay_out
-from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import extremes, fill
 from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import place_of

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (
+    # The first line compiles most of the solver.
+    ("outcome", "elements", "inspected_forces", "beneath", "terminal"),
     ("cli",),
     ("counted_cycles",),
     ("critical_distance",),
@@ -38,6 +40,8 @@ TOGETHER = (
     ("trace",),
     ("validity",),
 )
+#: Most tests of these rooms compile nothing: one process runs them while another compiles.
+READING = ("study", "vocabulary", "loads", "profiles", "points")
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
 #: Examples in docstrings that take seconds.
@@ -104,6 +108,15 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         cases[test] += 1
         if item.name in LONG_EXAMPLES or (quick and cases[test] > quick.args[0]):
             item.add_marker(pytest.mark.slow)
+    items.sort(key=turn_of)
+
+
+def turn_of(item: pytest.Item) -> int:
+    """Which tests are run first: what compiles, what does not, what stays with one process, all others."""
+    if item.path.parent.name in READING and item.path.name not in GROUP_OF:
+        return 1
+    group = GROUP_OF.get(item.path.name)
+    return 3 if group is None else 0 if group == TOGETHER[0][0] else 2
 
 
 def pytest_collection() -> None:
@@ -122,6 +135,8 @@ def pytest_collection_finish() -> None:
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
     """Who runs what in two processes: the groups of pytest-xdist 3.8 are lost with pytest 9.2."""
     from xdist.scheduler import LoadScopeScheduling
+
+    config.option.loadscopereorder = False  # they are in order
 
     class Scheduling(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:

@@ -209,12 +209,13 @@ def cycle_shares(
     normals
         Shape (n, 3), of the planes; NaN where there is none.
     criterion, poisson_ratio, **parameters
-        As of `swtstudy.kernel.line.ask`. The shear stress counts along the longest chord of its path.
+        As of `swtstudy.kernel.criterion.ask`. The shear stress counts along the longest chord of its path.
     """
     from swtstudy.kernel.compiled import new_record
-    from swtstudy.kernel.cycles import COUNTING, count_cycles
+    from swtstudy.kernel.count import count_cycles
+    from swtstudy.kernel.criterion import ask
+    from swtstudy.kernel.cycles import COUNTING
     from swtstudy.kernel.field import curves_on_plane
-    from swtstudy.kernel.line import ask
 
     memory, own, found = new_record(COUNTING), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
     memory["points"] = count = stress.shape[1]

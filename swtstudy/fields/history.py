@@ -155,7 +155,7 @@ def _over_all_planes(
     """Largest value over all planes, times a factor, of histories (…, T, 6)."""
     # The kernel takes half a second to import, and what validates a study does without it.
     from swtstudy.kernel.all_planes import planes_of
-    from swtstudy.kernel.line import ask
+    from swtstudy.kernel.criterion import ask
 
     batch = history.shape[:-2]
     # Large powers of a stress leave the range of floats.

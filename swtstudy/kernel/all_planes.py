@@ -1,25 +1,24 @@
 """The critical plane of a stress history: largest value of the criterion over planes of every orientation.
 
-On the plane with the normal n the tension is T = max σ_n. The range of the swing is A = max w - min w of the
-normal strain w = (1+ν) σ_n - ν tr σ, or the longest chord of the path of the shear stress vector.
-
-Both are maxima, over instants or pairs of instants, of smooth functions of n. Along a great circle σ_n is a
-sinusoid of twice the angle. So is the component of a shear stress along a line that turns with the plane: its
-second derivative is at least -4 times itself, and its first one at most twice the largest shear of the
-change. So over twice the angle the bounds of `swtstudy.kernel.criterion.curvature_bound` hold with the
-largest √J2 of a stress, and of a change of it, and no slope of T is steeper than its height above 0 allows
-(`swtstudy.kernel.criterion.slope_bound`). In a triangle of normals the value is at most that of the
-plane through the values at its corners, plus what such a curvature adds. Triangles that may hold a higher
-value are cut in two, until there is none.
+The tension T and the range A of the swing (`swtstudy.kernel.on_plane`) are maxima, over instants or pairs of
+instants, of smooth functions of the normal n. Along a great circle σ_n is a sinusoid of twice the angle. So
+is the component of a shear stress along a line that turns with the plane: its second derivative is at least
+-4 times itself, and its first one at most twice the largest shear of the change. So over twice the angle the
+bounds of `swtstudy.kernel.criterion.curvature_bound` hold with the largest √J2 of a stress, and of a change
+of it, and no slope of T is steeper than its height above 0 allows (`swtstudy.kernel.criterion.slope_bound`).
+In a triangle of normals the value is at most that of the plane through the values at its corners, plus what
+such a curvature adds. Triangles that may hold a higher value are cut in two, until there is none.
 """
 
-from math import acos, cos, pi, sin, sqrt
+from math import sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import fields, jit, jit_reordered, new_record
-from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, partials, slope_bound, value_of
-from swtstudy.kernel.planes import NOISE, above, halve_top
+from swtstudy.kernel.climb import OF_J2, climb_from, climb_from_principal, largest_principal
+from swtstudy.kernel.compiled import fields, jit, new_record
+from swtstudy.kernel.criterion import SWT, curvature_bound, lifted, slope_bound, value_of
+from swtstudy.kernel.on_plane import longest_chord, set_path, tension_and_strain
+from swtstudy.kernel.planes import NOISE, above
 
 #: Rows of a history: xx, yy, zz, yz, xz, xy; ν tr σ or 0; two components of the shear stress on a plane.
 ROWS = 9
@@ -28,19 +27,10 @@ IN_ORDER = np.int64(60)
 MAX_TRIANGLES = 256
 #: Most planes of a search.
 MOST_PLANES = 200_000
-#: Lines in a plane along which a chord is looked for at first; it may be longer than along these.
-LINES = np.int64(8)
-BESIDE_LINES = 1.0 / np.cos(0.5 * np.pi / LINES)
-#: Tolerance of chords while climbing.
-CLIMBING = 1e-4
-#: Planes whose value is below this share of the best are not looked at more closely.
-NEAR = 0.9
 #: Tension below this share of the largest √J2 is none: a principal stress is no more exact.
 NO_TENSION = 1e-7
 #: Where tension is next to nothing, what counts is this share of the tolerance of the largest possible value.
 NEXT_TO_NOTHING = 1e-6
-#: Largest principal value of a deviator over √J2.
-OF_J2 = 2.0 / np.sqrt(3.0)
 PLANES = np.dtype(
     [
         ("normal", "f8", (3,)),  # of the best plane; before the search a guess, or 0
@@ -63,40 +53,6 @@ PLANES = np.dtype(
         ("waiting", "f8", (64, 4)),  # intervals of lines: angle, width of the path, step, width at its end
     ]
 )
-
-
-@jit
-def largest_principal(S, i):
-    """Largest principal stress of instant i."""
-    p = (S[0, i] + S[1, i] + S[2, i]) / 3.0
-    a, b, c = S[0, i] - p, S[1, i] - p, S[2, i] - p
-    yz, xz, xy = S[3, i], S[4, i], S[5, i]
-    j2 = 0.5 * (a * a + b * b + c * c) + yz * yz + xz * xz + xy * xy
-    if j2 <= 0.0:
-        return p
-    j3 = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz)
-    cosine = 1.5 * sqrt(3.0 / j2) * j3 / j2
-    return p + OF_J2 * sqrt(j2) * cos(acos(min(max(cosine, -1.0), 1.0)) / 3.0)
-
-
-@jit
-def climb_from_principal(G, S, m, Q):
-    """Climb from the plane of the largest principal stress: tension may be confined to a narrow cone.
-
-    The cofactors of σ - σ₁ are the products of the direction's components, times a factor.
-    """
-    i, top = G.instant, G.most[0]
-    a, b, c, yz, xz, xy = S[0, i] - top, S[1, i] - top, S[2, i] - top, S[3, i], S[4, i], S[5, i]
-    xx, yy, zz = b * c - yz * yz, a * c - xz * xz, a * b - xy * xy
-    yz, xz, xy = xy * xz - a * yz, xy * yz - b * xz, xz * yz - c * xy
-    x, y, z = xx, xy, xz
-    if yy >= xx and yy >= zz:
-        x, y, z = xy, yy, yz
-    elif zz >= xx:
-        x, y, z = xz, yz, zz
-    size = sqrt(x * x + y * y + z * z)
-    if size > 0.0:
-        climb_from(G, S, m, Q, x / size, y / size, z / size)
 
 
 @jit
@@ -144,103 +100,6 @@ def measure(G, S, m, Q):
         G.most[1] = OF_J2 * G.of_swing + (1.0 - 2.0 * nu) * (high - low)
 
 
-@jit_reordered
-def tension_and_strain(S, m, x, y, z, of_stress):
-    """T and A of the strain on a plane."""
-    a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
-    top, high, low = -1e300, -1e300, 1e300
-    for i in range(m):
-        s = a * S[0, i] + b * S[1, i] + c * S[2, i] + d * S[3, i] + e * S[4, i] + f * S[5, i]
-        w = of_stress * s - S[6, i]
-        top, high, low = max(top, s), max(high, w), min(low, w)
-    return top, high - low
-
-
-@jit_reordered
-def project(S, m, x, y, z, row, p, q, r):
-    """Write the shear stress on a plane along (p, q, r) into a row of S; returns the largest σ_n."""
-    a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
-    g, h, k, u, v, w = x * p, y * q, z * r, y * r + z * q, x * r + z * p, x * q + y * p
-    top = -1e300
-    for i in range(m):
-        xx, yy, zz, yz, xz, xy = S[0, i], S[1, i], S[2, i], S[3, i], S[4, i], S[5, i]
-        S[row, i] = g * xx + h * yy + k * zz + u * yz + v * xz + w * xy
-        top = max(top, a * xx + b * yy + c * zz + d * yz + e * xz + f * xy)
-    return top
-
-
-@jit_reordered
-def width(S, m, C, D):
-    """Extent of the path of the shear stress along the line (C, D)."""
-    low, high = 1e300, -1e300
-    for i in range(m):
-        along = C * S[7, i] + D * S[8, i]
-        low, high = min(low, along), max(high, along)
-    return high - low
-
-
-@jit
-def set_tangents(G, x, y, z):
-    """Write two unit vectors that are normal to n = (x, y, z) and to one another."""
-    if abs(z) < 0.9:
-        w = 1.0 / sqrt(x * x + y * y)
-        p, q, r = -y * w, x * w, 0.0
-    else:
-        w = 1.0 / sqrt(y * y + z * z)
-        p, q, r = 0.0, -z * w, y * w
-    G.tangent[0, 0], G.tangent[0, 1], G.tangent[0, 2] = p, q, r
-    G.tangent[1, 0], G.tangent[1, 1], G.tangent[1, 2] = y * r - z * q, z * p - x * r, x * q - y * p
-
-
-@jit
-def set_path(G, S, m, x, y, z):
-    """Write the path of the shear stress on a plane; returns the largest σ_n."""
-    set_tangents(G, x, y, z)
-    for k in range(2):
-        top = project(S, m, x, y, z, 7 + k, G.tangent[k, 0], G.tangent[k, 1], G.tangent[k, 2])
-    return top
-
-
-@jit
-def widest(G, S, m):
-    """Write the width of the path along evenly spaced lines; returns which is the largest."""
-    best, step = 0, pi / LINES
-    for k in range(LINES):
-        G.waiting[k, 0], G.waiting[k, 2] = step * k, step
-        G.waiting[k, 1] = width(S, m, cos(step * k), sin(step * k))
-        if G.waiting[k, 1] > G.waiting[best, 1]:
-            best = k
-    for k in range(LINES):
-        G.waiting[k, 3] = G.waiting[(k + 1) % LINES, 1]
-    return best
-
-
-@jit
-def longest_chord(G, S, m, Q, T, tolerance):
-    """Length of the longest chord of the path of the shear stress, from below and above.
-
-    A chord's length is the largest width of the path over lines in the plane, whose second derivative is at
-    least -1 times the width. Only where the criterion may exceed the limit do both agree to the tolerance.
-    """
-    k = widest(G, S, m)
-    G.line, best = G.waiting[k, 0], G.waiting[k, 1]
-    bound = BESIDE_LINES * best
-    if lifted(Q, T, bound, G.noise) <= NEAR * G.limit:
-        return best, bound
-    depth = LINES
-    while depth > 0:
-        row = G.waiting[depth - 1]
-        if above(row[1], row[3], bound * row[2] * row[2]) <= best * (1.0 + tolerance) or row[2] < 1e-6:
-            depth -= 1
-            continue
-        angle = row[0] + 0.5 * row[2]
-        f = width(S, m, cos(angle), sin(angle))
-        if f > best:
-            G.line, best = angle, f
-        depth = halve_top(G.waiting, depth, f)
-    return best, best * (1.0 + tolerance)
-
-
 @jit
 def look_at(G, S, m, Q, x, y, z, tolerance):
     """Write h, T and A of a plane, from above; returns h from below."""
@@ -263,163 +122,6 @@ def consider(G, S, m, Q, x, y, z, tolerance):
         G.best, G.limit = h, max(h, G.limit)
         G.normal[0], G.normal[1], G.normal[2] = x, y, z
         climb_from(G, S, m, Q, x, y, z)
-
-
-@jit
-def climb_from(G, S, m, Q, x, y, z):
-    """From a plane to a local maximum by turns: instants for the plane, plane for the instants."""
-    n, best = G.trial, -1.0
-    n[0], n[1], n[2] = x, y, z
-    for _ in range(20):
-        h = activate(G, S, m, Q)
-        if h > best:
-            G.kept[0], G.kept[1], G.kept[2] = n[0], n[1], n[2]
-        if h <= best * (1.0 + 1e-10):
-            best = max(best, h)
-            break
-        best = h
-        ascend(G, Q)
-    if best > G.best:
-        G.best, G.limit = best, max(best, G.limit)
-        G.normal[0], G.normal[1], G.normal[2] = G.kept[0], G.kept[1], G.kept[2]
-
-
-@jit
-def activate(G, S, m, Q):
-    """Write the tensors of σ_n and of the swing at the instants that count on a climb's plane; returns h."""
-    x, y, z = G.trial[0], G.trial[1], G.trial[2]
-    i0, i1, i2 = 0, 0, 0
-    if Q.criterion == SWT:
-        of_stress, of_swing = 1.0 + Q.poisson_ratio, 1.0 + Q.poisson_ratio
-        T, A = tension_and_strain(S, m, x, y, z, of_stress)
-    else:
-        of_stress, of_swing = 0.0, 1.0
-        T = set_path(G, S, m, x, y, z)
-        longest_chord(G, S, m, Q, T, CLIMBING)
-        C, D, A = cos(G.line), sin(G.line), -1.0
-        for _ in range(8):  # along a chord the path is no shorter than the chord
-            j1, j2 = ends_along(S, m, C, D)
-            p, q = S[7, j1] - S[7, j2], S[8, j1] - S[8, j2]
-            length = sqrt(p * p + q * q)
-            if length <= A:
-                break
-            A, i1, i2 = length, j1, j2
-            C, D = p / length, q / length
-        G.chord[0], G.chord[1] = C, D
-    a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
-    top, high, low = -1e300, -1e300, 1e300
-    for i in range(m):
-        s = a * S[0, i] + b * S[1, i] + c * S[2, i] + d * S[3, i] + e * S[4, i] + f * S[5, i]
-        w = of_stress * s - S[6, i]
-        if s > top:
-            top, i0 = s, i
-        if w > high and Q.criterion == SWT:
-            high, i1 = w, i
-        if w < low and Q.criterion == SWT:
-            low, i2 = w, i
-    turned = S[6, i1] - S[6, i2]
-    for k in range(6):
-        G.form[0, k] = S[k, i0]
-        G.form[1, k] = of_swing * (S[k, i1] - S[k, i2]) - (turned if k < 3 else 0.0)
-    return lifted(Q, T, A, G.noise)
-
-
-@jit
-def ends_along(S, m, C, D):
-    """The instants at which the path of the shear stress is farthest along a line, one way and the other."""
-    i1, i2, high, low = 0, 0, -1e300, 1e300
-    for i in range(m):
-        along = C * S[7, i] + D * S[8, i]
-        if along > high:
-            high, i1 = along, i
-        if along < low:
-            low, i2 = along, i
-    return i1, i2
-
-
-@jit
-def bilinear(F, u, v):
-    """uᵀ F v."""
-    return (
-        F[0] * u[0] * v[0]
-        + F[1] * u[1] * v[1]
-        + F[2] * u[2] * v[2]
-        + F[3] * (u[1] * v[2] + u[2] * v[1])
-        + F[4] * (u[0] * v[2] + u[2] * v[0])
-        + F[5] * (u[0] * v[1] + u[1] * v[0])
-    )
-
-
-@jit
-def set_jet(F, n, p, q, J):
-    """Write nᵀ F n and its two derivatives along the great circles of p and q."""
-    J[0], J[1], J[2] = bilinear(F, n, n), 2.0 * bilinear(F, n, p), 2.0 * bilinear(F, n, q)
-    J[3], J[4] = 2.0 * (bilinear(F, p, p) - J[0]), 2.0 * (bilinear(F, q, q) - J[0])
-    J[5] = 2.0 * bilinear(F, p, q)
-
-
-@jit
-def set_square(F, E):
-    """Write the square of a tensor."""
-    E[0] = F[0] * F[0] + F[5] * F[5] + F[4] * F[4]
-    E[1] = F[5] * F[5] + F[1] * F[1] + F[3] * F[3]
-    E[2] = F[4] * F[4] + F[3] * F[3] + F[2] * F[2]
-    E[3] = F[5] * F[4] + F[1] * F[3] + F[3] * F[2]
-    E[4] = F[0] * F[4] + F[5] * F[3] + F[4] * F[2]
-    E[5] = F[0] * F[5] + F[5] * F[1] + F[4] * F[3]
-
-
-@jit
-def set_shear_jet(N, E):
-    """Make the jet of |F n - n nᵀ F n| from the jets of nᵀ F n and nᵀ F² n, which replaces the first one."""
-    square = max(E[0] - N[0] * N[0], 1e-24 * E[0] + 1e-300)
-    a = sqrt(square)
-    d1, d2 = 0.5 * (E[1] - 2.0 * N[0] * N[1]) / a, 0.5 * (E[2] - 2.0 * N[0] * N[2]) / a
-    d11 = (0.5 * E[3] - N[1] * N[1] - N[0] * N[3] - d1 * d1) / a
-    d22 = (0.5 * E[4] - N[2] * N[2] - N[0] * N[4] - d2 * d2) / a
-    d12 = (0.5 * E[5] - N[1] * N[2] - N[0] * N[5] - d1 * d2) / a
-    N[0], N[1], N[2], N[3], N[4], N[5] = a, d1, d2, d11, d22, d12
-
-
-@jit
-def ascend(G, Q):
-    """Newton's method for ln h over the planes, from the climb's plane, with the instants as they are."""
-    n, p, q, J, K = G.trial, G.tangent[0], G.tangent[1], G.jet[0], G.jet[1]
-    for _ in range(8):
-        set_tangents(G, n[0], n[1], n[2])
-        set_jet(G.form[0], n, p, q, J)
-        set_jet(G.form[1], n, p, q, K)
-        if Q.criterion != SWT:
-            set_square(G.form[1], G.form[2])
-            set_jet(G.form[2], n, p, q, G.jet[2])
-            set_shear_jet(K, G.jet[2])
-        h = lifted(Q, J[0], K[0], G.noise)
-        of_T, of_A, of_TT, of_TA, of_AA = partials(Q, J[0], K[0])
-        g1, g2 = h * (of_T * J[1] + of_A * K[1]), h * (of_T * J[2] + of_A * K[2])
-        for k in range(3):
-            i, j = (2 if k == 1 else 1), (1 if k == 0 else 2)
-            both = of_TT * J[i] * J[j] + of_TA * (J[i] * K[j] + J[j] * K[i]) + of_AA * K[i] * K[j]
-            G.bend[k] = h * (both + of_T * J[3 + k] + of_A * K[3 + k])
-            G.bend[k] -= (of_T * J[i] + of_A * K[i]) * (of_T * J[j] + of_A * K[j])
-        h11, h22, h12 = G.bend[0], G.bend[1], G.bend[2]
-        det = h11 * h22 - h12 * h12
-        size = sqrt(g1 * g1 + g2 * g2)
-        if h11 < 0.0 and det > 0.0:
-            a, b = (g2 * h12 - g1 * h22) / det, (g1 * h12 - g2 * h11) / det
-        elif size > 0.0:
-            a, b = 0.2 * g1 / size, 0.2 * g2 / size
-        else:
-            return
-        step = sqrt(a * a + b * b)
-        if step > 0.3:
-            a, b = 0.3 * a / step, 0.3 * b / step
-        for c in range(3):
-            n[c] += a * p[c] + b * q[c]
-        shrink = 1.0 / sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2])
-        for c in range(3):
-            n[c] *= shrink
-        if step < 1e-6:
-            return
 
 
 @jit
@@ -578,7 +280,7 @@ def planes_of(histories, Q, tolerance):
     histories
         Shape (n, m, 6).
     Q
-        Record of `swtstudy.kernel.line.ASK`.
+        Record of `swtstudy.kernel.criterion.ASK`.
     tolerance
         Relative, of h.
 

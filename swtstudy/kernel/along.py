@@ -2,18 +2,10 @@
 
 from math import sqrt
 
+from swtstudy.kernel.at_place import ASKED, MAX_SEEN, evaluate
 from swtstudy.kernel.compiled import jit
 from swtstudy.kernel.history import FIRST
-from swtstudy.kernel.line import (
-    ASKED,
-    MAX_INTERVALS,
-    MAX_SEEN,
-    MOST_POSITIONS,
-    begin_search,
-    bound_of,
-    cut,
-    evaluate,
-)
+from swtstudy.kernel.line import MAX_INTERVALS, MOST_POSITIONS, begin_search, bound_of, cut
 
 #: A lower value may hide between two places, by this share of the values there.
 MAPPED = 5e-3

@@ -9,24 +9,16 @@ from math import cos, sin, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.all_planes import (
-    NO_TENSION,
-    PLANES,
-    ROWS,
-    activate,
-    climb_from,
-    highest_plane,
-    measure,
-    project,
-    strain_factor,
-)
+from swtstudy.kernel.all_planes import NO_TENSION, PLANES, ROWS, highest_plane, measure, strain_factor
 from swtstudy.kernel.beneath import PLACE, open_place, stress_of_state
 from swtstudy.kernel.chebyshev import barycentric
+from swtstudy.kernel.climb import activate, climb_from
 from swtstudy.kernel.compiled import fields, jit, jit_reordered
 from swtstudy.kernel.contact import NONE
 from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
 from swtstudy.kernel.history import write_stress
 from swtstudy.kernel.load import bulk_at
+from swtstudy.kernel.on_plane import project
 from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, begin_parts, lay_parts, refine_marked
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, find_peaks, mark_highest, mark_unresolved
 
@@ -171,8 +163,8 @@ def add_peaks(S, H, W):
 def settle_place(body, tolerance):
     """Double parts that may hide a higher value on the best plane, until none does; returns h there.
 
-    Values above a limit are confirmed as on the line (`swtstudy.kernel.line.resolve`), on the plane of the
-    maxima between the instants.
+    Values above a limit are confirmed as on the line (`swtstudy.kernel.at_place.resolve`), on the plane of
+    the maxima between the instants.
     """
     S, B, H, W, G, C, R, P, K, L, Q = body
     h = value_on_plane(S, H, W, G, Q)

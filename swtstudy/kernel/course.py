@@ -2,11 +2,11 @@
 
 import numpy as np
 
+from swtstudy.kernel.at_place import ASKED, evaluate
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import OPEN, offset, piece_at
 from swtstudy.kernel.growth import coordinates_at, find_stretch
 from swtstudy.kernel.history import begin_history, stress
-from swtstudy.kernel.line import ASKED, evaluate
 from swtstudy.kernel.load import bulk_at, load_at
 from swtstudy.kernel.parts import split
 from swtstudy.kernel.profile import coordinate_at, place_of

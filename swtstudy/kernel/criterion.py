@@ -16,7 +16,7 @@ from math import acos, atan2, hypot, pi, sqrt
 
 import numpy as np
 
-from swtstudy.kernel.compiled import fields, jit
+from swtstudy.kernel.compiled import fields, jit, new_record
 
 SWT, FATEMI_SOCIE, FINDLEY = np.arange(3)
 NAMES = ("swt", "fatemi_socie", "findley")
@@ -26,6 +26,20 @@ CRITERION = [
     ("of_swing", "i8"),  # 1: h = T A^m, 0: h = A T^m
     *fields("f8", "power outer factor"),  # m; value = factor · h^outer
 ]
+
+ASK = np.dtype(
+    [
+        *fields("f8", "poisson_ratio friction"),
+        ("pulled", "f8"),  # strain of the body with the bulk stress over the mean of both
+        *CRITERION,
+        # Relative tolerances of the search along the line, the series over time, the search over planes,
+        # and the series of dv/dn.
+        *fields("f8", "line time plane growth"),
+        ("near", "f8"),  # positions below this share of the best are not looked at closer
+    ]
+)
+#: Positions with a value, or a bound over planes, below this share of the best are not looked at closer.
+NEAR = 0.9
 
 
 def set_criterion(record, name, poisson_ratio, walker_exponent=0.5, normal_sensitivity=0.0):
@@ -47,6 +61,19 @@ def set_criterion(record, name, poisson_ratio, walker_exponent=0.5, normal_sensi
         record["power"] = max(ratio, 1.0 / ratio)
         record["outer"] = min(2.0 * gamma, 2.0 - 2.0 * gamma)
         record["factor"] = 0.5 ** (2.0 * gamma) / (1.0 - poisson_ratio**2)
+
+
+def ask(
+    poisson_ratio, friction, rtol, criterion="swt", walker_exponent=0.5, normal_sensitivity=0.0, pulled=1.0
+):
+    """Bodies, criterion and tolerances."""
+    record = new_record(ASK)
+    record["poisson_ratio"], record["friction"], record["pulled"] = poisson_ratio, friction, pulled
+    set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
+    record["line"], record["time"] = 0.45 * rtol, 0.25 * rtol
+    record["plane"] = record["growth"] = 0.1 * rtol
+    record["near"] = NEAR
+    return record
 
 
 @jit

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from swtstudy.kernel.along import map_line, plane_at
+from swtstudy.kernel.at_place import MAX_SEEN
 from swtstudy.kernel.batch import _refuse_overflow, chunks, memory
 from swtstudy.kernel.beneath import PLACE, edges, stress_field
 from swtstudy.kernel.body import HERE, OF_BODY, largest_at_places, von_mises_at_places
@@ -13,7 +14,6 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import MAX_SEEN
 from swtstudy.kernel.mean import CELLS, FIRST, mean_at
 from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.point import OF_POINT

@@ -12,49 +12,21 @@ an angle makes root cusps at its ends smooth. The interval with the highest boun
 exceeds the best value by more than the tolerance; what is left is the error.
 """
 
-from math import cos, exp, pi, sin, sqrt
+from math import cos, pi, sqrt
 
 import numpy as np
 
-from swtstudy.kernel import INNERMOST
-from swtstudy.kernel.compiled import fields, jit, new_record
+from swtstudy.kernel.at_place import ASKED, MAX_SEEN, evaluate
+from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
-from swtstudy.kernel.criterion import CRITERION, FINDLEY, SWT, lift, set_criterion, value_of
-from swtstudy.kernel.history import FIRST, sample_cycle, write_stress
-from swtstudy.kernel.load import distinct, has_bulk
-from swtstudy.kernel.parts import COARSEST, refine_marked
-from swtstudy.kernel.planes import (
-    BETWEEN,
-    MINUS_SWING,
-    STEP,
-    STRESS,
-    SWING,
-    above,
-    climb,
-    fill,
-    find_peaks,
-    higher_plane,
-    mark_highest,
-    mark_unresolved,
-    survey_planes,
-)
+from swtstudy.kernel.cusps import GROUPS, cusps, ends_group
+from swtstudy.kernel.history import FIRST
+from swtstudy.kernel.planes import above
 from swtstudy.kernel.profile import place_of
-from swtstudy.kernel.shift import centre_of
 
-MAX_INTERVALS, MAX_SEEN = 65_543, 24_001
+MAX_INTERVALS = 65_543
 #: A search ends after so many positions.
 MOST_POSITIONS = 20_000
-ASK = np.dtype(
-    [
-        *fields("f8", "poisson_ratio friction"),
-        ("pulled", "f8"),  # strain of the body with the bulk stress over the mean of both
-        *CRITERION,
-        # Relative tolerances of the search along the line, the series over time, the search over planes,
-        # and the series of dv/dn.
-        *fields("f8", "line time plane growth"),
-        ("near", "f8"),  # positions below this share of the best are not looked at closer
-    ]
-)
 SEARCH = np.dtype(
     [
         ("cusp", "f8", (14 * MAX_STRETCHES,)),
@@ -81,12 +53,6 @@ SEARCH = np.dtype(
         *fields("f8", "bound rise", (MAX_INTERVALS,)),
     ]
 )
-#: Most rounds in which parts of a cycle are doubled.
-ROUNDS = 12
-#: A side that is asked for; no literal, for which Numba would compile anew.
-ASKED = np.bool_(True)
-#: Positions with a value, or a bound over planes, below this share of the best are not looked at closer.
-NEAR = 0.9
 #: Bound of K w² of a piece of the line at first, in its values or their range; of twice the third difference
 #: later on: that may change the second difference by four times as much.
 TRUST = 8.0
@@ -94,8 +60,6 @@ TRUST = 8.0
 MEMORY = 0.25
 #: Wider pieces, as a share of the largest contact, may have a turn of the growth within.
 NARROW = 1e-3
-#: With more than twice as many pieces these are looked at in so many groups at first.
-GROUPS = 48
 #: Values within a width w of many cusps, spread over d, are higher than at its ends by this times √(w/d) at
 #: most, and by this times what is seen in a group.
 RISE = 4.0
@@ -105,158 +69,6 @@ HIGH, BESIDE, FINEST_ANGLE = 0.99, 0.25, 1e-6
 #: Largest ratio of the lengths of two pieces beside each other, where it matters, and of the ends of a piece
 #: next to a singular edge that is not spaced in ln s.
 GRADED = 20.0
-
-
-#: Ends of pieces outside of the contact, in its radii: so many first ones without a stress that reaches far.
-BEYOND, NEARBY = np.array([1.3, 4.0, 12.0, 40.0]), np.int64(2)
-#: Friction from which a contact may have its maximum at the singular edge of a face.
-TEARING = 0.8
-
-
-def ask(
-    poisson_ratio, friction, rtol, criterion="swt", walker_exponent=0.5, normal_sensitivity=0.0, pulled=1.0
-):
-    """Bodies, criterion and tolerances."""
-    record = new_record(ASK)
-    record["poisson_ratio"], record["friction"], record["pulled"] = poisson_ratio, friction, pulled
-    set_criterion(record, criterion, poisson_ratio, walker_exponent, normal_sensitivity)
-    record["line"], record["time"] = 0.45 * rtol, 0.25 * rtol
-    record["plane"] = record["growth"] = 0.1 * rtol
-    record["near"] = NEAR
-    return record
-
-
-@jit
-def put(z, m, value):
-    """Append a value to the first m of z, if there is room; returns how many there are now."""
-    if m < z.shape[0]:
-        z[m] = value
-    return min(m + 1, z.shape[0])
-
-
-@jit
-def put_zone(z, m, C, P, largest, s):
-    """Append the end of a stick zone of size s, or both ends if its centre is not the contact's."""
-    off = abs(centre_of(P, C.shift, C.largest, largest, s))
-    m = put(z, m, s + off)
-    return put(z, m, max(abs(s - off), INNERMOST * largest)) if off > 0.0 else m
-
-
-@jit
-def cusps(S, C, P, L, Q, largest):
-    """Write the sorted ends of the pieces of the line, places s; returns how many."""
-    z, b = S.cusp, P.flat_radius
-    radius = sqrt(b * b + largest * largest)
-    m = put(z, 0, INNERMOST * largest)
-    if P.singular and Q.friction >= TEARING:
-        # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
-        L_edge = 4.0
-        while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
-            m = put(z, m, b * sqrt(2.0) * exp(-0.5 * L_edge))
-            L_edge *= 2.0
-    anywhere = Q.criterion != SWT or has_bulk(L)  # places in mere pressure, and far outside of the contact
-    if anywhere and b > 0.0:
-        m = put(z, m, -b * (1.0 - INNERMOST))
-    if anywhere:
-        m = put(z, m, 2.0 * largest - place_of(P, C.smallest))
-    for k in range(BEYOND.shape[0] if anywhere else NEARBY):
-        m = put(z, m, sqrt(BEYOND[k] * BEYOND[k] * radius * radius - b * b))
-    for j in range(1, min(int(largest / P.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
-        m = put(z, m, j * P.longest)
-    for k in range(C.stretches):
-        for e in range(2):
-            for G in (C.edge[k, e], C.front[k, e]):
-                if G > 0.0:
-                    m = put_zone(z, m, C, P, largest, place_of(P, G))
-    for i in range(C.pieces):
-        if C.used[i] and C.start_s[i] > 0.0:
-            m = put_zone(z, m, C, P, largest, C.start_s[i])
-    return distinct(z, m, 1e-14 * largest)
-
-
-@jit
-def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
-    """Double the parts of the cycle that may hide a higher value on the critical plane, until none does.
-
-    A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
-    it stays. Returns swt and 2θ.
-    """
-    for _ in range(ROUNDS):
-        Ct, St = cos(angle), sin(angle)
-        find_peaks(H, W, Q, Ct, St)
-        doubled, most, _ = mark_unresolved(H, W, C, Q, Ct, St, Q.time)
-        confirming = doubled == 0 and swt > (1.0 - Q.line) * best
-        if confirming:
-            doubled = mark_highest(H, W, C)
-        if swt * (1.0 + 2.0 * most) < Q.near * best or not refine_marked(H, C, P, L, doubled):
-            break
-        write_stress(H, C, P, L, K, Q)
-        fill(H, W, side, Q)
-        before = swt
-        h, angle = climb(H, W, Q, angle, Q.plane)
-        swt = value_of(Q, h)
-        if confirming and abs(swt - before) <= Q.time * swt:
-            break
-    return swt, angle
-
-
-@jit
-def swt_at(S, H, W, C, P, K, L, Q, side):
-    """swt of the sampled cycle at side · x, and 2θ of its plane: rough where it cannot matter."""
-    floor = Q.near * S.best
-    first, bound = survey_planes(H, W, Q, side)
-    if value_of(Q, bound) < floor or W.value[first] <= 0.0:
-        return value_of(Q, W.value[first]), STEP * first
-    h, angle = climb(H, W, Q, STEP * first, Q.plane)
-    swt = value_of(Q, h)
-    for _ in range(4):
-        instants = H.instants
-        swt, angle = resolve(H, W, C, P, K, L, side, swt, angle, Q, S.best)
-        if swt < floor:
-            return swt, angle
-        if H.instants > instants:
-            survey_planes(H, W, Q, side)
-        known = lift(Q, swt)
-        h, other = higher_plane(H, W, Q, known, Q.plane, swt > (1.0 - BETWEEN) * S.best)
-        if h <= known:
-            break
-        h, other = climb(H, W, Q, other, Q.plane)
-        if h <= known:
-            break
-        swt, angle = value_of(Q, h), other
-    return swt, angle
-
-
-@jit
-def evaluate(S, point, place, plus, minus):
-    """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
-    H, W, C, R, P, K, L, Q = point
-    number = min(S.positions, MAX_SEEN - 1)
-    S.positions += 1
-    S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
-    sampled = False
-    for side in range(2):
-        if side == 1 and L.mirrored:
-            S.value[1] = S.value[0]
-            continue
-        S.value[side] = 0.0
-        if (side == 0 and not plus) or (side == 1 and not minus):
-            continue
-        sign = 1.0 - 2.0 * side
-        if not sampled or C.shift != 0.0:
-            sample_cycle(H, C, R, P, K, L, Q, place, S.largest, sign, COARSEST)
-            sampled = True
-        swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
-        S.value[side] = swt
-        S.seen_value[number, side], S.seen_angle[number, side] = swt, angle
-        if swt > S.best:
-            S.best, S.place, S.sign, S.angle = swt, place, sign, angle
-            find_peaks(H, W, Q, cos(angle), sin(angle))
-            S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
-            if Q.criterion == SWT:
-                S.tension = min(S.tension, W.top[STRESS])
-            elif Q.criterion == FINDLEY:
-                S.tension = max(S.tension, Q.sensitivity * W.top[STRESS])
 
 
 @jit
@@ -369,14 +181,6 @@ def divide(S, point, k, limit):
     S.intervals += 1
     grade(S, point, k)
     grade(S, point, m)
-
-
-@jit
-def ends_group(S, j, last, largest):
-    """True if cusp j of last + 1 ends a group of pieces: each if there are few, or a long piece ends."""
-    step = max(last // GROUPS, 1) if last > 2 * GROUPS else 1
-    gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
-    return j % step == 0 or j == last or GROUPS * gap > largest
 
 
 @jit

@@ -4,14 +4,14 @@ from math import nan, sqrt
 
 import numpy as np
 
-from swtstudy.kernel import NEAREST
+from swtstudy.kernel import INNERMOST, NEAREST
 from swtstudy.kernel.circle import beside_singular_edge, needs_circle
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import INNERMOST, SEARCH, search_line
+from swtstudy.kernel.line import SEARCH, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, load_at
 from swtstudy.kernel.planes import NOISE, WORK
 from swtstudy.kernel.profile import place_of

@@ -9,8 +9,8 @@ import numpy as np
 from swtstudy.kernel.batch import OF_PROFILE
 from swtstudy.kernel.compiled import new_record, new_records
 from swtstudy.kernel.course import STATE, write_parts, write_springs, write_states, write_stress, write_values
+from swtstudy.kernel.cusps import cusps
 from swtstudy.kernel.field import open_cycle
-from swtstudy.kernel.line import cusps
 from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of

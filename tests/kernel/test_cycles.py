@@ -10,7 +10,7 @@ from swtstudy import LoadPath
 from swtstudy.kernel import cycles
 from swtstudy.kernel.batch import count_batch
 from swtstudy.kernel.compiled import new_record
-from swtstudy.kernel.line import ask
+from swtstudy.kernel.criterion import ask
 
 pytestmark = pytest.mark.xdist_group("kernel")
 ROOM = new_record(cycles.COUNTING)
