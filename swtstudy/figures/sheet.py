@@ -14,6 +14,7 @@ from typing import Any, Literal
 import matplotlib.figure
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
 from matplotlib.legend_handler import HandlerLine2D
@@ -164,6 +165,7 @@ def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
     pad = 0.06 if width is None else 0.03
     layout = ConstrainedLayoutEngine(w_pad=pad, h_pad=pad, wspace=0.05 if width is None else 0.03)
     figure = Figure(size, layout=layout)
+    FigureCanvasAgg(figure)  # keeps the sizes of texts: without it each is measured anew
     figure.width = width
     return figure
 
