@@ -35,7 +35,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES, PARAMETERS, STRAIN_SHARE
-from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.quantities import YIELD, Request
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -61,10 +61,13 @@ def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
     return "depth" if "normal_amplitude" in given else "normal_force"
 
 
-def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[str, float]:
-    """Factors of the columns of measured loads, unless they are given: the columns are loads themselves.
+def implied_amplitudes(
+    given: Collection[str], loads: Sequence[Value], profiles: Iterable[object]
+) -> dict[str, float]:
+    """Amplitudes that contacts have unless they are given.
 
-    Forces, if not told otherwise; beside a depth also a displacement.
+    The columns of measured loads are loads themselves: forces, if not told otherwise; beside a depth also a
+    displacement. The normal load of a plane contact is constant.
     """
     found: dict[str, float] = {}
     if are_measured(loads):
@@ -73,6 +76,8 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
         if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
+    elif NORMAL_AMPLITUDES.isdisjoint({*given, *scaling_of(loads)}) and any(map(is_plane, profiles)):
+        found["normal_force_amplitude"] = 0.0
     return found
 
 
@@ -81,12 +86,6 @@ def scaling_of(loads: Iterable[Value]) -> set[str]:
     names, loops = amplitudes_of(loads), [load for load in loads if isinstance(load, Loop)]
     constant = bool(loops) and all(load.normal_ends == (0.0, 0.0) for load in loops)
     return names - {"normal_amplitude"} if constant else names
-
-
-def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
-    """A constant normal load of plane contacts, unless something is said of it."""
-    silent = NORMAL_AMPLITUDES.isdisjoint(given)
-    return {"normal_force_amplitude": 0.0} if silent and any(map(is_plane, profiles)) else {}
 
 
 def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) -> Units:
@@ -169,6 +168,18 @@ class ContactDetails:
         estimated = bool(CRITERIA[criterion].constants[1:]) and not self.shear_materials
         tensile = self.materials if estimated else (None, None)
         return [self.scatter.terms(each, body, tensile[body]) for body, each in enumerate(constants)]
+
+    @property
+    def has_lives(self) -> bool:
+        """True if there are constants of a life."""
+        return bool(self.materials or self.shear_materials)
+
+    def request(
+        self, names: Iterable[str], distances: tuple[float, ...] = (), is_axis: bool = False
+    ) -> Request:
+        """A request for these quantities, and for those that strengths and lives need."""
+        needed = (YIELD,) if self.yield_strengths else ()
+        return Request(tuple(dict.fromkeys((*names, *needed))), distances, is_axis, self.has_lives)
 
     @property
     def target_life(self) -> float:
@@ -325,11 +336,9 @@ class PhysicalGrid(ContactDetails, Grid):
                     found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
             # κ over k: the unit of stress over the strength of the body, or 1 where that does not count.
-            one, two = (self.each(SCALES["E* δ0/a_H"].of) / strength for strength in self.yield_strengths)
+            unit = self.of_bodies(lambda contact, body: contact.stress_scale / self.yield_strengths[body])
             is_ours = np.array([bool(CRITERIA[str(each)].normal_unit) for each in self.values("criterion")])
-            scale_of_k = one.where(self.bodies == 0, two).where(
-                self.over_dimension("criterion", is_ours), 1.0
-            )
+            scale_of_k = unit.where(self.over_dimension("criterion", is_ours), 1.0)
             found["normal_sensitivity"] = found["normal_sensitivity"] * scale_of_k
         if self.values("bulk_stress_ratio"):
             ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from swtstudy.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number, refused
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
@@ -21,15 +21,6 @@ from swtstudy.vocabulary.quantities import COUNTED_SIZES
 _STEPS, _ROUNDING = 60, 1e-9
 #: Levels and slopes of both terms of a life over the logarithm of 2N: of shape (2,), or (n, 2) for n draws.
 LifeTerms = tuple[FloatArray, FloatArray]
-#: Words for the basis of a life, in comments of data variables.
-ROUNDS = (
-    "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
-    "counted in a round"
-)
-UNCOUNTED = (
-    "rounds of the load to the initiation of a crack, uncounted: as if each had one strain cycle; where it "
-    "has more the life is too long"
-)
 
 
 class _Constants:
@@ -38,9 +29,7 @@ class _Constants:
     def __post_init__(self) -> None:
         report = Report()
         for name, value in vars(self).items():
-            negative = name.endswith("exponent")
-            allowed = "a negative number" if negative else "a positive number"
-            report += wrong_size(name, value, allowed, -1.0 if negative else 1.0)
+            report += wrong_size(name, value)
         report.refuse()
         for name, value in vars(self).items():
             object.__setattr__(self, name, plain_number(value))
@@ -145,32 +134,33 @@ def rounds(level: FloatArray, slopes: FloatArray, value: Any, counted: Any, numb
     """See `FatigueConstants.rounds`: of terms of a strength, and a value that has a name."""
     import xarray as xr
 
+    terms = level, slopes
     if not isinstance(value, xr.DataArray):
-        return lives(level, slopes, not_negative(name, value), np.asarray(counted), np.asarray(number))
+        return lives(terms, not_negative(name, value), (np.asarray(counted), np.asarray(number)))
     dims = (*value.dims, *COUNTED_SIZES)
-    both = (each.broadcast_like(value).transpose(*dims).values for each in (counted, number))
-    return value.copy(data=lives(level, slopes, not_negative(name, value.values), *both))
+    both = [each.broadcast_like(value).transpose(*dims).values for each in (counted, number)]
+    return value.copy(data=lives(terms, not_negative(name, value.values), both))
 
 
-def lives(level: FloatArray, slopes: FloatArray, value: FloatArray, *counted: FloatArray) -> FloatArray:
+def lives(terms: LifeTerms, value: FloatArray, counted: Sequence[FloatArray] = ()) -> FloatArray:
     """Rounds of the load to the initiation of a crack, see `FatigueConstants.rounds`.
 
     Parameters
     ----------
-    level, slopes
+    terms
         Both terms of the strength over the logarithm of 2N, shape (2,), or (n, 2) for n draws of constants.
     value
         Values ≥ 0 of the criterion, of any shape.
     counted
-        None, or the ratios of counted cycles to the value, and their numbers, along two more axes.
+        Nothing, or the ratios of counted cycles to the value, and their numbers, along two more axes.
 
     Returns
     -------
     array
         Shape: the draws' shape, then the shape of ``value``.
     """
-    of_draws = level.shape[:-1]
-    level, slopes, flat = level[..., None, :], slopes[..., None, :], value.reshape(-1)
+    of_draws = terms[0].shape[:-1]
+    level, slopes, flat = terms[0][..., None, :], terms[1][..., None, :], value.reshape(-1)
     found = life(level, slopes, flat)
     if counted:
         shape = (*value.shape, *counted[0].shape[-2:])
@@ -245,7 +235,7 @@ class ShearConstants(_Constants):
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
         """Estimate them from tensile constants: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
         if not -1.0 < plain_number(poisson_ratio) <= 0.5:
-            raise StudyError([Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")])
+            raise refused("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")
         root = math.sqrt(3.0)
         return cls(
             tensile.young_modulus / (2.0 + 2.0 * plain_number(poisson_ratio)),
@@ -401,8 +391,7 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tup
     """
     known, report = list(map(str, loads)), Report()
     if not isinstance(rounds, Mapping):
-        report("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
-        report.refuse()
+        raise refused("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
     report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
         report += wrong_rounds(number, f"blocks.{name}")

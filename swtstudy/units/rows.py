@@ -52,6 +52,11 @@ class Units:
         """Label of a unit: of length, force, stress, or work."""
         return f"{self.force} {self.length}".strip() if kind == "work" else str(getattr(self, kind))
 
+    def words(self, kind: str) -> str:
+        """Label of a unit, or words for one without a label; other kinds of numbers as they are."""
+        has_unit = kind in (*UNIT_KINDS, "work")
+        return self.label(kind) or f"unit of {kind}" if has_unit else kind
+
 
 @dataclass(frozen=True)
 class LineUnits(Units):
@@ -121,9 +126,14 @@ def _likely_units(kind: str, label: str) -> list[str]:
 SMALLEST, LARGEST = 1e-100, 1e100
 
 
-def wrong_size(name: str, value: object, allowed: str, sign: float = 1.0) -> list[Mistake]:
-    """The mistake of a value that is no number of this sign, or of no size that can be computed with."""
-    number = sign * plain_number(value)
+def wrong_size(name: str, value: object, allowed: str = "") -> list[Mistake]:
+    """The mistake of a value that has the wrong sign, or no size that can be computed with.
+
+    Exponents are negative, and all others positive.
+    """
+    negative = name.endswith("exponent")
+    number = -plain_number(value) if negative else plain_number(value)
+    allowed = allowed or f"a {'negative' if negative else 'positive'} number"
     if SMALLEST <= number <= LARGEST:
         return []
     if number > 0.0:
@@ -209,20 +219,10 @@ def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
 
 def rows(units: Units) -> dict[str, Parameter]:
     """The rows by name, for every parameter, the critical distance, and sizes of the contact."""
-    ratio: dict[str, Any] = {
-        "lower": -LARGEST,
-        "upper": 1.0 - 1e-9,
-        "words": "a number below 1: the least over the largest; of stresses that press bulk_stress_mean",
-    }
-    body: dict[str, Any] = {"lower": 1.0, "upper": 2.0, "open_lower": False, "words": "1 or 2"}
-    own: dict[str, Parameter] = {
-        name: replace(CONTACT_AXES[name], **changes)
-        for name, changes in (("bulk_stress_ratio", ratio), ("body", body))
-    }
     # The share of the strain follows from the moduli.
-    parameters = [name for name in PARAMETERS if name != STRAIN_SHARE]
-    names = [*CONTACT_AXES, *parameters, *(name for name, row in QUANTITY_AXES.items() if row.kind != "name")]
-    return {name: own.get(name) or _row(AXES[name], units) for name in names}
+    names = [*CONTACT_AXES, *(name for name in PARAMETERS if name != STRAIN_SHARE)]
+    names += [name for name, row in QUANTITY_AXES.items() if row.kind != "name"]
+    return {name: _row(AXES[name], units) for name in names}
 
 
 def kind_of(name: str) -> str | None:

@@ -5,11 +5,11 @@ The door out (`swtstudy.units.results`), figures and messages read it; none repe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, Criterion
-from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, error_of
+from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 from swtstudy.vocabulary.tables import read_table
 
 #: Per cent of the bodies that have a crack before the life of that name.
@@ -130,5 +130,31 @@ NORMALISED = {
         *STICK_ENDS,
     )
 }
+#: Words for the facts of contacts that data variables need.
+_FACTS = {
+    "materials": "fatigue constants ([material], swtstudy.FatigueConstants)",
+    "yield_strengths": "a yield_strength",
+    "findley_limits": "a findley_limit",
+    "blocks": "blocks",
+    "scatter": "constants that scatter",
+    "target_life": "a target_life",
+}
+
+
+def lacking(name: str, facts: object, criteria: Collection[object], asked: Request) -> list[str]:
+    """What contacts, with their facts as attributes, lack for a data variable; nothing for an unknown one."""
+    row = DERIVED.get(name)
+    if row is None:
+        return []
+    words = [] if hasattr(facts, "units") else ["units"]
+    if row.needs and not any(getattr(facts, fact, ()) for fact in row.needs):
+        words.append(_FACTS[row.needs[0]])
+    if row.criterion and row.criterion not in map(str, criteria):
+        words.append(f'the criterion "{row.criterion}"')
+    if row.of in NONLOCAL and not asked.distances:
+        words.append(f"a {DISTANCE}")
+    return [*dict.fromkeys((*words, *lacking(row.of, facts, criteria, asked)))]
+
+
 #: Names of all that results with units may have besides.
 NAMES = (*DERIVED, *NORMALISED.values())
