@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,11 +19,11 @@ from swtstudy.points.values import as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.at_rest import Contact, Moduli
-from swtstudy.units.grid import ContactDetails, PhysicalGrid, are_measured, mean_of_bulk
+from swtstudy.units.grid import ContactDetails, PhysicalGrid, are_measured
 from swtstudy.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
 from swtstudy.units.material import warn_of_units
 from swtstudy.units.reading import check_distances, completed, read_contacts
-from swtstudy.units.results import COMMENTS, derived, scale_of
+from swtstudy.units.results import COMMENTS, attributes, derived, scale_of
 from swtstudy.units.rows import (
     LABELS,
     NAMES_KEY,
@@ -33,7 +34,6 @@ from swtstudy.units.rows import (
     SIMILAR,
     SIMILAR_KEY,
     TABLES,
-    UNIT_KINDS,
     Units,
     checked_body,
     rows,
@@ -42,7 +42,7 @@ from swtstudy.units.rows import (
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.derived import LIFE, lacking
+from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     DEFAULT_RTOL,
@@ -73,13 +73,6 @@ if TYPE_CHECKING:
 
 #: Sizes of a contact at rest.
 AT_REST = (*TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
-#: Attributes of SWT and of lives.
-_SWT = {
-    "long_name": "Smith-Watson-Topper parameter of the body",
-    "units": "unit of stress of the moduli",
-    "symbol": r"\mathrm{SWT}",
-}
-_CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
 
 
 @lru_cache(maxsize=8)
@@ -125,12 +118,12 @@ class PhysicalContact:
 
     def _words(self) -> Iterator[tuple[str, str, str, str]]:
         """Kind, name, value and meaning of all that is known without solving."""
-        grid, table = self.grid, rows(Units(*(f"the unit of {kind}" for kind in UNIT_KINDS)))
+        grid = self.grid
         for name, each in self._given().items():
             if name not in TABLES["at_rest"]:
-                yield "given", name, ", ".join(map(plain_words, each)), table[name].meaning
+                yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
         for name, meaning in TABLES["at_rest"].items():
-            found = np.unique(grid.each(lambda contact, name=name: getattr(contact, name)))  # type: ignore[misc]
+            found = np.unique(grid.each(attrgetter(name)))
             ends = dict.fromkeys(found[[0, -1]].tolist())
             yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
         # How far the contacts are from where the model ends, as far as that is known without solving.
@@ -160,13 +153,12 @@ class PhysicalContact:
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
-            return self._plain(self.grid.each(lambda contact: getattr(contact, name)))
+            return self._plain(self.grid.each(attrgetter(name)))
         if name == "grid" or name not in self.grid.rows:
             raise AttributeError(f"a contact has no {name!r}")
         values = self.grid.values(name)
         if name == "bulk_stress_mean" and self.grid.values("bulk_stress_ratio"):
-            ratio, amplitude = map(self.grid.along, ("bulk_stress_ratio", "bulk_stress_amplitude"))
-            return self._plain(mean_of_bulk(ratio, amplitude, *self.grid.ends_of_bulk()))
+            return self._plain(self.grid.mean_of_bulk(self.grid.along("bulk_stress_amplitude")))
         if len(values) < 2:
             return values[0] if values else None
         if self.grid.row(name).kind == "name":
@@ -302,7 +294,8 @@ class PhysicalContact:
         lives = np.where(bodies == 1, two, one)
         if not hasattr(swt, "dims"):
             return lives
-        words = _CYCLES | {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
+        words = attributes(DERIVED[LIFE], self.grid.labels)
+        words |= {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
         return swt.copy(data=lives).rename("cycles").drop_attrs(deep=False).assign_attrs(words)
 
     def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
@@ -340,7 +333,8 @@ class PhysicalContact:
             if not isinstance(s, xr.DataArray):
                 return of_body * self.swt_scale, bodies
             swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)
-        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(_SWT), bodies
+        words = attributes(DERIVED["SWT"], self.grid.labels)
+        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(words), bodies
 
     def solve(
         self,

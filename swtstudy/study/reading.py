@@ -26,7 +26,6 @@ from swtstudy.study.keys import (
     Table,
     TraceTable,
     read_study,
-    sound_keys,
     under,
 )
 from swtstudy.study.sample import Design, Sampled, SampleReader
@@ -280,7 +279,7 @@ def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
 
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
     """The signal that a load of a sound study is; None for one that comes from no file."""
-    table = sound_keys(LoadTable, parse_toml(text).get("loads", {}).get(name, {}))
+    table = LoadTable.of(parse_toml(text).get("loads", {}).get(name, {}))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # told when the study was read
         return signal_from(folder / table.file, name, table) if table.file else None

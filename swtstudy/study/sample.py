@@ -426,26 +426,21 @@ def _own_values(name: str, contacts: ContactDetails) -> list[float]:
 def _root(
     covariance: Mapping[str, Any], ranges: Mapping[str, Any], report: Report
 ) -> tuple[list[str], FloatArray]:
-    """Names of the constants of a covariance, and its root, shape (k, k)."""
-    nothing: tuple[list[str], FloatArray] = ([], np.empty((0, 0)))
-    sound = all(isinstance(row, dict) for row in covariance.values())
-    names = [*dict.fromkeys([*covariance, *(n for row in covariance.values() if sound for n in row)])]
-    if not sound or not {*names} <= {*SCATTERED}:
-        report("sample.covariance", literal(covariance), f"{_MATRIX}, of {_CAN_SCATTER}")
-        return nothing
+    """Names of the constants of a covariance, and its root, shape (k, k); none of a wrong one."""
+    rows = [row if isinstance(row, dict) else {"": row} for row in covariance.values()]
+    names = [*dict.fromkeys([*covariance, *(name for row in rows for name in row)])]
     for name in (each for each in names if each in ranges):
         report(f"sample.covariance.{name}", f"{name}, which has a range", "one of the two")
-    # Either half is enough.
-    entries = [
-        [covariance.get(i, {}).get(j, covariance.get(j, {}).get(i, 0.0)) for j in names] for i in names
-    ]
-    matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
-    if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
-        values, vectors = np.linalg.eigh(matrix)
-        if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
-            return names, vectors * np.sqrt(np.clip(values, 0.0, None))
-    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive")
-    return nothing
+    if {*names} <= {*SCATTERED}:
+        either = {(i, j): value for i in covariance for j, value in covariance[i].items()}  # half is enough
+        entries = [[either.get((i, j), either.get((j, i), 0.0)) for j in names] for i in names]
+        matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
+        if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
+            values, vectors = np.linalg.eigh(matrix)
+            if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
+                return names, vectors * np.sqrt(np.clip(values, 0.0, None))
+    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive, of {_CAN_SCATTER}")
+    return [], np.empty((0, 0))
 
 
 #: The largest index that NumPy's random numbers can be.

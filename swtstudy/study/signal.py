@@ -16,7 +16,7 @@ from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
-from swtstudy.study.keys import SignalTable, sound_keys, with_keys
+from swtstudy.study.keys import SignalTable, with_keys
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_of
@@ -225,7 +225,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         A ValueError with what is wrong, and where in the file.
     """
     own = Path(path).stem or str(path) if name is None else name
-    return signal_from(Path(path), checked_name(own), sound_keys(SignalTable, given))
+    return signal_from(Path(path), checked_name(own), SignalTable.of(given))
 
 
 def signal_from(

@@ -29,7 +29,7 @@ from swtstudy.units.life import (
     ShearConstants,
     terms_of,
 )
-from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
+from swtstudy.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
@@ -39,13 +39,6 @@ from swtstudy.vocabulary.quantities import YIELD, Request
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-#: Parameters on which a contact at rest and its slip depend.
-AT_REST_NAMES = (
-    *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
-    *("contact_length", *SHAPE_COLUMNS),
-)
 
 
 def are_measured(loads: Sequence[Value]) -> bool:
@@ -92,14 +85,6 @@ def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) 
     """The labels of a study with these profiles, in which parameters of some names are given."""
     per_length = "contact_length" not in given and any(map(is_plane, profiles))
     return LineUnits(**vars(units)) if per_length else units
-
-
-def mean_of_bulk(ratio: Any, amplitude: Any, least: Any, largest: Any) -> Any:
-    """The mean at which a bulk stress has a ratio of least over largest.
-
-    ``least`` and ``largest`` are the ends of what its amplitude scales.
-    """
-    return amplitude * (ratio * largest - least) / (1.0 - ratio)
 
 
 @dataclass(frozen=True)
@@ -341,19 +326,18 @@ class PhysicalGrid(ContactDetails, Grid):
             scale_of_k = unit.where(self.over_dimension("criterion", is_ours), 1.0)
             found["normal_sensitivity"] = found["normal_sensitivity"] * scale_of_k
         if self.values("bulk_stress_ratio"):
-            ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
-            found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
+            found["bulk_stress_mean"] = self.mean_of_bulk(found["bulk_stress_amplitude"])
         if self.values("body"):
             carries = self.bodies == self.bulk_stress_body
             found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
-    def ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
-        """Least and largest value of what the amplitude of the bulk stress scales, over the loads."""
-        loads = self.values("load")
+    def mean_of_bulk(self, amplitude: xr.DataArray) -> xr.DataArray:
+        """The mean at which a bulk stress of this amplitude has its ratio of least over largest."""
+        loads, ratio = self.values("load"), self.along("bulk_stress_ratio")
         ends = [(load.bulk_ends or (0.0, 0.0)) if isinstance(load, Loop) else (-1.0, 1.0) for load in loads]
         least, largest = (self.over_dimension("load", each) for each in np.array(ends).T)
-        return least, largest
+        return amplitude * (ratio * largest - least) / (1.0 - ratio)
 
     def of_both(self, name: str) -> list[tuple[float, float]]:
         """The values of a property: one of each body, or all that both share."""

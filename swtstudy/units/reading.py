@@ -25,6 +25,7 @@ from swtstudy.units import grid as grids
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.rows import (
+    AT_REST_NAMES,
     LABELS,
     MEAN_LOADS,
     NAMES_KEY,
@@ -389,7 +390,7 @@ def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
 def _words(grid: PhysicalGrid, here: Mapping[str, Value], but: str = "") -> str:
     """Which contact it is: its size and load, and whatever else of it varies, but for one parameter."""
     words = []
-    for name in (name for name in grids.AT_REST_NAMES if name in here and name != but):
+    for name in (name for name in AT_REST_NAMES if name in here and name != but):
         value = here[name]
         if not isinstance(value, str | Definition) and (name in _SAID or grid.dimension(name)):
             words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")

@@ -34,6 +34,7 @@ from swtstudy.vocabulary.wording import number_words, numbers_words
 if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
     from swtstudy.units.grid import PhysicalGrid
+    from swtstudy.units.rows import Units
 
 #: Facts that an archive has even where there are none; others are left out then.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
@@ -69,6 +70,11 @@ def derived(grid: PhysicalGrid, asked: Request) -> Iterator[Derived]:
         if row.of in known and row.criterion in criteria and not lacks and not given:
             known.add(row.name)
             yield row._replace(meaning=row.meaning.format(**words))
+
+
+def attributes(row: Derived, labels: Units) -> dict[str, str]:
+    """Attributes of a data variable with a unit."""
+    return {"long_name": row.meaning, "units": labels.words(row.unit), "symbol": row.symbol}
 
 
 def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
@@ -109,8 +115,7 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
             values = ranks[row.of].isel(rank=RANKS.index(row.kind))
         else:
             values = _measured(found, row, grid)
-        label = grid.labels.words(row.unit)
-        words: dict[str, Any] = {"long_name": row.meaning, "units": label, "symbol": row.symbol}
+        words: dict[str, Any] = attributes(row, grid.labels)
         comment = "uncounted" if row.kind == LIFE and not asked.counts else row.kind
         words |= {"comment": COMMENTS[comment]} if comment in COMMENTS else {}
         found[row.name] = values.dims, values.values, words

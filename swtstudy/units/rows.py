@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -146,36 +146,28 @@ class Scale(NamedTuple):
 
     Attributes
     ----------
-    of
-        Function of a contact: its scale.
+    name
+        The property of a contact that it is.
+    kind
+        "length", "force" or "stress".
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
     made_of
         The parameter whose length it is, if there is one.
-    kind
-        "length", "force" or "stress".
     """
 
-    of: Callable[[Contact], float]
-    power: float | None
+    name: str
+    kind: str
+    power: float | None = None
     made_of: str = ""
-    kind: str = "length"
+
+    def of(self, contact: Contact) -> float:
+        """Its value for a contact."""
+        return float(getattr(contact, self.name))
 
 
 #: Scales by the name that rows of `swtstudy.vocabulary.parameters.PARAMETERS` have for them.
-SCALES: dict[str, Scale] = {
-    "a_H": Scale(lambda contact: contact.length_scale, 0.5),
-    "δ0": Scale(lambda contact: contact.depth, 1.0),
-    "μ E* δ0/G*": Scale(lambda contact: contact.slip_scale, 1.0),
-    "E* δ0/a_H": Scale(lambda contact: contact.stress_scale, 0.5, kind="stress"),
-    "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
-    "μ F0": Scale(lambda contact: contact.friction_force, None, kind="force"),
-    "√(hR)": Scale(
-        lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * (contact.radius or math.nan)),
-        0.0,
-        made_of="waviness_amplitude",
-    ),
-}
+SCALES = {name: Scale(**row) for name, row in TABLES["scales"].items()}
 
 
 #: Parameters that a real contact needs: it has no usual friction.
@@ -191,22 +183,19 @@ NOTICEABLE_MISMATCH = 0.06
 NAMES_KEY = "bodies"
 #: Parameters that are 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
-#: The kinds of what has a unit.
-_KINDS = {
-    **{"young_modulus": "stress", "radius": "length", "depth": "length", "normal_force": "force"},
-    "contact_length": "length",
-}
+#: The kinds of sizes of the contact that have a unit.
+_KINDS: dict[str, str] = TABLES["kinds"]
 #: Symbols that are not the numerator of the non-dimensional one.
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Exactly one of each group is given.
 MEAN_LOADS = ("depth", "normal_force")
 #: One of each pair takes the other's place.
 ONE_OF = (*PAIRS.items(), MEAN_LOADS, ("bulk_stress_mean", "bulk_stress_ratio"))
-#: Parameters on which a contact at rest depends.
-REST_DEPENDS_ON = (
-    *("young_modulus", "poisson_ratio", "radius", *MEAN_LOADS, "load", "contact_length", "body"),
-    *(name for name, row in PARAMETERS.items() if row.part == "shape"),
-)
+_SHAPE = tuple(name for name, row in PARAMETERS.items() if row.part == "shape")
+#: Parameters on which a contact at rest and its slip depend; and on which it depends without its slip, the
+#: load if its mean is measured.
+AT_REST_NAMES = (*OF_BODIES, "radius", *MEAN_LOADS, "friction", "contact_length", *_SHAPE)
+REST_DEPENDS_ON = {*AT_REST_NAMES, "load", "body"} - {"friction"}
 
 
 def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:

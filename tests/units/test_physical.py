@@ -113,10 +113,10 @@ def test_each_body_has_its_own_life():
     assert found.s.dims == ("body",)
     stiff, soft = contact.swt(found.s)
     assert float(soft / stiff) == pytest.approx(210 / 180)
-    assert soft.attrs["long_name"] == "Smith-Watson-Topper parameter of the body"
+    assert soft.attrs["long_name"] == "SWT"
     lives = contact.cycles(STEEL, found.s)
     assert lives.attrs == {
-        "long_name": "rounds to the initiation of a crack",
+        "long_name": "rounds to a crack",
         "units": "1",
         "symbol": "N",
         "comment": COMMENTS["uncounted"],

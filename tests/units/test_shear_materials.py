@@ -258,3 +258,9 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     assert (again.findley_limits, again.shear_materials) == (kept.findley_limits, kept.shear_materials)
     short = found.assign(FS_cycles=found.FS_cycles.where(found.FS_cycles.isnull(), 12.0))
     assert any(line.startswith("FS_cycles extrapolated at ") for line in short.swt.validity())
+
+
+def test_constants_are_estimated_for_a_poisson_ratio_that_a_body_can_have():
+    tensile = swtstudy.FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
+    with pytest.raises(StudyError, match=r"poisson_ratio: found 0.7; allowed: a number in \(-1, 0.5\]"):
+        swtstudy.ShearConstants.estimated(tensile, 0.7)
