@@ -282,7 +282,7 @@ class PhysicalContact:
             A ValueError, as of `swt`, or if the constants are none.
         """
         if constants is None:
-            raise refused("constants", "nothing", "constants of both bodies, or a pair of them")
+            raise refused("constants", "None", "a FatigueConstants, or a pair of them, one for each body")
         report = Report()
         both = _of_both("constants", constants, report, FatigueConstants)
         report.refuse()

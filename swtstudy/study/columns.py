@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -49,8 +49,21 @@ MISSING = ("", "nan")
 Row = tuple[int, list[str]]
 
 
-class UserTable(NamedTuple):
-    """A table from a file.
+class UserTable:
+    """A table in a file; its separator, header, units and decimal sign are found unless they are given.
+
+    Parameters
+    ----------
+    path
+        The file.
+    names
+        Columns that it must have.
+    known
+        Further columns that it may have, which tell its separator.
+    form
+        Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
+    most
+        Largest number of rows.
 
     Attributes
     ----------
@@ -66,14 +79,31 @@ class UserTable(NamedTuple):
         The path, for messages.
     line
         Number of the line of the header.
+    report
+        A wrong encoding and the like, with which the table is read all the same.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and in which line.
     """
 
-    headers: list[str]
-    units: list[str]
-    cells: list[Row]
-    form: FileTable
-    source: str
-    line: int
+    def __init__(
+        self,
+        path: Path,
+        names: Sequence[str],
+        known: Collection[str],
+        form: FileTable | None,
+        most: int = MOST_ROWS,
+    ) -> None:
+        self.path, self.source, self.names, self.known = path, str(path), names, known
+        self.form, self.has_keys = form or FileTable(), form is not None
+        self.report = Report()
+        self._read(most)
+
+    def column(self, name: str) -> int:
+        """The place of a column."""
+        return self.headers.index(self.form.header(name))
 
     def has(self, name: str) -> bool:
         """Return whether the table has a column."""
@@ -81,7 +111,7 @@ class UserTable(NamedTuple):
 
     def texts(self, name: str) -> list[str]:
         """The cells of a column."""
-        column = self.headers.index(self.form.header(name))
+        column = self.column(name)
         return [cells[column] for _, cells in self.cells]
 
     def numbers(self, names: Sequence[str]) -> FloatArray:
@@ -108,7 +138,7 @@ class UserTable(NamedTuple):
 
     def rows_without(self, names: Sequence[str]) -> list[int]:
         """Lines of the rows that lack a value in one of the columns."""
-        columns = [self.headers.index(self.form.header(name)) for name in names]
+        columns = [*map(self.column, names)]
         return [line for line, cells in self.cells if any(cells[k].lower() in MISSING for k in columns)]
 
     def values(self, name: str) -> list[object]:
@@ -122,7 +152,7 @@ class UserTable(NamedTuple):
 
         In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
         """
-        column = self.headers.index(self.form.header(name))
+        column = self.column(name)
         header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
         bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
         for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
@@ -135,132 +165,12 @@ class UserTable(NamedTuple):
                 return words[-1], kind
         return "", kind
 
-
-def number(cell: str, decimal: str | None) -> float:
-    """The number in a cell; NaN if there is none, or a point of thousands beside a decimal comma."""
-    try:
-        if decimal == ",":
-            cell = cell.replace(".", "_").replace(",", ".")
-        return plain_float(cell)
-    except ValueError:
-        return math.nan
-
-
-def read_columns(
-    path: Path,
-    names: Sequence[str],
-    optional: Sequence[str],
-    form: FileTable,
-    kinds: Mapping[str, str],
-    labels: Mapping[str, Any] | None = None,
-    gaps: bool = False,
-) -> tuple[FloatArray, IndexArray]:
-    """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
-
-    Parameters
-    ----------
-    path
-        The file: a header with the names of the columns, then a row of numbers for each point.
-    names
-        Names of columns; others in the file are left alone.
-    optional
-        Names of further columns, appended if the file has them.
-    form
-        How it is written.
-    kinds, labels
-        "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
-        mistake, and so is another unit without `scale`, or with the inverse of its factor.
-    gaps
-        Whether rows with an empty cell or NaN are left out, with a message; otherwise they are mistakes.
-
-    Raises
-    ------
-    StudyError
-        A ValueError with what is wrong in the file, and in which row.
-    """
-    known, report = dict.fromkeys((*names, *optional, *kinds)), Report()
-    for part in ("scale", "columns"):
-        for name in (each for each in getattr(form, part) if each not in known):
-            report(f"{part}.{name}", literal(name), nearest(name, known, {}))
-    if not known.keys() >= form.columns.keys():
-        report.refuse()  # which column is meant is unknown
-    with report:
-        file = TableFile(path, names, optional, form)
-        table = file.read()
-        report += file.report
-        for name in () if form.columns else (name for name in optional if not table.has(name)):
-            # Such as Bulk, or bulk_stress: left alone it would count as 0.
-            if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-                allowed = f"{name}, if that is meant, or another name"
-                found = f"the column {literal(alike[0])}"
-                report.append(Mistake(f"line {table.line}", found, allowed, table.source))
-        names = [*names, *filter(table.has, optional)]
-        for name, kind in kinds.items():
-            if labels and name in names:
-                report += _wrong_unit(table, name, kind, str(labels.get(kind)))
-        empty = table.rows_without(names) if gaps else []
-        if empty and len(empty) < len(table.cells):
-            more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
-            if not report:
-                _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
-            table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
-        values = table.numbers(names)
-    report.refuse()
-    return values, np.array([line for line, _ in table.cells])
-
-
-def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
-    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
-    column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
-    if own_kind != kind:
-        found = f"{column} in {unit} as {name}, which is a {kind}"
-        allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
-        return [Mistake("", found, allowed, table.source)]
-    units, own = KNOWN[kind], table.form.scale.get(name)
-    if not unit or label not in units or units[unit] == units[label]:
-        return []
-    factor = units[unit] / units[label]
-    if own is not None and not math.isclose(abs(own) * factor, 1.0):
-        return []
-    found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
-    found += "" if own is None else f", and scale has {name} = {own:g}"
-    allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
-    return [Mistake("", found, allowed, table.source)]
-
-
-class TableFile:
-    """A file with a table; its separator, header, units and decimal sign are found unless they are given.
-
-    Parameters
-    ----------
-    path
-        The file.
-    names
-        Columns that it must have.
-    known
-        Further columns that it may have, which tell its separator.
-    form
-        Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
-
-    Attributes
-    ----------
-    report
-        A wrong encoding and the like, with which the table is read all the same.
-    """
-
-    def __init__(
-        self, path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None
-    ) -> None:
-        self.path, self.source, self.names, self.known = path, str(path), names, known
-        self.form, self.has_keys = form or FileTable(), form is not None
-        self.report = Report()
-
     def refused(self, place: str, found: str, allowed: str) -> StudyError:
         """The error of a mistake at a place in the file."""
         return refused(place, found, allowed, self.source)
 
-    def read(self, most: int = MOST_ROWS) -> UserTable:
-        """The table, of so many rows at most; a StudyError with what is wrong, and in which line."""
+    def _read(self, most: int) -> None:
+        """Read the table; a StudyError with what is wrong, and in which line."""
         try:
             data = read_file(self.path, LARGEST_TABLE)
         except OSError as error:
@@ -268,42 +178,41 @@ class TableFile:
         is_workbook = data.startswith(b"PK\x03\x04")
         content = self._sheet(data) if is_workbook else self._text(data)
         separator, above = self._found_header(content)
-        form = self.form
-        if separator == form.decimal == ",":
+        if separator == self.form.decimal == ",":
             self.report("separator, decimal", "both ','", "two different signs")
-            form = form.model_copy(update={"decimal": None})
+            self.form = self.form.model_copy(update={"decimal": None})
         try:
-            rows = list(islice(_rows(content, separator, form.skip_rows), above + most + 3))
+            rows = list(islice(_rows(content, separator, self.form.skip_rows), above + most + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
-        skipped, (line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
-        if wrong := self._wrong_headers(headers):
-            raise self.refused(f"line {line}", *wrong)
+        skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
+        if wrong := self._wrong_headers():
+            raise self.refused(f"line {self.line}", *wrong)
         notices = []
         if above:
-            notices.append(f"the header is found in line {line}: {_skipped_words(skipped)}")
-        needed = [headers.index(form.header(name)) for name in self.names]
-        units = _row_of_units(rows, needed, form)
-        if units and form.units_row is None:
-            notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
-        cells = rows[bool(units) :]
-        if len(cells) > most:
+            notices.append(f"the header is found in line {self.line}: {_skipped_words(skipped)}")
+        needed = [*map(self.column, self.names)]
+        self.units = _row_of_units(rows, needed, self.form)
+        if self.units and self.form.units_row is None:
+            notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, self.units))}")
+        self.cells = rows[bool(self.units) :]
+        if len(self.cells) > most:
             raise self.refused("", f"more than {most} rows", f"at most {most}")
-        for place, own in cells:
-            if len(own) - (own[-1] == "") > len(headers):
+        width = len(self.headers)
+        for place, own in self.cells:
+            if len(own) - (own[-1] == "") > width:
                 allowed = "as many as columns: a comma between cells, a point in numbers"
                 allowed += "; or say separator and decimal" * self.has_keys
-                raise self.refused(f"line {place}", f"{len(own)} cells under {len(headers)} columns", allowed)
-            own += [""] * (len(headers) - len(own))
-        if form.decimal is None:
-            texts = [own[k] for _, own in cells[:WITHIN] for k in needed or range(len(headers))]
+                raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
+            own += [""] * (width - len(own))
+        if self.form.decimal is None:
+            texts = [own[k] for _, own in self.cells[:WITHIN] for k in needed or range(width)]
             comma = separator != "," and _has_decimal_commas(texts)
-            form = form.model_copy(update={"decimal": "," if comma else "."})
+            self.form = self.form.model_copy(update={"decimal": "," if comma else "."})
             if comma:
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
             _tell(self.source, words)
-        return UserTable(headers, units, cells, form, self.source, line)
 
     def _text(self, data: bytes) -> str:
         """The text in the file, its lines ended by newlines; of a wrong encoding as in Windows'."""
@@ -410,11 +319,11 @@ class TableFile:
         allowed = f"a header with {words}{', or columns = {...} that says which these are' * self.has_keys}"
         return f"the columns {', '.join(headers)}", allowed
 
-    def _wrong_headers(self, headers: list[str]) -> tuple[str, str] | None:
+    def _wrong_headers(self) -> tuple[str, str] | None:
         """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
-        if len(headers) > MOST_COLUMNS:
+        if len(self.headers) > MOST_COLUMNS:
             return f"more than {MOST_COLUMNS} columns", "fewer"
-        header, lower = self.form.header, [each.lower() for each in headers]
+        header, lower = self.form.header, [each.lower() for each in self.headers]
         for other in map(header, self.names):
             if len(alike := [name for name in self.names if header(name) == other]) > 1:
                 return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
@@ -424,13 +333,103 @@ class TableFile:
         return None
 
 
+def number(cell: str, decimal: str | None) -> float:
+    """The number in a cell; NaN if there is none, or a point of thousands beside a decimal comma."""
+    try:
+        if decimal == ",":
+            cell = cell.replace(".", "_").replace(",", ".")
+        return plain_float(cell)
+    except ValueError:
+        return math.nan
+
+
+def read_columns(
+    path: Path,
+    names: Sequence[str],
+    optional: Sequence[str],
+    form: FileTable,
+    kinds: Mapping[str, str],
+    labels: Mapping[str, Any] | None = None,
+    gaps: bool = False,
+) -> tuple[FloatArray, IndexArray]:
+    """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
+
+    Parameters
+    ----------
+    path
+        The file: a header with the names of the columns, then a row of numbers for each point.
+    names
+        Names of columns; others in the file are left alone.
+    optional
+        Names of further columns, appended if the file has them.
+    form
+        How it is written.
+    kinds, labels
+        "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
+        mistake, and so is another unit without `scale`, or with the inverse of its factor.
+    gaps
+        Whether rows with an empty cell or NaN are left out, with a message; otherwise they are mistakes.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong in the file, and in which row.
+    """
+    known, report = dict.fromkeys((*names, *optional, *kinds)), Report()
+    for part in ("scale", "columns"):
+        for name in (each for each in getattr(form, part) if each not in known):
+            report(f"{part}.{name}", literal(name), nearest(name, known, {}))
+    if not known.keys() >= form.columns.keys():
+        report.refuse()  # which column is meant is unknown
+    with report:
+        table = UserTable(path, names, optional, form)
+        report += table.report
+        for name in () if form.columns else (name for name in optional if not table.has(name)):
+            # Such as Bulk, or bulk_stress: left alone it would count as 0.
+            if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
+                allowed = f"{name}, if that is meant, or another name"
+                found = f"the column {literal(alike[0])}"
+                report.append(Mistake(f"line {table.line}", found, allowed, table.source))
+        names = [*names, *filter(table.has, optional)]
+        for name, kind in kinds.items():
+            if labels and name in names:
+                report += _wrong_unit(table, name, kind, str(labels.get(kind)))
+        empty = table.rows_without(names) if gaps else []
+        if empty and len(empty) < len(table.cells):
+            more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
+            if not report:
+                _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
+            table.cells = [row for row in table.cells if row[0] not in {*empty}]
+        values = table.numbers(names)
+    report.refuse()
+    return values, np.array([line for line, _ in table.cells])
+
+
+def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
+    """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
+    column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
+    if own_kind != kind:
+        found = f"{column} in {unit} as {name}, which is a {kind}"
+        allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
+        return [Mistake("", found, allowed, table.source)]
+    units, own = KNOWN[kind], table.form.scale.get(name)
+    if not unit or label not in units or units[unit] == units[label]:
+        return []
+    factor = units[unit] / units[label]
+    if own is not None and not math.isclose(abs(own) * factor, 1.0):
+        return []
+    found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
+    found += "" if own is None else f", and scale has {name} = {own:g}"
+    allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+    return [Mistake("", found, allowed, table.source)]
+
+
 def read_table(
     path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int = MOST_ROWS
 ) -> UserTable:
-    """The table in a file; see `TableFile`. A StudyError with all that is wrong."""
-    file = TableFile(path, names, known, form)
-    table = file.read(most)
-    file.report.refuse()
+    """The table in a file, see `UserTable`; a StudyError with all that is wrong."""
+    table = UserTable(path, names, known, form, most)
+    table.report.refuse()
     return table
 
 

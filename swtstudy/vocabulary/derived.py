@@ -142,7 +142,17 @@ _FACTS = {
 
 
 def lacking(name: str, facts: object, criteria: Collection[object], asked: Request) -> list[str]:
-    """What contacts, with their facts as attributes, lack for a data variable; nothing for an unknown one."""
+    """The facts that contacts lack for a data variable, in words; nothing for an unknown one.
+
+    Parameters
+    ----------
+    name
+        Name of the data variable.
+    facts
+        Has the facts of contacts as attributes, and no ``units`` where there are no contacts.
+    criteria, asked
+        The criteria of the points, and the request beside s.
+    """
     row = DERIVED.get(name)
     if row is None:
         return []
@@ -153,7 +163,8 @@ def lacking(name: str, facts: object, criteria: Collection[object], asked: Reque
         words.append(f'the criterion "{row.criterion}"')
     if row.of in NONLOCAL and not asked.distances:
         words.append(f"a {DISTANCE}")
-    return [*dict.fromkeys((*words, *lacking(row.of, facts, criteria, asked)))]
+    of = "" if row.of == name else row.of  # a quantity has the name of its value without units
+    return [*dict.fromkeys((*words, *lacking(of, facts, criteria, asked)))]
 
 
 #: Names of all that results with units may have besides.
