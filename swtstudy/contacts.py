@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.points.labelled import margins
+from swtstudy.points.labelled import margins, plain_values
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.validity import validity_lines
-from swtstudy.points.values import as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.at_rest import Contact, Moduli
@@ -167,13 +166,7 @@ class PhysicalContact:
 
     def _plain(self, values: xr.DataArray) -> Any:
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
-        names = {dim: self.grid.values(str(dim)) for dim in values.dims}
-        labels = {
-            dim: [
-                str(value) if isinstance(value, str | Definition) else as_number(value) for value in several
-            ]
-            for dim, several in names.items()
-        }
+        labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
         return values.assign_coords(labels) if labels else values.item()
 
     def __dir__(self) -> list[str]:

@@ -20,15 +20,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, amplitudes_of, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
-from swtstudy.units.life import (
-    SCATTERED,
-    Block,
-    FatigueConstants,
-    LifeTerms,
-    Scatter,
-    ShearConstants,
-    terms_of,
-)
+from swtstudy.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants
 from swtstudy.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -145,14 +137,14 @@ class ContactDetails:
         torsion = bool(kinds[1:] and self.shear_materials)
         return any(SCATTERED[name].torsion == torsion for name in self.scatter.names)
 
-    def terms(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeTerms]:
-        """Levels and slopes of both terms of the life of each body by a criterion, or of each draw."""
+    def curves(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeCurve]:
+        """The curve of lives of each body by a criterion, or its curves by each draw."""
         constants = self.constants(criterion, poisson_ratios)
         if not drawn or self.scatter is None:
-            return [terms_of(type(each), vars(each)) for each in constants]
+            return [each.curve for each in constants]
         estimated = bool(CRITERIA[criterion].constants[1:]) and not self.shear_materials
         tensile = self.materials if estimated else (None, None)
-        return [self.scatter.terms(each, body, tensile[body]) for body, each in enumerate(constants)]
+        return [self.scatter.curve(each, body, tensile[body]) for body, each in enumerate(constants)]
 
     @property
     def has_lives(self) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.points.values import index_at
-from swtstudy.units.life import Block, LifeTerms, lives
+from swtstudy.units.life import Block, LifeCurve
 from swtstudy.units.rows import LABELS, TABLES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
@@ -144,7 +144,9 @@ def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataA
     if row.criterion and grid.dimension("criterion") is not None:
         is_own = np.array([value == row.criterion for value in grid.values("criterion")])
         values = values.where(grid.over_dimension("criterion", is_own))
-    return _of_constants(values, grid, dataset, row.criterion, lives) if row.kind == LIFE else values
+    return (
+        _of_constants(values, grid, dataset, row.criterion, LifeCurve.lives) if row.kind == LIFE else values
+    )
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -161,7 +163,7 @@ def _of_constants(
     grid: PhysicalGrid,
     dataset: xr.Dataset,
     criterion: str,
-    make: Callable[[LifeTerms, FloatArray, list[FloatArray]], FloatArray],
+    make: Callable[[LifeCurve, FloatArray, list[FloatArray]], FloatArray],
     drawn: bool = False,
 ) -> xr.DataArray:
     """Lives at values of a criterion, or ranks of lives, by the constants of each body.
@@ -175,10 +177,10 @@ def _of_constants(
     criterion
         The name of the criterion.
     make
-        Function of the terms of the life, of values and of counted cycles: an array of values' shape, or
+        Function of a curve of lives, of values and of counted cycles: an array of values' shape, or
         with the ranks of lives before it.
     drawn
-        True to call it with the terms of each draw of constants.
+        True to call it with the curves by each draw of constants.
     """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
     names = COUNTED if COUNTED.keys() <= {*dataset.data_vars} else ()
@@ -195,7 +197,7 @@ def _of_constants(
             dataset[name].isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
             for name in names
         ]
-        one, other = grid.terms(criterion, ratios, drawn)
+        one, other = grid.curves(criterion, ratios, drawn)
         found = make(one, own.values, counted)
         if not np.array_equal(one, other):
             is_first = (grid.bodies.isel(at, missing_dims="ignore") == 0).broadcast_like(own)
@@ -252,16 +254,16 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     return f"{rounds}{':' if several[0].startswith('no crack') else ','} {'; '.join(several)}"
 
 
-def _ranks(terms: LifeTerms, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
+def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
     """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...)."""
     flat = values.ravel()
     of_each = [each.reshape(len(flat), *each.shape[-2:]) for each in counted]
     found = np.full((len(PERCENTS) + 1, len(flat)), np.nan)
-    size = max(1, _AT_ONCE // (len(terms[0]) * (of_each[0][0].size if of_each else 1)))
+    size = max(1, _AT_ONCE // (len(curve.level) * (of_each[0][0].size if of_each else 1)))
     for begin in range(0, len(flat), size):  # in parts of the points, so that memory is bounded
         part = slice(begin, begin + size)
         known = np.isfinite(flat[part])
-        each = lives(terms, flat[part][known], [number[part][known] for number in of_each])
+        each = curve.lives(flat[part][known], [number[part][known] for number in of_each])
         # Without interpolation: a life may be infinite.
         ranks = np.quantile(each, np.array(PERCENTS) / 100.0, axis=0, method="inverted_cdf")
         found[:, np.flatnonzero(known) + begin] = [*ranks, (each < target).mean(axis=0)]
