@@ -167,7 +167,7 @@ class StudyReader:
             with under(self.report, f"profiles.{name}"):
                 _form_of(table, _PROFILES)
                 if "level" in table.model_fields_set and not table.two_sided:
-                    raise refused("level", literal(table.level), "level with two_sided only")
+                    raise refused("", "level", "level with two_sided only")
                 profiles[name] = profile_from(name, table, self.folder, self.parts.units)
         return profiles
 

@@ -217,11 +217,11 @@ def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
     [
         (
             "radius = [0, 1]\nheight = [0, 1]\ntwo_sided = true",
-            "two_sided; allowed: two_sided with a file only",
+            "two_sided beside radius and height; allowed: beside radius and height only smoothing, geometry",
         ),
         (
             'radius = [0, 1]\nheight = [0, 1]\nseparator = ";"',
-            "separator; allowed: separator with a file only",
+            "separator beside radius and height; allowed: beside radius and height only smoothing",
         ),
         ('file = "worn.csv"\nlevel = false', "level; allowed: level with two_sided only"),
     ],
