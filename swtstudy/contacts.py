@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.points.labelled import margins
+from swtstudy.points.labelled import margins, plain_values
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.validity import validity_lines
-from swtstudy.points.values import as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solving import dimensions_of, solve_grid, spanned
 from swtstudy.units.at_rest import Contact, Moduli
-from swtstudy.units.grid import ContactDetails, PhysicalGrid, are_measured, mean_of_bulk
-from swtstudy.units.life import (
-    ROUNDS,
-    UNCOUNTED,
-    FatigueConstants,
-    ShearConstants,
-    checked_blocks,
-    not_negative,
-)
+from swtstudy.units.grid import ContactDetails, PhysicalGrid, are_measured
+from swtstudy.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
 from swtstudy.units.material import warn_of_units
 from swtstudy.units.reading import check_distances, completed, read_contacts
-from swtstudy.units.results import derived, scale_of
+from swtstudy.units.results import COMMENTS, attributes, derived, scale_of
 from swtstudy.units.rows import (
     LABELS,
     NAMES_KEY,
@@ -40,7 +33,6 @@ from swtstudy.units.rows import (
     SIMILAR,
     SIMILAR_KEY,
     TABLES,
-    UNIT_KINDS,
     Units,
     checked_body,
     rows,
@@ -49,7 +41,7 @@ from swtstudy.units.rows import (
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.derived import DERIVED, LIFE
+from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
 from swtstudy.vocabulary.mistakes import (
     ALLOWED_RTOL,
     DEFAULT_RTOL,
@@ -58,11 +50,12 @@ from swtstudy.vocabulary.mistakes import (
     StudyError,
     is_rtol,
     literal,
+    plain_number,
     refused,
 )
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, SHIFT
-from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, NONLOCAL, YIELD, Request, read_quantities
+from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, Request, read_quantities
 from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
@@ -78,17 +71,7 @@ if TYPE_CHECKING:
     Values = FloatArray | xr.DataArray
 
 #: Sizes of a contact at rest.
-AT_REST = (
-    *("depth", "normal_force", "contact_radius", "mean_pressure", "peak_pressure", "length_scale"),
-    *("slip_scale", "stress_scale", "swt_scale", "work_scale", "force_factor"),
-)
-#: Attributes of SWT and of lives.
-_SWT = {
-    "long_name": "Smith-Watson-Topper parameter of the body",
-    "units": "unit of stress of the moduli",
-    "symbol": r"\mathrm{SWT}",
-}
-_CYCLES = {"long_name": "rounds to the initiation of a crack", "units": "1", "symbol": "N"}
+AT_REST = (*TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
 
 
 @lru_cache(maxsize=8)
@@ -134,12 +117,12 @@ class PhysicalContact:
 
     def _words(self) -> Iterator[tuple[str, str, str, str]]:
         """Kind, name, value and meaning of all that is known without solving."""
-        grid, table = self.grid, rows(Units(*(f"the unit of {kind}" for kind in UNIT_KINDS)))
+        grid = self.grid
         for name, each in self._given().items():
             if name not in TABLES["at_rest"]:
-                yield "given", name, ", ".join(map(plain_words, each)), table[name].meaning
+                yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
         for name, meaning in TABLES["at_rest"].items():
-            found = np.unique(grid.each(lambda contact, name=name: getattr(contact, name)))  # type: ignore[misc]
+            found = np.unique(grid.each(attrgetter(name)))
             ends = dict.fromkeys(found[[0, -1]].tolist())
             yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
         # How far the contacts are from where the model ends, as far as that is known without solving.
@@ -169,13 +152,12 @@ class PhysicalContact:
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
-            return self._plain(self.grid.each(lambda contact: getattr(contact, name)))
+            return self._plain(self.grid.each(attrgetter(name)))
         if name == "grid" or name not in self.grid.rows:
             raise AttributeError(f"a contact has no {name!r}")
         values = self.grid.values(name)
         if name == "bulk_stress_mean" and self.grid.values("bulk_stress_ratio"):
-            ratio, amplitude = map(self.grid.along, ("bulk_stress_ratio", "bulk_stress_amplitude"))
-            return self._plain(mean_of_bulk(ratio, amplitude, *self.grid.ends_of_bulk()))
+            return self._plain(self.grid.mean_of_bulk(self.grid.along("bulk_stress_amplitude")))
         if len(values) < 2:
             return values[0] if values else None
         if self.grid.row(name).kind == "name":
@@ -184,13 +166,7 @@ class PhysicalContact:
 
     def _plain(self, values: xr.DataArray) -> Any:
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
-        names = {dim: self.grid.values(str(dim)) for dim in values.dims}
-        labels = {
-            dim: [
-                str(value) if isinstance(value, str | Definition) else as_number(value) for value in several
-            ]
-            for dim, several in names.items()
-        }
+        labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
         return values.assign_coords(labels) if labels else values.item()
 
     def __dir__(self) -> list[str]:
@@ -298,8 +274,10 @@ class PhysicalContact:
         StudyError
             A ValueError, as of `swt`, or if the constants are none.
         """
+        if constants is None:
+            raise refused("constants", "None", "a FatigueConstants, or a pair of them, one for each body")
         report = Report()
-        both = _of_both("constants", constants, FatigueConstants, report)
+        both = _of_both("constants", constants, report, FatigueConstants)
         report.refuse()
         swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
         if counted is None:
@@ -309,7 +287,8 @@ class PhysicalContact:
         lives = np.where(bodies == 1, two, one)
         if not hasattr(swt, "dims"):
             return lives
-        words = _CYCLES | {"comment": UNCOUNTED if counted is None else ROUNDS}
+        words = attributes(DERIVED[LIFE], self.grid.labels)
+        words |= {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
         return swt.copy(data=lives).rename("cycles").drop_attrs(deep=False).assign_attrs(words)
 
     def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
@@ -347,7 +326,8 @@ class PhysicalContact:
             if not isinstance(s, xr.DataArray):
                 return of_body * self.swt_scale, bodies
             swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)
-        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(_SWT), bodies
+        words = attributes(DERIVED["SWT"], self.grid.labels)
+        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(words), bodies
 
     def solve(
         self,
@@ -402,22 +382,19 @@ class PhysicalContact:
             report("rtol", literal(rtol), ALLOWED_RTOL)
         distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
         names = read_quantities(names, "quantities", report)
-        materials = ()
-        if constants is not None:
-            materials = _of_both("constants", constants, FatigueConstants, report)
-        strengths = _stresses_of_both("yield_strength", strength, report) or grid.yield_strengths
+        materials = _of_both("constants", constants, report, FatigueConstants)
+        strengths = _of_both("yield_strength", strength, report) or grid.yield_strengths
         grid = replace(grid, materials=materials, yield_strengths=strengths)
         with report:
             grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
         if constants is not None and (alone := without_life(grid.values("criterion"))):
             report("constants", f"constants with the criterion {alone} alone", "none: it has no life")
-        if blocks and constants is None and not grid.shear_materials:
+        if blocks and constants is None and not grid.has_lives:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(grid, distances[0], report)
         report.refuse()
-        names = tuple(dict.fromkeys((*names, *([YIELD] if strengths else ()))))
         warn_of_units(grid, self.moduli.young)
-        return grid, Request(names, *distances, counts=bool(materials or grid.shear_materials))
+        return grid, grid.request(names, *distances)
 
     def optimise(
         self,
@@ -461,8 +438,8 @@ class PhysicalContact:
         grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
         made = (each.name for each in derived(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
-        if minimise not in known and (lacking := _lacking(grid, minimise, asked)):
-            raise refused("minimise", literal(minimise), f"with {' and '.join(lacking)}")
+        if minimise not in known and (lacks := lacking(minimise, grid, grid.values("criterion"), asked)):
+            raise refused("minimise", literal(minimise), f"with {' and '.join(lacks)}")
         report, numbers = Report(), [name for name, row in grid.rows.items() if row.kind == "number"]
         corners: PhysicalGrid | None = None
         with report:
@@ -473,11 +450,10 @@ class PhysicalContact:
             fixed = {name: value for name, value in given.items() if name not in replaced}
             bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
             corners, found = read_contacts(
-                {**fixed, SIMILAR_KEY: grid.similar},
+                fixed,
                 {**ranges, **bodies},
                 grid.about,
                 lambda name: f"over.{name}" if name in ranges else name,
-                known=_defined(grid.given),
             )
             found.refuse()
         check_asked(report, minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
@@ -538,23 +514,20 @@ class PhysicalContact:
         return checked_body(body, names=self.grid.body_names)
 
     def _scales(self, body: int | str) -> dict[str, tuple[float, str, str]]:
-        """By name of a variable its scale in one body of one contact, the label of its unit, its symbol."""
-        contact, index = self._one, self._body(body) - 1
+        """By name of a variable its scale in one body of one contact, its symbol, the label of its unit."""
+        contact, index, labels = self._one, self._body(body) - 1, self.grid.labels
         row = CRITERIA[str(self.grid.values("criterion")[0])]
-        found = {
-            name: (getattr(contact, scale), kind, symbol)
-            for name, (scale, kind, symbol) in TABLES["measured"].items()
-        }
+        measured = TABLES["measured"].items()
+        found = {name: (getattr(contact, scale), symbol, kind) for name, (scale, kind, symbol) in measured}
         strain = contact.depth / contact.length_scale * contact.moduli.swt_share(index)
-        found["normal_strain"] = strain, "1", r"\varepsilon_n"
-        found["s_local"] = scale_of(row.scale)(contact, index), row.unit, row.sign
-        unit = {kind: self.grid.labels.label(kind) or f"unit of {kind}" for kind in (*UNIT_KINDS, "work")}
-        return {name: (scale, unit.get(kind, kind), symbol) for name, (scale, kind, symbol) in found.items()}
+        found["normal_strain"] = strain, r"\varepsilon_n", "1"
+        found["s_local"] = scale_of(row.scale)(contact, index), row.sign, row.unit
+        return {name: (scale, symbol, labels.words(kind)) for name, (scale, symbol, kind) in found.items()}
 
     def _with_units(self, dataset: xr.Dataset, body: int | str) -> xr.Dataset:
         """Results of one body of one contact in lengths, forces and stresses."""
         dataset, scales = dataset.copy(), {}
-        for name, (scale, unit, symbol) in self._scales(body).items():
+        for name, (scale, symbol, unit) in self._scales(body).items():
             if name in dataset.variables:
                 words = str(dataset[name].attrs.get("long_name", name))
                 words = words.partition(", in units of")[0].partition(" over E*")[0]
@@ -562,7 +535,7 @@ class PhysicalContact:
         for name, row in self.grid.rows.items():
             by = PARAMETERS[name].scale if name in PARAMETERS else ""
             if by and name in dataset.coords:
-                unit = row.units or f"unit of {SCALES[by].kind}"
+                unit = self.grid.labels.words(SCALES[by].kind)
                 scales[name] = SCALES[by].of(self._one), {"symbol": row.symbol, "units": unit}
         for name, (scale, own) in scales.items():
             attributes = {**dataset[name].attrs, **own}
@@ -583,8 +556,7 @@ class PhysicalContact:
         if self.grid.body_names and not at_rest:
             words["body"] = self.grid.body_names[body - 1]
         grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
-        asked = Request((YIELD,) if grid.yield_strengths else ())
-        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, asked))
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, grid.request(())))
         return ",  ".join(words.values()), validity
 
     @contextmanager
@@ -655,58 +627,29 @@ class PhysicalContact:
         """By name of a variable what its numbers are in the units of one body of the contact."""
         from swtstudy.figures.words import Label
 
-        found = {
-            name: Label(scale, symbol, unit) for name, (scale, unit, symbol) in self._scales(body).items()
-        }
+        found = {name: Label(*each) for name, each in self._scales(body).items()}
         if self.grid.values("criterion")[0] != SWT:
             found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
         return found
 
 
-def _lacking(grid: PhysicalGrid, minimise: str, asked: Request) -> list[str]:
-    """The arguments without which a data variable is not there."""
-    if minimise not in DERIVED:
-        return []
-    row, criteria = DERIVED[minimise], ("", *grid.values("criterion"))
-    constants = ", ".join(field.name for field in fields(FatigueConstants))
-    needs = {
-        f"constants (swtstudy.FatigueConstants of {constants})": LIFE in minimise and not grid.materials,
-        f"a {DISTANCE}": row.of in NONLOCAL and not asked.distances,
-        "a yield_strength": row.of == YIELD and not grid.yield_strengths,
-        f'the criterion "{row.criterion}"': row.criterion not in criteria,
-    }
-    return [words for words, lacks in needs.items() if lacks]
+def _of_both(name: str, given: Any, report: Report, kind: type[Any] | None = None) -> tuple[Any, ...]:
+    """Constants of a kind, or else a stress, of each body: from one for both, or from a pair.
 
-
-def _of_both(name: str, given: Any, kind: type[Any], report: Report) -> tuple[Any, ...]:
-    """Constants of each body, from one value for both or from a pair; mistakes are added."""
-    pair = (given, given) if isinstance(given, kind) else given
-    if isinstance(pair, list | tuple) and len(pair) == 2 and all(isinstance(one, kind) for one in pair):
-        return pair[0], pair[1]
-    allowed = f"a {kind.__name__}, or a pair of them for bodies of different materials"
-    report(name, literal(given), allowed)
-    return ()
-
-
-def _stresses_of_both(name: str, stress: Any, report: Report) -> tuple[float, ...]:
-    """A property of both bodies that is a stress, none if not given; mistakes are added."""
-    if stress is None:
+    Nothing, if that is not given or wrong; mistakes are added.
+    """
+    if given is None:
         return ()
-    pair = (stress, stress) if np.ndim(stress) == 0 else tuple(stress)
-    wrong = [each for value in pair for each in wrong_size(name, value, "a positive stress")]
-    if len(pair) != 2:
-        wrong = [Mistake(name, literal(stress), "one, or a pair, one for each body")]
+    pair = tuple(given) if dimensions_of(given) == 1 and len(given) == 2 else (given, given)
+    allowed = f"a {kind.__name__ if kind else 'positive stress'}, or a pair of them, one for each body"
+    if kind is None:
+        wrong = [each for stress in pair for each in wrong_size(name, stress, allowed)]
+        pair = tuple(map(plain_number, pair))
+    else:
+        sound = all(isinstance(one, kind) for one in pair)
+        wrong = [] if sound else [Mistake(name, literal(given), allowed)]
     report += dict.fromkeys(wrong)
-    return () if wrong else (float(pair[0]), float(pair[1]))
-
-
-def _defined(values: Iterable[object]) -> dict[str, dict[str, Definition]]:
-    """The loops and tables among values, by parameter and name."""
-    found: dict[str, dict[str, Definition]] = {"load": {}, "profile": {}}
-    for each in values:
-        if isinstance(each, Definition):
-            found[each.parameter][each.name] = each
-    return found
+    return () if wrong else pair
 
 
 def contact_of(dataset: xr.Dataset) -> PhysicalContact:
@@ -817,21 +760,17 @@ def physical(
         value = parameters[name]
         fixed[name] = list(value) if dimensions_of(value) == 1 else value
     properties: dict[str, Any] = {
-        "yield_strengths": _stresses_of_both("yield_strength", yield_strength, report),
-        "findley_limits": _stresses_of_both("findley_limit", findley_limit, report),
+        "yield_strengths": _of_both("yield_strength", yield_strength, report),
+        "findley_limits": _of_both("findley_limit", findley_limit, report),
+        "shear_materials": _of_both("shear_constants", shear_constants, report, ShearConstants),
     }
-    if shear_constants is not None:
-        shear = _of_both("shear_constants", shear_constants, ShearConstants, report)
-        properties["shear_materials"] = shear
     with report:
         carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)
     if "body" not in parameters:
         axes = {**axes, "body": LABELS}
     named = {} if bodies is None else {NAMES_KEY: bodies}
-    several = (parameters.get(name) for name in ("load", "profile"))
-    known = _defined(one for each in several for one in (each if isinstance(each, list | tuple) else [each]))
-    grid, found = read_contacts({**fixed, **named, SIMILAR_KEY: similar}, axes, about, known=known)
+    grid, found = read_contacts({**fixed, **named, SIMILAR_KEY: similar}, axes, about)
     if grid is None or report or wrong:
         raise StudyError([*report, *wrong, *found])
     return PhysicalContact(grid)

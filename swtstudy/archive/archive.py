@@ -46,8 +46,7 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
     arrays = values_at(study.grid, points, found.arrays, study.asked)
     arrays |= {name: found[name][points.index] for name in names}
     dataset = label(study.grid, arrays | margins(study.grid, points), study.asked)
-    if study.sample is not None and study.sample.design is not None:
-        design = study.sample.design
+    if (design := study.design) is not None:
         dataset.sample.attrs |= {"design": design.name, "size": design.size, "seed": design.seed}
     message = " message" * ("message" in dataset)
     dataset.s.attrs["ancillary_variables"] = f"s_error regime s_surface status run{message}"

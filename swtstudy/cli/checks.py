@@ -46,8 +46,7 @@ def sensitivity(
     from swtstudy.results.sensitivity import check_design
 
     one, file = swtstudy.Study.from_toml(study), find_study(study)
-    design = one.sample.design if one.sample else None
-    check_design(design.name if design else None, study)
+    check_design(one.design.name if one.design else None, study)
     target = archive_paths([study], results)[study]
     stem = "_".join((target.stem, "indices", *(re.sub(r"\W+", "_", each) for each in y)))
     targets = {end: target.with_name(f"{stem}{end}") for end in (".nc", ".md", ".png")}

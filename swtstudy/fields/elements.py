@@ -16,7 +16,7 @@ from swtstudy.fields.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_hi
 from swtstudy.points.values import read_exact
 from swtstudy.study.columns import UserTable, read_table
 from swtstudy.study.definition import tables_of
-from swtstudy.study.keys import FileTable, sound_keys, with_keys
+from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.units.grid import ContactDetails
 from swtstudy.units.material import read_given, two_of
 from swtstudy.units.rows import OF_BODIES
@@ -60,7 +60,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     StudyError
         A ValueError with what is wrong, and where in the file.
     """
-    given = sound_keys(FileTable, form)
+    given = FileTable.of(form)
     if order not in (None, *ORDERS):
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
     table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)

@@ -56,7 +56,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
         numbers its points. The coordinate ``control`` says what is prescribed.
     """
     coordinates: dict[str, Any] = {
-        name: (grid.dimension(name), _values(values), _attributes(grid.row(name), values))
+        name: (grid.dimension(name), plain_values(values), _attributes(grid.row(name), values))
         for name, values in (grid.samples | grid.axes).items()
     }
     if grid.samples:
@@ -65,7 +65,7 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     for name, value in grid.fixed.items():
         says = name == SHIFT and "stick_zone" in grid.margins
         if says or not grid.row(name).goes_without_saying(value):
-            coordinates[name] = ((), _values((value,))[0], _attributes(grid.row(name), (value,)))
+            coordinates[name] = ((), plain_values((value,))[0], _attributes(grid.row(name), (value,)))
     words = {"long_name": "what is prescribed", "comment": f"one of {', '.join(CONTROLS.values())}"}
     coordinates["control"] = (), grid.control.name, words
     if asked.distances:
@@ -158,7 +158,8 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
         own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
 
 
-def _values(values: tuple[Value, ...]) -> NDArray:
+def plain_values(values: tuple[Value, ...]) -> NDArray:
+    """Values of a parameter as numbers, or as texts if some are names."""
     if any(isinstance(value, str | Definition) for value in values):
         return np.array([str(value) for value in values], dtype=object)
     return np.array([as_number(value) for value in values])

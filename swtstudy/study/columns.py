@@ -11,7 +11,7 @@ import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -49,8 +49,21 @@ MISSING = ("", "nan")
 Row = tuple[int, list[str]]
 
 
-class UserTable(NamedTuple):
-    """A table from a file.
+class UserTable:
+    """A table in a file; its separator, header, units and decimal sign are found unless they are given.
+
+    Parameters
+    ----------
+    path
+        The file.
+    names
+        Columns that it must have.
+    known
+        Further columns that it may have, which tell its separator.
+    form
+        Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
+    most
+        Largest number of rows.
 
     Attributes
     ----------
@@ -66,14 +79,31 @@ class UserTable(NamedTuple):
         The path, for messages.
     line
         Number of the line of the header.
+    report
+        A wrong encoding and the like, with which the table is read all the same.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and in which line.
     """
 
-    headers: list[str]
-    units: list[str]
-    cells: list[Row]
-    form: FileTable
-    source: str
-    line: int
+    def __init__(
+        self,
+        path: Path,
+        names: Sequence[str],
+        known: Collection[str],
+        form: FileTable | None,
+        most: int = MOST_ROWS,
+    ) -> None:
+        self.path, self.source, self.names, self.known = path, str(path), names, known
+        self.form, self.has_keys = form or FileTable(), form is not None
+        self.report = Report()
+        self._read(most)
+
+    def column(self, name: str) -> int:
+        """The place of a column."""
+        return self.headers.index(self.form.header(name))
 
     def has(self, name: str) -> bool:
         """Return whether the table has a column."""
@@ -81,7 +111,7 @@ class UserTable(NamedTuple):
 
     def texts(self, name: str) -> list[str]:
         """The cells of a column."""
-        column = self.headers.index(self.form.header(name))
+        column = self.column(name)
         return [cells[column] for _, cells in self.cells]
 
     def numbers(self, names: Sequence[str]) -> FloatArray:
@@ -106,6 +136,11 @@ class UserTable(NamedTuple):
         report.refuse()
         return np.stack(found, axis=1)
 
+    def rows_without(self, names: Sequence[str]) -> list[int]:
+        """Lines of the rows that lack a value in one of the columns."""
+        columns = [*map(self.column, names)]
+        return [line for line, cells in self.cells if any(cells[k].lower() in MISSING for k in columns)]
+
     def values(self, name: str) -> list[object]:
         """The cells of a column, numbers where they are, scaled, and texts."""
         found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
@@ -117,7 +152,7 @@ class UserTable(NamedTuple):
 
         In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
         """
-        column = self.headers.index(self.form.header(name))
+        column = self.column(name)
         header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
         bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
         for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
@@ -129,6 +164,173 @@ class UserTable(NamedTuple):
             if words and words[-1] in KNOWN[kind] and words[-1] != "in":
                 return words[-1], kind
         return "", kind
+
+    def refused(self, place: str, found: str, allowed: str) -> StudyError:
+        """The error of a mistake at a place in the file."""
+        return refused(place, found, allowed, self.source)
+
+    def _read(self, most: int) -> None:
+        """Read the table; a StudyError with what is wrong, and in which line."""
+        try:
+            data = read_file(self.path, LARGEST_TABLE)
+        except OSError as error:
+            raise self.refused("", reason_of(error), _READABLE) from None
+        is_workbook = data.startswith(b"PK\x03\x04")
+        content = self._sheet(data) if is_workbook else self._text(data)
+        separator, above = self._found_header(content)
+        if separator == self.form.decimal == ",":
+            self.report("separator, decimal", "both ','", "two different signs")
+            self.form = self.form.model_copy(update={"decimal": None})
+        try:
+            rows = list(islice(_rows(content, separator, self.form.skip_rows), above + most + 3))
+        except csv.Error as error:
+            raise self.refused("", str(error), _READABLE) from None
+        skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
+        if wrong := self._wrong_headers():
+            raise self.refused(f"line {self.line}", *wrong)
+        notices = []
+        if above:
+            notices.append(f"the header is found in line {self.line}: {_skipped_words(skipped)}")
+        needed = [*map(self.column, self.names)]
+        self.units = _row_of_units(rows, needed, self.form)
+        if self.units and self.form.units_row is None:
+            notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, self.units))}")
+        self.cells = rows[bool(self.units) :]
+        if len(self.cells) > most:
+            raise self.refused("", f"more than {most} rows", f"at most {most}")
+        width = len(self.headers)
+        for place, own in self.cells:
+            if len(own) - (own[-1] == "") > width:
+                allowed = "as many as columns: a comma between cells, a point in numbers"
+                allowed += "; or say separator and decimal" * self.has_keys
+                raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
+            own += [""] * (width - len(own))
+        if self.form.decimal is None:
+            texts = [own[k] for _, own in self.cells[:WITHIN] for k in needed or range(width)]
+            comma = separator != "," and _has_decimal_commas(texts)
+            self.form = self.form.model_copy(update={"decimal": "," if comma else "."})
+            if comma:
+                notices.append("numbers with a comma are read with decimal = ','")
+        for words in notices if not self.report else ():
+            _tell(self.source, words)
+
+    def _text(self, data: bytes) -> str:
+        """The text in the file, its lines ended by newlines; of a wrong encoding as in Windows'."""
+        for start, kind, way in FORMATS:
+            if data.startswith(start):
+                raise self.refused("", kind, f"a table in a text file: {way}")
+        if self.form.sheet is not None:
+            found = f"{literal(self.form.sheet)}, and {self.path.name}, a text file"
+            raise self.refused("sheet", found, "a sheet of an Excel workbook only")
+        has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
+        encoding = self.form.encoding or ("utf-16" if has_mark else "utf-8-sig")
+        try:
+            text = data.decode(encoding)
+        except LookupError:
+            self.report("encoding", literal(encoding), f"the name of an encoding, such as {_ENCODING_WORDS}")
+            text = data.decode(ENCODINGS[0], "replace")
+        except UnicodeDecodeError as error:
+            # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
+            line = data.count(b"\n", 0, error.start) + 1
+            begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
+            piece = data[begin : error.start + 8].partition(b"\n")[0]
+            read = literal(piece.decode(ENCODINGS[0], "replace").strip())
+            found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
+            allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"; or '
+            allowed = f"{allowed * self.has_keys}the file saved as UTF-8"
+            self.report.append(Mistake("", found, allowed, self.source))
+            text = data.decode(ENCODINGS[0], "replace")
+        if "\0" in text:
+            raise self.refused("", "a binary file", "a table in a text file")
+        return io.StringIO(text, newline=None).read()
+
+    def _sheet(self, data: bytes) -> list[Row]:
+        """The rows of the sheet that is read; the source names all sheets if none is given."""
+        if b"xl/" not in data:
+            raise self.refused("", "a zip archive", "a table in a text file, or an Excel workbook")
+        try:
+            import pandas as pd
+
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of styles and the like that are not read
+                book = pd.ExcelFile(io.BytesIO(data), "openpyxl")
+                names, sheet = book.sheet_names, 1 if self.form.sheet is None else self.form.sheet
+                if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
+                    raise refused("sheet", literal(sheet), nearest(str(sheet), map(str, names), {}))
+                if self.form.sheet is None and len(names) > 1:
+                    others = ", ".join(map(literal, names[1:]))
+                    self.source += f", sheet {literal(names[0])} (others: {others})"
+                name = sheet if sheet in names else names[int(sheet) - 1]
+                cells = book.parse(name, header=None, dtype=str, na_filter=False)
+        except ImportError:
+            allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
+            raise self.refused("", "an Excel workbook", allowed) from None
+        except StudyError:
+            raise
+        except Exception as error:  # a damaged workbook fails anywhere in openpyxl
+            raise self.refused("", f"a workbook that cannot be read ({error})", _AS_CSV) from None
+        return list(enumerate(cells.values.tolist(), 1))
+
+    def _found_header(self, content: str | list[Row]) -> tuple[str, int]:
+        """The separator, and the number of rows above the header: the row with most of the names."""
+        wanted, others = ({*map(self.form.header, names)} for names in (self.names, self.known))
+        rows_of: dict[str, list[Row]] = {}
+        score: dict[str, tuple[int, ...]] = {}
+        header: dict[str, int] = {}
+        for separator in SEPARATORS:
+            rows: list[Row] = [(self.form.skip_rows + 1, [])]
+            try:
+                rows = [*islice(_rows(content, separator, self.form.skip_rows), WITHIN)] or rows
+            except csv.Error as error:  # a stray quote makes the rest one cell
+                if separator == SEPARATORS[0]:
+                    raise self.refused("", str(error), _READABLE) from None
+            scores = [
+                (len(wanted & {*row}), len(others & {*row}), not any(map(_is_number, row)), len(row))
+                for _, row in rows
+            ]
+            rows_of[separator], score[separator] = rows, max(scores)
+            header[separator] = scores.index(max(scores))
+        if any(_parts(rows_of[each], rows_of[" "][header[" "]][0]) for each in SEPARATORS if each != " "):
+            del score[" "]  # blanks within names
+        likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
+        own: str = self.form.separator or likely
+        line, headers = rows_of[own][header[own]]
+        if headers and wanted <= {*headers}:
+            return own, header[own]
+        self.report.refuse()  # in another encoding headers may be right
+        found, allowed = self._missing(headers)
+        others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(self.names) > len(headers)
+        if likely != own and others_fit:
+            found = f"cells parted by {likely!r}, while separator is {own!r}"
+            allowed = f"separator = {likely!r}"
+        elif above := rows_of[own][: header[own]]:
+            found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
+        raise self.refused(f"line {line}", found, allowed)
+
+    def _missing(self, headers: list[str]) -> tuple[str, str]:
+        """Say which column a header lacks, and what is allowed."""
+        words = ", ".join(self.names)
+        if not headers:
+            return "an empty file", f"a header{' with ' * bool(words)}{words}, and rows of values"
+        for name in self.names:
+            own = self.form.header(name)
+            if name in self.form.columns and own not in headers:
+                return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
+        allowed = f"a header with {words}{', or columns = {...} that says which these are' * self.has_keys}"
+        return f"the columns {', '.join(headers)}", allowed
+
+    def _wrong_headers(self) -> tuple[str, str] | None:
+        """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
+        if len(self.headers) > MOST_COLUMNS:
+            return f"more than {MOST_COLUMNS} columns", "fewer"
+        header, lower = self.form.header, [each.lower() for each in self.headers]
+        for other in map(header, self.names):
+            if len(alike := [name for name in self.names if header(name) == other]) > 1:
+                return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
+        for name in map(header, (*self.names, *self.known)):
+            if lower.count(name.lower()) > 1:
+                return f"the column {name} twice", "each column once"
+        return None
 
 
 def number(cell: str, decimal: str | None) -> float:
@@ -146,7 +348,7 @@ def read_columns(
     names: Sequence[str],
     optional: Sequence[str],
     form: FileTable,
-    kinds: Mapping[str, str] | None = None,
+    kinds: Mapping[str, str],
     labels: Mapping[str, Any] | None = None,
     gaps: bool = False,
 ) -> tuple[FloatArray, IndexArray]:
@@ -173,14 +375,15 @@ def read_columns(
     StudyError
         A ValueError with what is wrong in the file, and in which row.
     """
-    known, report = dict.fromkeys((*names, *optional, *(kinds or ()))), Report()
+    known, report = dict.fromkeys((*names, *optional, *kinds)), Report()
     for part in ("scale", "columns"):
         for name in (each for each in getattr(form, part) if each not in known):
             report(f"{part}.{name}", literal(name), nearest(name, known, {}))
     if not known.keys() >= form.columns.keys():
         report.refuse()  # which column is meant is unknown
     with report:
-        table = read_table(path, names, optional, form, told=report)
+        table = UserTable(path, names, optional, form)
+        report += table.report
         for name in () if form.columns else (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
             if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
@@ -188,17 +391,15 @@ def read_columns(
                 found = f"the column {literal(alike[0])}"
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
-        for name, kind in (kinds or {}).items():
+        for name, kind in kinds.items():
             if labels and name in names:
                 report += _wrong_unit(table, name, kind, str(labels.get(kind)))
-        columns = [table.headers.index(form.header(name)) for name in names]
-        rows = table.cells if gaps else []
-        empty = [line for line, cells in rows if any(cells[k].lower() in MISSING for k in columns)]
+        empty = table.rows_without(names) if gaps else []
         if empty and len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
                 _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
-            table = table._replace(cells=[row for row in table.cells if row[0] not in {*empty}])
+            table.cells = [row for row in table.cells if row[0] not in {*empty}]
         values = table.numbers(names)
     report.refuse()
     return values, np.array([line for line, _ in table.cells])
@@ -224,155 +425,18 @@ def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mist
 
 
 def read_table(
-    path: Path,
-    names: Sequence[str],
-    known: Collection[str],
-    form: FileTable | None,
-    most: int = MOST_ROWS,
-    told: Report | None = None,
+    path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int = MOST_ROWS
 ) -> UserTable:
-    """The table in a file; separator, header, units and decimal sign are found unless they are given.
-
-    Parameters
-    ----------
-    path
-        The file.
-    names
-        Columns that it must have.
-    known
-        Further columns that it may have, which tell its separator.
-    form
-        Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
-    most
-        Largest number of rows.
-    told
-        Told a wrong encoding and the like, with which the table is read all the same; they are raised unless
-        given.
-
-    Raises
-    ------
-    StudyError
-        A ValueError with what is wrong, and in which line.
-    """
-    source, keys, form = str(path), form is not None, form or FileTable()
-    try:
-        data = read_file(path, LARGEST_TABLE)
-    except OSError as error:
-        raise refused("", reason_of(error), _READABLE, source) from None
-    report = Report()
-    if data.startswith(b"PK\x03\x04"):
-        content: str | list[Row]
-        source, content = _sheet(data, form, source)
-    else:
-        content = _text(data, form, source, report, keys)
-    separator, above = _found_header(content, names, known, form, source, report, keys)
-    if separator == form.decimal == ",":
-        report("separator, decimal", "both ','", "two different signs")
-        form = form.model_copy(update={"decimal": None})
-    try:
-        rows = list(islice(_rows(content, separator, form.skip_rows), above + most + 3))
-    except csv.Error as error:
-        raise refused("", str(error), _READABLE, source) from None
-    skipped, (line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
-    if wrong := _wrong_headers(headers, names, known, form):
-        raise refused(f"line {line}", *wrong, source)
-    notices = []
-    if above:
-        notices.append(f"the header is found in line {line}: {_skipped_words(skipped)}")
-    needed = [headers.index(form.header(name)) for name in names]
-    units = _row_of_units(rows, needed, form)
-    if units and form.units_row is None:
-        notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, units))}")
-    cells = rows[bool(units) :]
-    if len(cells) > most:
-        raise refused("", f"more than {most} rows", f"at most {most}", source)
-    for place, own in cells:
-        if len(own) - (own[-1] == "") > len(headers):
-            allowed = "as many as columns: a comma between cells, a point in numbers"
-            allowed += "; or say separator and decimal" * keys
-            raise refused(f"line {place}", f"{len(own)} cells under {len(headers)} columns", allowed, source)
-        own += [""] * (len(headers) - len(own))
-    if form.decimal is None:
-        # A comma if numbers have commas, and none has a point.
-        texts = [own[k] for _, own in cells[:WITHIN] for k in needed or range(len(headers))]
-        commas, points = (
-            any(re.match(rf"[+-]?\d*{sign}\d", text) for text in texts) for sign in (",", r"\.")
-        )
-        comma = commas and not points and separator != ","
-        form = form.model_copy(update={"decimal": "," if comma else "."})
-        if comma:
-            notices.append("numbers with a comma are read with decimal = ','")
-    if told is None:
-        report.refuse()
-    else:
-        told += report
-    for words in notices if not report else ():
-        _tell(source, words)
-    return UserTable(headers, units, cells, form, source, line)
+    """The table in a file, see `UserTable`; a StudyError with all that is wrong."""
+    table = UserTable(path, names, known, form, most)
+    table.report.refuse()
+    return table
 
 
 def _skipped_words(rows: Sequence[Row]) -> str:
     """Which lines above a header are skipped, and what they begin with."""
     lines = f"lines {rows[0][0]} to {rows[-1][0]} are" if len(rows) > 1 else f"line {rows[0][0]} is"
     return f"{lines} skipped, {literal(' '.join(filter(None, rows[0][1])), 40)}"
-
-
-def _text(data: bytes, form: FileTable, source: str, report: Report, keys: bool) -> str:
-    """The text in a file, its lines ended by newlines; of a wrong encoding as in Windows'."""
-    for start, what, way in FORMATS:
-        if data.startswith(start):
-            raise refused("", what, f"a table in a text file: {way}", source)
-    if form.sheet is not None:
-        found = f"{literal(form.sheet)}, and {Path(source).name}, a text file"
-        raise refused("sheet", found, "a sheet of an Excel workbook only")
-    has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
-    encoding = form.encoding or ("utf-16" if has_mark else "utf-8-sig")
-    try:
-        text = data.decode(encoding)
-    except LookupError:
-        report("encoding", literal(encoding), f"the name of an encoding, such as {_ENCODING_WORDS}")
-        text = data.decode(ENCODINGS[0], "replace")
-    except UnicodeDecodeError as error:
-        # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
-        line = data.count(b"\n", 0, error.start) + 1
-        begin = max(data.rfind(b"\n", 0, error.start) + 1, error.start - 12)
-        piece = data[begin : error.start + 8].partition(b"\n")[0]
-        read = literal(piece.decode(ENCODINGS[0], "replace").strip())
-        found = f"bytes in line {line} that are not {error.encoding.upper().removesuffix('-SIG')}"
-        allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"; or '
-        report.append(Mistake("", found, f"{allowed * keys}the file saved as UTF-8", source))
-        text = data.decode(ENCODINGS[0], "replace")
-    if "\0" in text:
-        raise refused("", "a binary file", "a table in a text file", source)
-    return io.StringIO(text, newline=None).read()
-
-
-def _sheet(data: bytes, form: FileTable, source: str) -> tuple[str, list[Row]]:
-    """The file, with the names of its sheets if none is given, and the rows of the sheet that is read."""
-    if b"xl/" not in data:
-        raise refused("", "a zip archive", "a table in a text file, or an Excel workbook", source)
-    try:
-        import pandas as pd
-
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of styles and the like that are not read
-            book = pd.ExcelFile(io.BytesIO(data), "openpyxl")
-            names, sheet = book.sheet_names, form.sheet if form.sheet is not None else 1
-            if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
-                raise refused("sheet", literal(sheet), nearest(str(sheet), map(str, names), {}))
-            if form.sheet is None and len(names) > 1:
-                source += f", sheet {literal(names[0])} (others: {', '.join(map(literal, names[1:]))})"
-            cells = book.parse(
-                sheet if sheet in names else names[int(sheet) - 1], header=None, dtype=str, na_filter=False
-            )
-    except ImportError:
-        allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
-        raise refused("", "an Excel workbook", allowed, source) from None
-    except StudyError:
-        raise
-    except Exception as error:  # a damaged workbook fails anywhere in openpyxl
-        raise refused("", f"a workbook that cannot be read ({error})", _AS_CSV, source) from None
-    return source, list(enumerate(cells.values.tolist(), 1))
 
 
 def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
@@ -389,83 +453,10 @@ def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Ro
     return ((line, cells) for line, cells in stripped if any(cells))
 
 
-def _found_header(
-    content: str | list[Row],
-    names: Sequence[str],
-    known: Collection[str],
-    form: FileTable,
-    source: str,
-    report: Report,
-    keys: bool,
-) -> tuple[str, int]:
-    """The separator, and the number of rows above the header: the row with most of the names asked for."""
-    wanted, others = {*map(form.header, names)}, {*map(form.header, known)}
-    rows_of: dict[str, list[Row]] = {}
-    score: dict[str, tuple[int, ...]] = {}
-    header: dict[str, int] = {}
-    for separator in SEPARATORS:
-        rows: list[Row] = [(form.skip_rows + 1, [])]
-        try:
-            rows = [*islice(_rows(content, separator, form.skip_rows), WITHIN)] or rows
-        except csv.Error as error:  # a stray quote makes the rest one cell
-            if separator == SEPARATORS[0]:
-                raise refused("", str(error), _READABLE, source) from None
-        scores = [
-            (len(wanted & {*row}), len(others & {*row}), not any(map(_is_number, row)), len(row))
-            for _, row in rows
-        ]
-        rows_of[separator], score[separator] = rows, max(scores)
-        header[separator] = scores.index(max(scores))
-    if any(_parts(rows_of[each], rows_of[" "][header[" "]][0]) for each in SEPARATORS if each != " "):
-        del score[" "]  # blanks within names
-    likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
-    own: str = form.separator or likely
-    line, headers = rows_of[own][header[own]]
-    if headers and wanted <= {*headers}:
-        return own, header[own]
-    report.refuse()  # in another encoding headers may be right
-    found, allowed = _missing(headers, names, form, keys)
-    others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(names) > len(headers)
-    if likely != own and others_fit:
-        found, allowed = f"cells parted by {likely!r}, while separator is {own!r}", f"separator = {likely!r}"
-    elif above := rows_of[own][: header[own]]:
-        found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
-    raise refused(f"line {line}", found, allowed, source)
-
-
 def _parts(rows: Sequence[Row], line: int) -> bool:
     """Return whether a separator gives a line, and the next one, the same number of cells, two at least."""
     own, *below = [len(cells) for place, cells in rows if place >= line][:2] or [0]
     return own > 1 and own in below
-
-
-def _missing(headers: list[str], names: Sequence[str], form: FileTable, keys: bool) -> tuple[str, str]:
-    """Say which column a header lacks, and what is allowed."""
-    if not headers:
-        return "an empty file", f"a header{' with ' * bool(names)}{', '.join(names)}, and rows of values"
-    for name in names:
-        if name in form.columns and form.header(name) not in headers:
-            own = form.header(name)
-            return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
-    allowed = f"a header with {', '.join(names)}"
-    allowed += ", or columns = {...} that says which these are" * keys
-    return f"the columns {', '.join(headers)}", allowed
-
-
-def _wrong_headers(
-    headers: list[str], names: Sequence[str], known: Collection[str], form: FileTable
-) -> tuple[str, str] | None:
-    """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
-    if len(headers) > MOST_COLUMNS:
-        return f"more than {MOST_COLUMNS} columns", "fewer"
-    lower = [header.lower() for header in headers]
-    for other in map(form.header, names):
-        if len(alike := [name for name in names if form.header(name) == other]) > 1:
-            return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
-    for name in map(form.header, (*names, *known)):
-        if lower.count(name.lower()) > 1:
-            return f"the column {name} twice", "each column once"
-    return None
 
 
 def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -> list[str]:
@@ -477,6 +468,12 @@ def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -
     first, *below = ([cells[k] for k in needed if k < len(cells)] for _, cells in rows[:2])
     numbers = below and all(map(_is_number, below[0])) and not any(map(_is_number, rows[0][1]))
     return rows[0][1] if any(first) and numbers else []
+
+
+def _has_decimal_commas(texts: Sequence[str]) -> bool:
+    """Return whether numbers have commas, and none has a point."""
+    has = {sign: any(re.match(rf"[+-]?\d*{re.escape(sign)}\d", text) for text in texts) for sign in ",."}
+    return has[","] and not has["."]
 
 
 def _is_number(cell: str) -> bool:

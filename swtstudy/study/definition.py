@@ -21,7 +21,7 @@ from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, n
 from swtstudy.vocabulary.quantities import DISTANCE, Request
 
 if TYPE_CHECKING:
-    from swtstudy.study.sample import Sample
+    from swtstudy.study.sample import Design
 
 _READABLE = "a readable study file (TOML)"
 _NAMED = 'a study (TOML) that names it: file = "…" under [loads.NAME], [profiles.NAME] or [sample]'
@@ -58,8 +58,8 @@ class Study:
     text
         The study file as it was read, or, if that names other files, one that says the same without them; it
         is stored in the archive.
-    sample
-        Where the sample of the grid comes from, or None.
+    design
+        The design of its sample, or None.
 
     Examples
     --------
@@ -79,7 +79,7 @@ class Study:
     asked: Request
     figure: FigureLayout | None
     text: str
-    sample: Sample | None = None
+    design: Design | None = None
 
     def __repr__(self) -> str:
         return in_one_line(self)

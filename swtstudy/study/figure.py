@@ -15,10 +15,10 @@ from pydantic.dataclasses import dataclass
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.choices import FIGURES
-from swtstudy.vocabulary.derived import DERIVED, LIVES
+from swtstudy.vocabulary.derived import lacking
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, LETTERS, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, EVERY_VARIABLE, NONLOCAL, Request
+from swtstudy.vocabulary.quantities import COUNTED, EVERY_VARIABLE, Request
 
 _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)[^()]*)\)")
 
@@ -82,8 +82,7 @@ class FigureLayout:
     @classmethod
     def from_json(cls, text: str) -> FigureLayout:
         """The layout from its text in an archive."""
-        raw = json.loads(text)
-        return cls(**{**raw, "y": tuple(raw["y"])})
+        return cls(**json.loads(text))
 
     def roles(self) -> Iterator[tuple[str, str]]:
         """Role and name of every dimension that is used."""
@@ -245,7 +244,7 @@ def check_figure(
             sizes |= {dim: asked.sizes[dim] for dim in own}
         of = f"{y} in this study" if asked.distances or {*dims} - {*sizes} else "this study"
         found += wrong_axes(layout, sizes, of)
-        found += _wrong_quantity(y, dims, grid, known)
+        found += _wrong_quantity(y, dims, grid, asked, known)
     if layout.regimes and layout.x in QUANTITY_AXES:
         found.append(("figure.regimes", f"true over {layout.x}", "false: there is one regime at a point"))
     for mistake in dict.fromkeys(found):
@@ -253,10 +252,10 @@ def check_figure(
 
 
 def _wrong_quantity(
-    y: str, dims: list[str], grid: Grid | None, known: list[str]
+    y: str, dims: list[str], grid: Grid | None, asked: Request, known: list[str]
 ) -> Iterator[tuple[str, str, str]]:
     """Key, found and allowed of a quantity that a study does not have, or of its place."""
-    name, row, found = y.strip(), DERIVED.get(y.strip()), literal(y)
+    name, found = y.strip(), literal(y)
     try:
         place = reference(y)
     except ValueError as error:
@@ -275,11 +274,9 @@ def _wrong_quantity(
     elif name in EVERY_VARIABLE:
         allowed = f"what it asks for, {', '.join(known)}, or {QUANTITY}"
         yield "figure.y", f"{found}, which this study does not ask for", allowed
-    elif row and row.of in NONLOCAL and name.rpartition("_")[0] in known:
-        yield "figure.y", found, f"in a study with a {DISTANCE} alone"
-    elif row and row.kind and not {*LIVES} & {*known}:
-        allowed = f"[material] with them, in a study with units; or {', '.join(known)}"
-        yield "figure.y", f"{found}, a life, without fatigue constants", allowed
+    elif grid and (lacks := lacking(name, grid, grid.values("criterion"), asked)):
+        allowed = f"in a study with {' and '.join(lacks)}; or {', '.join(known)}"
+        yield "figure.y", found, allowed
     else:
         yield "figure.y", f"{found} (not a quantity)", f"{nearest(y, known)}, {QUANTITY}"
 

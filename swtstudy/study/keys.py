@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from inspect import signature
-from typing import Annotated, Any, ClassVar, Literal, TypeVar, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
@@ -48,8 +48,13 @@ class Table(BaseModel):
     #: Words for the table as a whole, in messages.
     allowed: ClassVar[str]
 
-
-AnyTable = TypeVar("AnyTable", bound=Table)
+    @classmethod
+    def of(cls, given: Mapping[str, Any]) -> Self:
+        """The table with the keys that are not None; a StudyError with every mistake in them."""
+        try:
+            return cls.model_validate({n: plain(value) for n, value in given.items() if value is not None})
+        except ValidationError as error:
+            raise StudyError(_mistakes(cls, error, "")) from None
 
 
 File = Annotated[str | None, "the path of a CSV file"]
@@ -289,14 +294,6 @@ def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
     if others and isinstance(inner, dict):
         return _drop(inner, *others)
     return left.pop(first, left) is not left
-
-
-def sound_keys(model: type[AnyTable], given: Mapping[str, Any]) -> AnyTable:
-    """The table with the keys that are not None; a StudyError with every mistake in them."""
-    try:
-        return model.model_validate({n: plain(value) for n, value in given.items() if value is not None})
-    except ValidationError as error:
-        raise StudyError(_mistakes(model, error, "")) from None
 
 
 def _mistakes(model: type[Table], error: ValidationError, source: str) -> list[Mistake]:

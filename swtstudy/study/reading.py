@@ -13,22 +13,22 @@ import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.reading import Range, read_distances, read_grid, warn_of_degrees
+from swtstudy.points.reading import Known, Range, read_distances, read_grid, warn_of_degrees
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import (
     BlockTable,
-    FileTable,
     LoadTable,
     ProfileTable,
     SignalTable,
+    Table,
+    TraceTable,
     read_study,
-    sound_keys,
     under,
 )
-from swtstudy.study.sample import Sample, read_sample
+from swtstudy.study.sample import Design, Sampled, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.study.writing import to_toml
@@ -43,16 +43,17 @@ from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, refused
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
-from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, YIELD, Request, read_quantities
+from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, Request, read_quantities
 
-#: Keys beside the definition of a loop.
-_BESIDE = {
-    "vertices": ("absolute", "mean_normal"),
-    "normal": ("mean_normal",),
-    "file": (*SignalTable.model_fields, "keep_cycles"),
-}
 #: Columns of the file of a profile.
 PROFILE_COLUMNS = ("radius", "height")
+#: The keys that define a loop or a profile in each of its forms, and the keys that may stand beside them.
+_LOADS = {
+    ("vertices",): ("absolute", "mean_normal"),
+    COLUMNS: (BULK, "mean_normal"),
+    ("file",): (*SignalTable.model_fields, "keep_cycles"),
+}
+_PROFILES = {PROFILE_COLUMNS: ("smoothing", "geometry"), ("file",): (*TraceTable.model_fields, "two_sided")}
 #: Stands for a wrong profile: its use is no mistake of its own.
 _ANY_PROFILE = TabulatedProfile("any", np.linspace(0.0, 1e3, 9), np.linspace(0.0, 1e3, 9) ** 2)
 
@@ -77,24 +78,21 @@ class StudyReader:
         contacts, fixed = self._contacts(fixed, axes)
         self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         own = rows(contacts.units) if contacts else PARAMETERS
-        sample, sampled, scatter = self._sample(own, known, contacts)
-        is_sampled = "sample" in self.raw and (bool(sampled) or scatter is None)
-        self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(sampled, "sample")
+        samples, design, scatter = self._sample(own, known, contacts)
+        is_sampled = "sample" in self.raw and (bool(samples) or scatter is None)
+        self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(samples, "sample")
         self.places |= {"load": "blocks"} if blocks else {}
-        samples = {name: sample.values[name] if sample else None for name in sampled}
         distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
         asked = Request(read_quantities(parts.quantities, "quantities", report), *distances)
         if contacts is not None:
             contacts = replace(contacts, blocks=tuple(blocks), scatter=scatter)
-            strong = (YIELD,) if contacts.yield_strengths and YIELD not in asked.names else ()
-            counts = bool(contacts.materials or contacts.shear_materials)
-            asked = replace(asked, names=(*asked.names, *strong), counts=counts)
+            asked = contacts.request(asked.names, *distances)
             wrong_material = any(mistake.key.startswith("material") for mistake in report)
-            if blocks and not counts and "material" in self.raw and not wrong_material:
+            if blocks and not contacts.has_lives and "material" in self.raw and not wrong_material:
                 found = "blocks with a [material] without lives"
                 report("blocks", found, "constants of lives: Miner's sum needs them")
         grid: Grid | None = None
-        if not is_sampled or sampled:  # else what is sampled is unknown: nothing else is missing
+        if not is_sampled or samples:  # else what is sampled is unknown: nothing else is missing
             given = report.key, self.source
             if contacts is None:
                 grid, wrong = read_grid(fixed, axes, *given, (DISTANCE,), samples, known)
@@ -114,9 +112,8 @@ class StudyReader:
         if "file" in (parts.material or ()) or any(table.file for table in tables if table):
             # An archive and what a killed run leaves are read in other folders, when files may be gone.
             text = to_toml(parts.title, parts.rtol, grid, parts.figure, asked)
-        names = ("title", "grid", "rtol", "asked", "figure", "text", "sample")
-        values = (parts.title, grid, parts.rtol, asked, parts.figure, text, sample)
-        return dict(zip(names, values, strict=True))
+        kept = {"title": parts.title, "rtol": parts.rtol, "figure": parts.figure}
+        return {**kept, "grid": grid, "asked": asked, "text": text, "design": design}
 
     def _loads(self) -> dict[str, Definition]:
         """The loops by name; a wrong one stands for any, so that its use is no mistake of its own."""
@@ -133,19 +130,11 @@ class StudyReader:
 
     def _load(self, name: str, table: LoadTable) -> dict[str, Definition]:
         """The loop of a table, and the loops of cycles that are kept; a StudyError with what is wrong."""
-        own = _given(table)
-        kinds = [each for each in ("vertices", "file", *COLUMNS, BULK) if each in own]
-        if kinds not in (["vertices"], ["file"], [*COLUMNS], [*COLUMNS, BULK]):
-            allowed = "vertices, file, or normal and tangential, with or without bulk"
-            raise refused("", " and ".join(kinds) or "nothing", allowed)
-        if strange := [each for each in own if each not in (*kinds, *_BESIDE[kinds[0]])]:
-            of = {"vertices": "vertices", "normal": "harmonics", "file": "a file"}[kinds[0]]
-            allowed = f"with {of} only {', '.join(_BESIDE[kinds[0]])}"
-            raise refused("", f"{', '.join(strange)} beside {of}", allowed)
-        if kinds[0] == "normal":
+        form = _form_of(table, _LOADS)
+        if form == COLUMNS:
             columns = [_harmonics(getattr(table, each) or (), each) for each in (*COLUMNS, BULK)]
             return {name: LoadPath.harmonic_sum(name, *columns, mean_normal=table.mean_normal)}
-        if kinds == ["vertices"]:
+        if form == ("vertices",):
             if table.absolute and table.mean_normal is not None:
                 raise refused("absolute", "absolute and mean_normal", "true or false; without mean_normal")
             if table.absolute:
@@ -176,17 +165,9 @@ class StudyReader:
             if table is None:
                 continue
             with under(self.report, f"profiles.{name}"):
-                own = _given(table)
-                kinds = [each for each in (*PROFILE_COLUMNS, "file") if each in own]
-                if kinds not in (["file"], [*PROFILE_COLUMNS]):
-                    raise refused("", " and ".join(kinds) or "nothing", "radius and height, or file")
-                of_files: tuple[str, ...] = (
-                    (*FileTable.model_fields, "two_sided") if kinds != ["file"] else ()
-                )
-                strange = [each for each in (*of_files, "level") if each in own]
-                if strange and not (table.file and table.two_sided):
-                    words = "a file" if of_files else "two_sided"
-                    raise refused("", ", ".join(strange), f"{strange[0]} with {words} only")
+                _form_of(table, _PROFILES)
+                if "level" in table.model_fields_set and not table.two_sided:
+                    raise refused("", "level", "level with two_sided only")
                 profiles[name] = profile_from(name, table, self.folder, self.parts.units)
         return profiles
 
@@ -230,17 +211,14 @@ class StudyReader:
         return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
     def _sample(
-        self,
-        own: Mapping[str, Parameter],
-        known: Mapping[str, Mapping[str, Definition]],
-        contacts: ContactDetails | None = None,
-    ) -> tuple[Sample | None, list[str], Scatter | None]:
-        """The sample, the names of what is sampled, and draws of constants; nothing without a sample."""
-        if self.parts.sample is None:
-            return None, [], None
+        self, own: Mapping[str, Parameter], known: Known, contacts: ContactDetails | None = None
+    ) -> tuple[Sampled, Design | None, Scatter | None]:
+        """See `SampleReader.read`; nothing without a sample."""
+        table, given = self.parts.sample, self.raw.get("sample", ())
+        if table is None:
+            return {}, None, None
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
-        given = self.raw["sample"]
-        return read_sample(self.parts.sample, given, self.folder, self.report, known, single, contacts)
+        return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
 
     def firsts(self) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""
@@ -249,8 +227,8 @@ class StudyReader:
             for name, axis in self.fixed_and_axes(self.parts.blocks)[1].items()
         }
         units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
-        sample, sampled, _ = self._sample(rows(units) if units else PARAMETERS, {})
-        return found | {name: sample.values[name][0] if sample else None for name in sampled}
+        samples, *_ = self._sample(rows(units) if units else PARAMETERS, {})
+        return found | {name: values[0] if values else None for name, values in samples.items()}
 
     def fixed_and_axes(self, blocks: Sequence[Block | BlockTable]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Fixed values and axes; the loads of blocks are the last axis if there are several."""
@@ -262,9 +240,21 @@ class StudyReader:
         return ({**fixed, "load": loads[0]} if loads else fixed), axes
 
 
-def _given(table: FileTable) -> list[str]:
-    """The keys of a table that have a value, in their order."""
-    return [name for name in type(table).model_fields if name in table.model_fields_set]
+def _form_of(table: Table, forms: Mapping[tuple[str, ...], Sequence[str]]) -> tuple[str, ...]:
+    """The form in which a table defines something, by the keys that define it.
+
+    A StudyError if there is no form or several, if a form is not complete, or with keys of another form.
+    """
+    given = [name for name in type(table).model_fields if name in table.model_fields_set]
+    defining = [name for form in forms for name in form if name in given]
+    shown = [form for form in forms if {*form} & {*given}]
+    if len(shown) != 1 or {*shown[0]} - {*given}:
+        raise refused("", " and ".join(defining) or "nothing", table.allowed)
+    form, beside = shown[0], forms[shown[0]]
+    if strange := [name for name in given if name not in (*form, *beside)]:
+        words = " and ".join(form)
+        raise refused("", f"{', '.join(strange)} beside {words}", f"beside {words} only {', '.join(beside)}")
+    return form
 
 
 def _harmonics(rows: Any, column: str) -> Any:
@@ -289,7 +279,7 @@ def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
 
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
     """The signal that a load of a sound study is; None for one that comes from no file."""
-    table = sound_keys(LoadTable, parse_toml(text).get("loads", {}).get(name, {}))
+    table = LoadTable.of(parse_toml(text).get("loads", {}).get(name, {}))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # told when the study was read
         return signal_from(folder / table.file, name, table) if table.file else None

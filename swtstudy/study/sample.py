@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +20,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
-from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
+from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.units.material import KEYS
 from swtstudy.vocabulary.arrays import FloatArray
@@ -158,37 +158,15 @@ class Distribution:
         return stats.triang((given.get("mode", self.low) - self.low) / width, self.low, width)
 
 
+#: Checked values of sampled parameters, by name; None where there are mistakes.
+Sampled = dict[str, tuple[Value, ...] | None]
+
+
 @dataclass(frozen=True)
-class Sample:
-    """A sample of parameters.
+class SampleReader:
+    """Reads the table of a sample, as far as it is sound; mistakes are reported.
 
     Attributes
-    ----------
-    values
-        The values of each parameter, all of one length.
-    design
-        The design that they come from; None for given points.
-    ranges
-        How each parameter is distributed in the design.
-    """
-
-    values: NamedValues
-    design: Design | None = None
-    ranges: dict[str, Distribution] = field(default_factory=dict)
-
-
-def read_sample(
-    table: SampleTable,
-    given: Collection[str],
-    folder: Path,
-    report: Report,
-    known: Known,
-    rows: Mapping[str, Parameter],
-    contacts: ContactDetails | None = None,
-) -> tuple[Sample | None, list[str], Scatter | None]:
-    """The sample of a study's table, as far as it is sound; mistakes are reported.
-
-    Parameters
     ----------
     table
         The table.
@@ -204,115 +182,190 @@ def read_sample(
         The parameters that may be sampled.
     contacts
         The contacts, with the constants that may scatter.
-
-    Returns
-    -------
-    sample
-        None without parameters.
-    names
-        The parameters that are sampled, as far as known.
-    scatter
-        None without constants.
     """
-    forms = [form for form in ("design", "file", "points") if form in given]
-    if len(forms) != 1:
-        allowed = "one of: design, size and ranges; or file; or points"
-        report("sample", " and ".join(forms) or "nothing", allowed)
-        return None, [], None
-    if forms[0] != "design":
-        for name in (each for each in ("size", "seed", "ranges") if each in given):
-            found = f"{literal(getattr(table, name))} beside {forms[0]}"
-            report(f"sample.{name}", found, "only with a design")
-    scatter = _read_scatter(table, contacts, report)
-    points: Mapping[str, Any] | None = table.points
-    if table.file is not None:
-        points = read_points(folder / table.file, report, table, rows)
-        if points is None:
-            return None, [], scatter
-    every = table.ranges if forms[0] == "design" else points or {}
-    own = {name: each for name, each in every.items() if name not in SCATTERED}
-    if not own and (table.covariance or every):
-        return None, [], scatter  # constants alone
-    if forms[0] == "design":
-        return *_designed(table, own, report, rows), scatter
-    values = _given(own, f"sample.{forms[0]}", report, known, rows)
-    return Sample(values) if values else None, [name for name in own if name in rows], scatter
 
+    table: SampleTable
+    given: Collection[str]
+    folder: Path
+    report: Report
+    known: Known
+    rows: Mapping[str, Parameter]
+    contacts: ContactDetails | None = None
 
-def read_points(
-    path: Path, report: Report, form: FileTable, names: Collection[str]
-) -> dict[str, list[object]] | None:
-    """The columns of a file by name; numbers are read, other texts are left. None if there are mistakes.
+    def read(self) -> tuple[Sampled, Design | None, Scatter | None]:
+        """The sampled parameters, the design of values that are not given, and draws of constants."""
+        table, given = self.table, self.given
+        forms = [form for form in ("design", "file", "points") if form in given]
+        if len(forms) != 1:
+            allowed = "one of: design, size and ranges; or file; or points"
+            self.report("sample", " and ".join(forms) or "nothing", allowed)
+            return {}, None, None
+        if forms[0] != "design":
+            for name in (each for each in ("size", "seed", "ranges") if each in given):
+                found = f"{literal(getattr(table, name))} beside {forms[0]}"
+                self.report(f"sample.{name}", found, "only with a design")
+        scatter = self._scatter()
+        points: Mapping[str, Any] | None = table.points
+        if table.file is not None:
+            points = self._points_of_file(self.folder / table.file)
+            if points is None:
+                return {}, None, scatter
+        every = table.ranges if forms[0] == "design" else points or {}
+        own = {name: each for name, each in every.items() if name not in SCATTERED}
+        if not own and (table.covariance or every):
+            return {}, None, scatter  # constants alone
+        if forms[0] == "design":
+            return *self._designed(own), scatter
+        values = self._listed(own, f"sample.{forms[0]}", self.rows)
+        return {name: values.get(name) for name in own if name in self.rows}, None, scatter
 
-    Parameters
-    ----------
-    path
-        The file.
-    report
-        Told what is wrong.
-    form
-        How it is written.
-    names
-        Parameters: names of columns.
-    """
-    with under(report, "sample", "file"):
-        table = read_table(path, (), names, form, LONGEST_AXIS)
-        names_of = {form.header(name): name for name in names}
-        if table.cells:
-            return {(name := names_of.get(each, each)): table.values(name) for each in table.headers if each}
-        allowed = "a CSV file: a row with names of parameters, then a row with their values for each point"
-        report("sample.file", f"{path} without points", allowed)
-    return None
-
-
-def _designed(
-    table: SampleTable, ranges: Mapping[str, Any], report: Report, rows: Mapping[str, Parameter]
-) -> tuple[Sample | None, list[str]]:
-    """Values of parameters in their ranges, at the points of a design."""
-    numeric = {name: row for name, row in rows.items() if row.kind == "number"}
-    names, before = [name for name in ranges if name in numeric], len(report)
-    if not ranges:
-        report("sample.ranges", "nothing", "at least one parameter with its range")
-    for name in (name for name in ranges if name not in numeric):
-        found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
-        if name in KEYS:
-            found = f"{name}, a constant that cannot scatter"
-            allowed = f"constants that can: {_CAN_SCATTER}; or a parameter"
-        if name in rows:
-            found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
-        report(f"sample.ranges.{name}", found, allowed)
-    design, read = _design(table, len(names), report), _distributions(ranges, numeric, report)
-    if design is None or len(report) > before:
-        return None, names
-    columns = zip(names, design.points(len(names)).T, strict=True)
-    values = {name: tuple(read[name].values(column).tolist()) for name, column in columns}
-    return Sample(values, design, read), names
-
-
-def _design(table: SampleTable, dimensions: int, report: Report) -> Design | None:
-    """The design of a table; a wrong size is reported."""
-    if table.design is None:
-        return None  # reported with the structure
-    size, balanced = table.size, table.design in BALANCED
-    if size is None or (balanced and size & (size - 1)):
-        allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
-        report("sample.size", "nothing" if size is None else literal(size), allowed)
+    def _points_of_file(self, path: Path) -> dict[str, list[object]] | None:
+        """The columns of a file by name: numbers, and other texts as they are. None if there are mistakes."""
+        form = self.table
+        with under(self.report, "sample", "file"):
+            table = read_table(path, (), self.rows, form, LONGEST_AXIS)
+            names = {form.header(name): name for name in self.rows}
+            if table.cells:
+                return {(name := names.get(each, each)): table.values(name) for each in table.headers if each}
+            allowed = (
+                "a CSV file: a row with names of parameters, then a row with their values for each point"
+            )
+            self.report("sample.file", f"{path} without points", allowed)
         return None
-    count = size * (dimensions + 2) if table.design == "saltelli" else size
-    if count > LONGEST_AXIS:
-        report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
-    return Design(table.design, size, table.seed)
 
+    def _designed(self, ranges: Mapping[str, Any]) -> tuple[Sampled, Design | None]:
+        """Values of parameters in their ranges, at the points of a design."""
+        numeric = {name: row for name, row in self.rows.items() if row.kind == "number"}
+        names, before = [name for name in ranges if name in numeric], len(self.report)
+        if not ranges:
+            self.report("sample.ranges", "nothing", "at least one parameter with its range")
+        for name in (name for name in ranges if name not in numeric):
+            found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
+            if name in KEYS:
+                found = f"{name}, a constant that cannot scatter"
+                allowed = f"constants that can: {_CAN_SCATTER}; or a parameter"
+            if name in self.rows:
+                found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
+            self.report(f"sample.ranges.{name}", found, allowed)
+        design, read = self._design(len(names)), self._distributions(ranges, numeric)
+        if design is None or len(self.report) > before:
+            return dict.fromkeys(names), None
+        columns = zip(names, design.points(len(names)).T, strict=True)
+        return {name: tuple(read[name].values(column).tolist()) for name, column in columns}, design
 
-def _distributions(
-    ranges: Mapping[str, Any], rows: Mapping[str, Parameter], report: Report
-) -> dict[str, Distribution]:
-    """The sound distributions of parameters."""
-    read = {}
-    for name in (each for each in ranges if each in rows):
-        with report:
-            read[name] = _distribution(rows[name], ranges[name], f"sample.ranges.{name}")
-    return read
+    def _design(self, dimensions: int) -> Design | None:
+        """The design of the table; a wrong size is reported."""
+        table, size = self.table, self.table.size
+        if table.design is None:
+            return None  # reported with the structure
+        balanced = table.design in BALANCED
+        if size is None or (balanced and size & (size - 1)):
+            allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
+            self.report("sample.size", "nothing" if size is None else literal(size), allowed)
+            return None
+        count = size * (dimensions + 2) if table.design == "saltelli" else size
+        if count > LONGEST_AXIS:
+            self.report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
+        return Design(table.design, size, table.seed)
+
+    def _distributions(
+        self, ranges: Mapping[str, Any], rows: Mapping[str, Parameter]
+    ) -> dict[str, Distribution]:
+        """The sound distributions of parameters."""
+        read = {}
+        for name in (each for each in ranges if each in rows):
+            with self.report:
+                read[name] = _distribution(rows[name], ranges[name], f"sample.ranges.{name}")
+        return read
+
+    def _listed(self, points: Mapping[str, Any], key: str, rows: Mapping[str, Parameter]) -> NamedValues:
+        """Points given one by one, none with mistakes; the first wrong value of each parameter is told."""
+        report, before = self.report, len(self.report)
+        lengths = {name: len(column) for name, column in points.items()}
+        if not lengths or min(lengths.values()) == 0:
+            report(key, "no points", "at least one point")
+            return {}
+        if len({*lengths.values()}) > 1:
+            words = ", ".join(f"{length} of {name}" for name, length in lengths.items())
+            report(key, words, "as many values of each parameter")
+        if max(lengths.values()) > LONGEST_AXIS:
+            report(key, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
+            return {}
+        values: NamedValues = {}
+        for name, column in points.items():
+            if name not in rows:
+                report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
+                continue
+            good: list[Value] = []
+            wrong: list[str] = []
+            for index, raw in enumerate(column):
+                try:
+                    good.append(read_value(rows[name], raw, self.known.get(name, NOTHING)))
+                except ValueError as error:
+                    wrong.append(f"{literal(raw)} ({error}) at [{index}]")
+            if wrong:
+                comma = any(isinstance(raw, str) and DECIMAL_COMMA.fullmatch(raw) for raw in column)
+                allowed = rows[name].allowed + COMMA_HINT * comma
+                report(f"{key}.{name}", wrong[0] + more_like_it(len(wrong)), allowed)
+            values[name] = tuple(good)
+        return {} if len(report) > before else values
+
+    def _scatter(self) -> Scatter | None:
+        """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
+        table, contacts, report = self.table, self.contacts, self.report
+        given = {name for part in (table.ranges, table.points) for name in part if name in SCATTERED}
+        if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
+            return None
+        if contacts is None or not contacts.has_lives:
+            if not any(mistake.key.startswith("material") for mistake in report):
+                report("sample", "constants that scatter", "with the constants of lives in [material]")
+            return None
+        before, target = len(report), table.target_life or 0.0
+        if not 0.0 <= target < math.inf:
+            report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
+        found = {name: np.array(column) for name, column in self._drawn(contacts).items()}
+        for name, column in found.items():
+            own, row = _own_values(name, contacts), SCATTERED[name]
+            base = f"{TORSION * row.torsion}{row.constant}"
+            if len({*own}) > 1:
+                words = " and ".join(f"{value:g}" for value in own)
+                allowed = f"{name}_1, {name}_2, or one of them"
+                report(f"sample.{name}", f"{name}, which is {words} in the bodies", allowed)
+            elif not own:
+                report(f"sample.{name}", f"{name}, a constant without a value", f"{base} in [material]")
+            if name != base and base in found:
+                report(f"sample.{name}", f"{name} beside {base}", "one of the two")
+            if wrong := int((column * (-1.0 if row.constant.endswith("exponent") else 1.0) <= 0.0).sum()):
+                allowed = "less scatter, or a distribution that is cut off"
+                report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
+        if len(report) > before or not found:
+            return None
+        names = tuple(name for name in SCATTERED if name in found)
+        draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
+        return Scatter(names, draws, target)
+
+    def _drawn(self, contacts: ContactDetails) -> Mapping[str, Any]:
+        """Draws of constants: given ones, or from ranges and from a covariance about the constants."""
+        table, report, before = self.table, self.report, len(self.report)
+        given = {name: table.points[name] for name in SCATTERED if name in table.points}
+        if given:
+            return self._listed(given, "sample.points", _CONSTANTS)
+        ranges = {name: entry for name, entry in table.ranges.items() if name in SCATTERED}
+        correlated, root = _root(table.covariance, ranges, report)
+        if table.design == "saltelli":
+            allowed = "a design other than saltelli, for draws of constants"
+            report("sample.design", literal(table.design), allowed)
+        read, dimensions = self._distributions(ranges, _CONSTANTS), len(ranges) + len(correlated)
+        design = self._design(dimensions)
+        if design is None or len(report) > before or not dimensions:
+            return {}
+        from scipy.special import ndtri
+
+        unit = design.points(dimensions)
+        draws = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
+        about = np.array([(_own_values(name, contacts) or [math.nan])[0] for name in correlated])
+        normal = ndtri(np.clip(unit[:, len(ranges) :], 1e-12, 1.0 - 1e-12))
+        return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
 
 
 def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
@@ -346,11 +399,8 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
             report(f"{key}.{name}", found, parameter.allowed if name in ends else "a number")
     report.refuse()
     of = Distribution(kind, numbers, low := numbers.pop("low"), high := numbers.pop("high"))
-    bounds, deviation, mode = (
-        f"the bounds {low:g} and {high:g}",
-        numbers.get("deviation", 1.0),
-        numbers.get("mode", low),
-    )
+    bounds, mode = f"the bounds {low:g} and {high:g}", numbers.get("mode", low)
+    deviation = numbers.get("deviation", 1.0)
     if not low < high:
         raise refused(key, bounds, "the lower bound first, and a higher one")
     if kind == "lognormal" and deviation > _LARGEST_DEVIATION:
@@ -366,75 +416,6 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
     return of
 
 
-def _given(
-    points: Mapping[str, Any], key: str, report: Report, known: Known, rows: Mapping[str, Parameter]
-) -> NamedValues:
-    """Points given one by one; none with mistakes. The first wrong value of each parameter is reported."""
-    lengths = {name: len(column) for name, column in points.items()}
-    if not lengths or min(lengths.values()) == 0:
-        report(key, "no points", "at least one point")
-        return {}
-    before = len(report)
-    if len({*lengths.values()}) > 1:
-        words = ", ".join(f"{length} of {name}" for name, length in lengths.items())
-        report(key, words, "as many values of each parameter")
-    if max(lengths.values()) > LONGEST_AXIS:
-        report(key, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
-        return {}
-    values: NamedValues = {}
-    for name, column in points.items():
-        if name not in rows:
-            report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
-            continue
-        good: list[Value] = []
-        wrong: list[str] = []
-        for index, raw in enumerate(column):
-            try:
-                good.append(read_value(rows[name], raw, known.get(name, NOTHING)))
-            except ValueError as error:
-                wrong.append(f"{literal(raw)} ({error}) at [{index}]")
-        if wrong:
-            comma = any(isinstance(raw, str) and DECIMAL_COMMA.fullmatch(raw) for raw in column)
-            allowed = rows[name].allowed + COMMA_HINT * comma
-            report(f"{key}.{name}", wrong[0] + more_like_it(len(wrong)), allowed)
-        values[name] = tuple(good)
-    return {} if len(report) > before else values
-
-
-def _read_scatter(table: SampleTable, contacts: ContactDetails | None, report: Report) -> Scatter | None:
-    """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
-    given = {name for part in (table.ranges, table.points) for name in part if name in SCATTERED}
-    if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
-        return None
-    if contacts is None or not (contacts.materials or contacts.shear_materials):
-        if not any(mistake.key.startswith("material") for mistake in report):
-            report("sample", "constants that scatter", "with the constants of lives in [material]")
-        return None
-    before, target = len(report), table.target_life or 0.0
-    if not 0.0 <= target < math.inf:
-        report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
-    found = {name: np.array(column) for name, column in _drawn(table, contacts, report).items()}
-    for name, column in found.items():
-        own, row = _own_values(name, contacts), SCATTERED[name]
-        base = f"{TORSION * row.torsion}{row.constant}"
-        if len({*own}) > 1:
-            words = " and ".join(f"{value:g}" for value in own)
-            allowed = f"{name}_1, {name}_2, or one of them"
-            report(f"sample.{name}", f"{name}, which is {words} in the bodies", allowed)
-        elif not own:
-            report(f"sample.{name}", f"{name}, a constant without a value", f"{base} in [material]")
-        if name != base and base in found:
-            report(f"sample.{name}", f"{name} beside {base}", "one of the two")
-        if wrong := int((column * (-1.0 if row.constant.endswith("exponent") else 1.0) <= 0.0).sum()):
-            allowed = "less scatter, or a distribution that is cut off"
-            report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
-    if len(report) > before or not found:
-        return None
-    names = tuple(name for name in SCATTERED if name in found)
-    draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
-    return Scatter(names, draws, target)
-
-
 def _own_values(name: str, contacts: ContactDetails) -> list[float]:
     """The values of a constant of `SCATTERED` in [material], of each of its bodies; none without one."""
     torsion, constant, bodies = SCATTERED[name]
@@ -442,51 +423,24 @@ def _own_values(name: str, contacts: ContactDetails) -> list[float]:
     return [getattr(materials[body], constant) for body in bodies if materials]
 
 
-def _drawn(table: SampleTable, contacts: ContactDetails, report: Report) -> Mapping[str, Any]:
-    """Draws of constants: given ones, or from ranges and from a covariance about the constants."""
-    given = {name: table.points[name] for name in SCATTERED if name in table.points}
-    if given:
-        return _given(given, "sample.points", report, {}, _CONSTANTS)
-    ranges, before = {n: entry for n, entry in table.ranges.items() if n in SCATTERED}, len(report)
-    correlated, root = _root(table.covariance, ranges, report)
-    if table.design == "saltelli":
-        report("sample.design", literal(table.design), "a design other than saltelli, for draws of constants")
-    read, dimensions = _distributions(ranges, _CONSTANTS, report), len(ranges) + len(correlated)
-    design = _design(table, dimensions, report)
-    if design is None or len(report) > before or not dimensions:
-        return {}
-    from scipy.special import ndtri
-
-    unit = design.points(dimensions)
-    draws = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
-    about = np.array([(_own_values(name, contacts) or [math.nan])[0] for name in correlated])
-    normal = ndtri(np.clip(unit[:, len(ranges) :], 1e-12, 1.0 - 1e-12))
-    return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
-
-
 def _root(
     covariance: Mapping[str, Any], ranges: Mapping[str, Any], report: Report
 ) -> tuple[list[str], FloatArray]:
-    """Names of the constants of a covariance, and its root, shape (k, k)."""
-    nothing: tuple[list[str], FloatArray] = ([], np.empty((0, 0)))
-    sound = all(isinstance(row, dict) for row in covariance.values())
-    names = [*dict.fromkeys([*covariance, *(n for row in covariance.values() if sound for n in row)])]
-    if not sound or not {*names} <= {*SCATTERED}:
-        report("sample.covariance", literal(covariance), f"{_MATRIX}, of {_CAN_SCATTER}")
-        return nothing
+    """Names of the constants of a covariance, and its root, shape (k, k); none of a wrong one."""
+    rows = [row if isinstance(row, dict) else {"": row} for row in covariance.values()]
+    names = [*dict.fromkeys([*covariance, *(name for row in rows for name in row)])]
     for name in (each for each in names if each in ranges):
         report(f"sample.covariance.{name}", f"{name}, which has a range", "one of the two")
-    # Either half is enough.
-    entries = [
-        [covariance.get(i, {}).get(j, covariance.get(j, {}).get(i, 0.0)) for j in names] for i in names
-    ]
-    matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
-    if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
-        values, vectors = np.linalg.eigh(matrix)
-        if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
-            return names, vectors * np.sqrt(np.clip(values, 0.0, None))
-    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive")
-    return nothing
+    if {*names} <= {*SCATTERED}:
+        either = {(i, j): value for i in covariance for j, value in covariance[i].items()}  # half is enough
+        entries = [[either.get((i, j), either.get((j, i), 0.0)) for j in names] for i in names]
+        matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
+        if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
+            values, vectors = np.linalg.eigh(matrix)
+            if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
+                return names, vectors * np.sqrt(np.clip(values, 0.0, None))
+    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive, of {_CAN_SCATTER}")
+    return [], np.empty((0, 0))
 
 
 #: The largest index that NumPy's random numbers can be.

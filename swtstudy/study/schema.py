@@ -66,16 +66,18 @@ def study_schema() -> dict[str, Any]:
 def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str, Parameter]) -> None:
     """Say which parameters a table may have."""
     for table, part, entry_of, names in (
-        (keys, "fixed", _value, given),
+        (keys, "fixed", _single, given),
         (keys, "axes", _axis, given),
         (sample, "ranges", _range, NUMERIC),
-        (sample, "points", _values, PARAMETERS),
+        (sample, "points", _list, PARAMETERS),
     ):
         # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
         table[part] = {
             "description": table[part]["description"],
             "type": "object",
-            "properties": {name: entry_of(given[name]) for name in names},
+            "properties": {
+                name: {"description": _description(given[name]), **entry_of(given[name])} for name in names
+            },
             "additionalProperties": False,
         }
     similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
@@ -111,50 +113,47 @@ def _value(parameter: Parameter) -> dict[str, Any]:
 
     `_without_units` has the ranges of parameters that have a unit in a study with units.
     """
-    entry: dict[str, Any] = {"description": _description(parameter)}
-    if parameter.default is not None:
-        entry["default"] = parameter.default
     if parameter.kind == "name":
-        names = list(parameter.names)
         # Beside the built-in ones there may be what the study defines.
-        return entry | {"type": "string", "examples": names}
+        return {"type": "string", "examples": [*parameter.names]}
     kinds = ["number", "string"] + ["array"] * (parameter.name in OF_BODIES)
     sized = parameter.scale or parameter.part == "contact"
-    return entry | {"type": kinds} | ({} if sized else _range_of(parameter))
+    return {"type": kinds} | ({} if sized else _range_of(parameter))
 
 
-def _values(parameter: Parameter) -> dict[str, Any]:
+def _single(parameter: Parameter) -> dict[str, Any]:
+    """Schema of a fixed value, with its default."""
+    default = {} if parameter.default is None else {"default": parameter.default}
+    return default | _value(parameter)
+
+
+def _list(parameter: Parameter) -> dict[str, Any]:
     """Schema of a list of values."""
-    value = _value(parameter)
-    value.pop("default", None)
-    return {"description": value.pop("description"), "type": "array", "items": value, "minItems": 1}
+    return {"type": "array", "items": _value(parameter), "minItems": 1}
 
 
 def _axis(parameter: Parameter) -> dict[str, Any]:
     """Schema of several values: a list, or a range of numbers."""
-    values = _values(parameter)
-    if parameter.kind == "name":
-        return values
-    return {"description": values.pop("description"), "anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
+    values = _list(parameter)
+    return values if parameter.kind == "name" else {"anyOf": [values, {"$ref": "#/$defs/RangeTable"}]}
 
 
 def _range(parameter: Parameter) -> dict[str, Any]:
     """Schema of the range of a sampled parameter: both ends, or a distribution."""
-    ends, number = _values(parameter), {"type": ["number", "string"]}
-    ends["items"] |= number
+    number = {"type": ["number", "string"]}
+    end = _value(parameter) | number
     distribution = {
         "type": "object",
         "properties": {
             "distribution": {"enum": list(DISTRIBUTIONS)},
-            "low": ends["items"],
-            "high": ends["items"],
+            "low": end,
+            "high": end,
             **{name: number for names in DISTRIBUTIONS.values() for name in names},
         },
         "required": ["distribution"],
         "additionalProperties": False,
     }
-    both = ends | {"minItems": 2, "maxItems": 2}
-    return {"description": both.pop("description"), "anyOf": [both, distribution]}
+    return {"anyOf": [{"type": "array", "items": end, "minItems": 2, "maxItems": 2}, distribution]}
 
 
 def _description(parameter: Parameter) -> str:

@@ -16,7 +16,7 @@ from swtstudy.loads.load_path import LoadPath
 from swtstudy.loads.loop import Loop, checked_name
 from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
-from swtstudy.study.keys import SignalTable, sound_keys, with_keys
+from swtstudy.study.keys import SignalTable, with_keys
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_of
@@ -69,7 +69,7 @@ class Signal:
     @cached_property
     def cycles(self) -> FloatArray:
         """The whole cycles at even phases, shape (count, m, d); a single one at its own samples."""
-        if self.count == 1 and self._used == len(self.time):
+        if self._is_one_cycle:
             return self.values[None]
         return cycles.folded(self.time, self.values, self.period, self.count)
 
@@ -96,7 +96,7 @@ class Signal:
             return None
         if self.highest:
             mean = float(self._fits[0][0][0, 1])
-        elif self.count == 1 and self._used == len(self.time):
+        elif self._is_one_cycle:
             mean = cycles.mean_over(self.time, self.values[:, 0], self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
@@ -110,9 +110,7 @@ class Signal:
         """The loop of the mean cycle, for a study's ``load``."""
         if not self.highest:
             return self._polygon(self.name, self.mean_cycle)
-        columns = [
-            [(int(order), float(a), float(phase)) for order, a, phase in rows] for rows, _ in self._fits
-        ]
+        columns = [[(int(order), *rest) for order, *rest in rows.tolist()] for rows, _ in self._fits]
         if self.is_absolute:
             del columns[0][0]  # of the order 0, which is the mean
         return LoadPath.harmonic_sum(self.name, *columns, mean_normal=self.mean_normal)
@@ -127,10 +125,8 @@ class Signal:
         """Root mean square of what the harmonics leave out of the samples, by column; 0 without them."""
         if not self.highest:
             return np.zeros(self.values.shape[1])
-        squares = [
-            np.mean((column - fit) ** 2) for column, (_, fit) in zip(self._whole, self._fits, strict=True)
-        ]
-        return np.sqrt(np.array(squares))
+        fits = np.array([fit for _, fit in self._fits])
+        return np.asarray(np.sqrt(np.mean((self._whole - fits) ** 2, axis=1)))
 
     @property
     def words(self) -> str:
@@ -150,6 +146,11 @@ class Signal:
         """Samples within the whole cycles."""
         end = self.time[0] + self.count * self.period
         return int(np.searchsorted(self.time, end - ROUNDING * self.period))
+
+    @property
+    def _is_one_cycle(self) -> bool:
+        """True if all samples are one cycle, which keeps them as they are."""
+        return self.count == 1 and self._used == len(self.time)
 
     @property
     def _whole(self) -> FloatArray:
@@ -224,7 +225,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
         A ValueError with what is wrong, and where in the file.
     """
     own = Path(path).stem or str(path) if name is None else name
-    return signal_from(Path(path), checked_name(own), sound_keys(SignalTable, given))
+    return signal_from(Path(path), checked_name(own), SignalTable.of(given))
 
 
 def signal_from(
@@ -235,9 +236,8 @@ def signal_from(
     kinds: Mapping[str, str] = KINDS,
 ) -> Signal:
     """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units."""
-    lengths = [
-        each for each in ("recorded_cycles", "period", "frequency") if getattr(given, each) is not None
-    ]
+    keys = ("recorded_cycles", "period", "frequency")
+    lengths = [key for key in keys if getattr(given, key) is not None]
     if len(lengths) > 1:
         raise refused(", ".join(lengths), "both", "one of the two: the other follows")
     if given.frequency is not None and given.time is None:
@@ -271,8 +271,8 @@ def signal_from(
         raise refused(key, f"{own:g}, and a record of {length:g}", "a whole cycle at least")
     if samples < 2.0 - 1e-9:
         raise refused(key, f"{samples:.2g} samples a cycle", "2 samples a cycle at least")
-    clean = _without_spikes(name, time, values, rows, period, count, given.despike)
-    signal = Signal(name, time, clean, period, count, given.absolute, highest)
+    raw = Signal(name, time, values, period, count, given.absolute, highest)
+    signal = replace(raw, values=_without_spikes(raw, rows, given.despike))
     if highest and not cycles.determined(signal.phase, highest):
         allowed = "less than half as many as samples at different phases of the cycle"
         if key == "period" and not given.time:
@@ -280,7 +280,7 @@ def signal_from(
         raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
     for line in _doubts(signal, key, given):  # without spikes, which are told already
         warnings.warn(f"{name}: {line}", stacklevel=2)
-    return signal if given.despike or clean is values else replace(signal, values=values)
+    return signal if given.despike else raw
 
 
 def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
@@ -313,37 +313,28 @@ def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
     elif not kept and (uneven := cycles.uneven_ends(signal.cycles)):
         column, ends, (first, last, mean) = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"
-        found = (
-            f"the first {each} a {(*COLUMNS, BULK)[column]} amplitude of {first:.4g}, the last of {last:.4g}"
-        )
+        name = (*COLUMNS, BULK)[column]
+        found = f"the first {each} a {name} amplitude of {first:.4g}, the last of {last:.4g}"
         out = "cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true"
         yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
 
 
-def _without_spikes(
-    name: str,
-    time: FloatArray,
-    values: FloatArray,
-    lines: IndexArray,
-    period: float,
-    count: int,
-    despike: bool,
-) -> FloatArray:
+def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:
     """The values, spikes replaced by the values that other samples suggest; tell that, or propose it."""
-    out, usual = cycles.spikes(time, values, period, count)
+    time, values = signal.time, signal.values
+    out, usual = cycles.spikes(time, values, signal.period, signal.count)
     rows, columns = np.nonzero(out)
     if not rows.size:
         return values
     row, column = int(rows[0]), int(columns[0])
-    cycle = int((time[row] - time[0]) / period) + 1
-    found = (
-        f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in cycle {cycle}, line {lines[row]} of the file"
-    )
+    cycle = int((time[row] - time[0]) / signal.period) + 1
+    place = f"cycle {cycle}, line {lines[row]} of the file"
+    found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in {place}"
     more = f", and {rows.size - 1} more" if rows.size > 1 else ""
     if despike:
         told = f"{number_of(rows.size, 'spike')} replaced, {found}, by {usual[row, column]:.4g}{more}"
     else:
         told = f"{found}, where the other samples suggest {usual[row, column]:.4g}{more}: a spike? "
         told += "despike = true takes it out"
-    warnings.warn(f"{name}: {told}", stacklevel=3)
+    warnings.warn(f"{signal.name}: {told}", stacklevel=3)
     return np.where(out, usual, values)

@@ -13,7 +13,7 @@ import numpy as np
 
 from swtstudy.profiles.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import read_columns
-from swtstudy.study.keys import TraceTable, sound_keys, with_keys
+from swtstudy.study.keys import TraceTable, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import refused
 
@@ -90,7 +90,7 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     StudyError
         A ValueError with what is wrong.
     """
-    return trace_from(Path(path), Path(path).stem if name is None else name, sound_keys(TraceTable, given))
+    return trace_from(Path(path), Path(path).stem if name is None else name, TraceTable.of(given))
 
 
 def trace_from(

@@ -152,6 +152,11 @@ class Contact:
         """Unit of SWT, E* (δ0/a_H)², of the half-space with E*; E* δ0/R (eq. 19) where a_H = √(R δ0)."""
         return self.moduli.normal * (self.depth / self.length_scale) ** 2
 
+    @property
+    def waviness_scale(self) -> float:
+        """The length √(hR) of a wavy profile."""
+        return math.sqrt(self.shape["waviness_amplitude"] * (self.radius or math.nan))
+
     def swt_of(self, body: int) -> float:
         """Unit of SWT of body 0 or 1."""
         return self.swt_scale * self.moduli.swt_share(body)

@@ -20,32 +20,17 @@ from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, amplitudes_of, as_number
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
-from swtstudy.units.life import (
-    SCATTERED,
-    Block,
-    FatigueConstants,
-    LifeTerms,
-    Scatter,
-    ShearConstants,
-    terms_of,
-)
-from swtstudy.units.rows import MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
+from swtstudy.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants
+from swtstudy.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES, PARAMETERS, STRAIN_SHARE
-from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.quantities import YIELD, Request
 
 if TYPE_CHECKING:
     import xarray as xr
-
-
-#: Parameters on which a contact at rest and its slip depend.
-AT_REST_NAMES = (
-    *("young_modulus", "poisson_ratio", "radius", "depth", "normal_force", "friction", "profile"),
-    *("contact_length", *SHAPE_COLUMNS),
-)
 
 
 def are_measured(loads: Sequence[Value]) -> bool:
@@ -61,10 +46,13 @@ def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
     return "depth" if "normal_amplitude" in given else "normal_force"
 
 
-def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[str, float]:
-    """Factors of the columns of measured loads, unless they are given: the columns are loads themselves.
+def implied_amplitudes(
+    given: Collection[str], loads: Sequence[Value], profiles: Iterable[object]
+) -> dict[str, float]:
+    """Amplitudes that contacts have unless they are given.
 
-    Forces, if not told otherwise; beside a depth also a displacement.
+    The columns of measured loads are loads themselves: forces, if not told otherwise; beside a depth also a
+    displacement. The normal load of a plane contact is constant.
     """
     found: dict[str, float] = {}
     if are_measured(loads):
@@ -73,6 +61,8 @@ def measured_amplitudes(given: Collection[str], loads: Sequence[Value]) -> dict[
         if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
+    elif NORMAL_AMPLITUDES.isdisjoint({*given, *scaling_of(loads)}) and any(map(is_plane, profiles)):
+        found["normal_force_amplitude"] = 0.0
     return found
 
 
@@ -83,24 +73,10 @@ def scaling_of(loads: Iterable[Value]) -> set[str]:
     return names - {"normal_amplitude"} if constant else names
 
 
-def still_load(profiles: Iterable[object], given: Collection[str]) -> dict[str, float]:
-    """A constant normal load of plane contacts, unless something is said of it."""
-    silent = NORMAL_AMPLITUDES.isdisjoint(given)
-    return {"normal_force_amplitude": 0.0} if silent and any(map(is_plane, profiles)) else {}
-
-
 def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) -> Units:
     """The labels of a study with these profiles, in which parameters of some names are given."""
     per_length = "contact_length" not in given and any(map(is_plane, profiles))
     return LineUnits(**vars(units)) if per_length else units
-
-
-def mean_of_bulk(ratio: Any, amplitude: Any, least: Any, largest: Any) -> Any:
-    """The mean at which a bulk stress has a ratio of least over largest.
-
-    ``least`` and ``largest`` are the ends of what its amplitude scales.
-    """
-    return amplitude * (ratio * largest - least) / (1.0 - ratio)
 
 
 @dataclass(frozen=True)
@@ -161,14 +137,26 @@ class ContactDetails:
         torsion = bool(kinds[1:] and self.shear_materials)
         return any(SCATTERED[name].torsion == torsion for name in self.scatter.names)
 
-    def terms(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeTerms]:
-        """Levels and slopes of both terms of the life of each body by a criterion, or of each draw."""
+    def curves(self, criterion: str, poisson_ratios: Sequence[float], drawn: bool) -> list[LifeCurve]:
+        """The curve of lives of each body by a criterion, or its curves by each draw."""
         constants = self.constants(criterion, poisson_ratios)
         if not drawn or self.scatter is None:
-            return [terms_of(type(each), vars(each)) for each in constants]
+            return [each.curve for each in constants]
         estimated = bool(CRITERIA[criterion].constants[1:]) and not self.shear_materials
         tensile = self.materials if estimated else (None, None)
-        return [self.scatter.terms(each, body, tensile[body]) for body, each in enumerate(constants)]
+        return [self.scatter.curve(each, body, tensile[body]) for body, each in enumerate(constants)]
+
+    @property
+    def has_lives(self) -> bool:
+        """True if there are constants of a life."""
+        return bool(self.materials or self.shear_materials)
+
+    def request(
+        self, names: Iterable[str], distances: tuple[float, ...] = (), is_axis: bool = False
+    ) -> Request:
+        """A request for these quantities, and for those that strengths and lives need."""
+        needed = (YIELD,) if self.yield_strengths else ()
+        return Request(tuple(dict.fromkeys((*names, *needed))), distances, is_axis, self.has_lives)
 
     @property
     def target_life(self) -> float:
@@ -325,26 +313,23 @@ class PhysicalGrid(ContactDetails, Grid):
                     found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
             # κ over k: the unit of stress over the strength of the body, or 1 where that does not count.
-            one, two = (self.each(SCALES["E* δ0/a_H"].of) / strength for strength in self.yield_strengths)
+            unit = self.of_bodies(lambda contact, body: contact.stress_scale / self.yield_strengths[body])
             is_ours = np.array([bool(CRITERIA[str(each)].normal_unit) for each in self.values("criterion")])
-            scale_of_k = one.where(self.bodies == 0, two).where(
-                self.over_dimension("criterion", is_ours), 1.0
-            )
+            scale_of_k = unit.where(self.over_dimension("criterion", is_ours), 1.0)
             found["normal_sensitivity"] = found["normal_sensitivity"] * scale_of_k
         if self.values("bulk_stress_ratio"):
-            ratio, amplitude = self.along("bulk_stress_ratio"), found["bulk_stress_amplitude"]
-            found["bulk_stress_mean"] = mean_of_bulk(ratio, amplitude, *self.ends_of_bulk())
+            found["bulk_stress_mean"] = self.mean_of_bulk(found["bulk_stress_amplitude"])
         if self.values("body"):
             carries = self.bodies == self.bulk_stress_body
             found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
-    def ends_of_bulk(self) -> tuple[xr.DataArray, xr.DataArray]:
-        """Least and largest value of what the amplitude of the bulk stress scales, over the loads."""
-        loads = self.values("load")
+    def mean_of_bulk(self, amplitude: xr.DataArray) -> xr.DataArray:
+        """The mean at which a bulk stress of this amplitude has its ratio of least over largest."""
+        loads, ratio = self.values("load"), self.along("bulk_stress_ratio")
         ends = [(load.bulk_ends or (0.0, 0.0)) if isinstance(load, Loop) else (-1.0, 1.0) for load in loads]
         least, largest = (self.over_dimension("load", each) for each in np.array(ends).T)
-        return least, largest
+        return amplitude * (ratio * largest - least) / (1.0 - ratio)
 
     def of_both(self, name: str) -> list[tuple[float, float]]:
         """The values of a property: one of each body, or all that both share."""

@@ -13,23 +13,97 @@ from numpy.typing import ArrayLike
 from swtstudy.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain_number, refused
+from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.quantities import COUNTED_SIZES
 
 #: Newton steps at most: the logarithm of the relation is convex and monotone, so that they cannot miss; and
 #: the last step of a logarithm, whose square is beyond rounding.
 _STEPS, _ROUNDING = 60, 1e-9
-#: Levels and slopes of both terms of a life over the logarithm of 2N: of shape (2,), or (n, 2) for n draws.
-LifeTerms = tuple[FloatArray, FloatArray]
-#: Words for the basis of a life, in comments of data variables.
-ROUNDS = (
-    "rounds of the load to the initiation of a crack: one over the damage of the strain cycles that are "
-    "counted in a round"
-)
-UNCOUNTED = (
-    "rounds of the load to the initiation of a crack, uncounted: as if each had one strain cycle; where it "
-    "has more the life is too long"
-)
+
+
+def not_negative(name: str, values: object) -> FloatArray:
+    """Read numbers ≥ 0, or NaN, that a user gave; a StudyError if any is negative."""
+    numbers = read_numbers(name, values, "numbers ≥ 0")
+    if (numbers < 0.0).any():
+        raise refused(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")
+    return numbers
+
+
+class LifeCurve(NamedTuple):
+    """Values of a criterion that a material stands for N cycles: a sum of two powers of 2N.
+
+    Attributes
+    ----------
+    level, slopes
+        Logarithms of the factors of both powers, and their exponents: of shape (2,), or (n, 2) for n draws of
+        constants.
+    """
+
+    level: FloatArray
+    slopes: FloatArray
+
+    def at(self, cycles: ArrayLike) -> FloatArray:
+        """The value at N cycles."""
+        with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
+            logarithm = np.log(2.0 * not_negative("cycles", cycles))
+            return np.asarray(np.exp(self.level + self.slopes * logarithm[..., None]).sum(axis=-1))
+
+    def life(self, value: FloatArray) -> FloatArray:
+        """Cycles at values ≥ 0, by Newton steps; arrays are broadcast."""
+        slopes = self.slopes
+        with np.errstate(divide="ignore"):
+            level = self.level - np.log(value)[..., None]
+        # Each term alone gives too short a life: from there Newton's steps only go up.
+        x = np.max(-level / slopes, axis=-1)
+        known = np.isfinite(x)[..., None]
+        for _ in range(_STEPS):
+            # The larger one of both terms over the value is near 1: nothing overflows.
+            terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
+            total = terms.sum(axis=-1)
+            step = np.log(total) * total / (terms * slopes).sum(axis=-1)
+            x = np.where(known[..., 0], x - step, x)
+            if not (np.abs(step) > _ROUNDING)[known[..., 0]].any():
+                break
+        with np.errstate(over="ignore"):
+            return np.asarray(0.5 * np.exp(x))
+
+    def lives(self, value: FloatArray, counted: Sequence[FloatArray] = ()) -> FloatArray:
+        """Rounds of the load to the initiation of a crack, see `FatigueConstants.rounds`.
+
+        Parameters
+        ----------
+        value
+            Values ≥ 0 of the criterion, of any shape.
+        counted
+            Nothing, or the ratios of counted cycles to the value, and their numbers, along two more axes.
+
+        Returns
+        -------
+        array
+            Shape: the draws' shape, then the shape of ``value``.
+        """
+        of_draws, flat = self.level.shape[:-1], value.reshape(-1)
+        of_each = LifeCurve(self.level[..., None, :], self.slopes[..., None, :])
+        found = of_each.life(flat)
+        if counted:
+            shape = (*value.shape, *counted[0].shape[-2:])
+            ratio, number = (np.broadcast_to(v, shape).reshape(flat.size, *shape[-2:]) for v in counted)
+            known = (ratio > 0.0) & (number > 0.0)
+            damage = np.zeros((*of_draws, *known.shape))
+            with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
+                damage[..., known] = number[known] / of_each.life((flat[:, None, None] * ratio)[known])
+                found = np.where(known.any(axis=(-2, -1)), 1.0 / damage.sum(axis=-1).max(axis=-1), found)
+        return found.reshape((*of_draws, *value.shape))
+
+    def rounds(self, name: str, value: Any, counted: Any, number: Any) -> Any:
+        """See `FatigueConstants.rounds`: at a value that has a name."""
+        import xarray as xr
+
+        if not isinstance(value, xr.DataArray):
+            return self.lives(not_negative(name, value), (np.asarray(counted), np.asarray(number)))
+        dims = (*value.dims, *COUNTED_SIZES)
+        both = [each.broadcast_like(value).transpose(*dims).values for each in (counted, number)]
+        return value.copy(data=self.lives(not_negative(name, value.values), both))
 
 
 class _Constants:
@@ -38,16 +112,15 @@ class _Constants:
     def __post_init__(self) -> None:
         report = Report()
         for name, value in vars(self).items():
-            negative = name.endswith("exponent")
-            allowed = "a negative number" if negative else "a positive number"
-            report += wrong_size(name, value, allowed, -1.0 if negative else 1.0)
+            report += wrong_size(name, value)
         report.refuse()
         for name, value in vars(self).items():
             object.__setattr__(self, name, plain_number(value))
 
     @property
-    def _terms(self) -> LifeTerms:
-        return terms_of(type(self), vars(self))
+    def curve(self) -> LifeCurve:
+        """The curve of lives that they give."""
+        return curve_of(type(self), vars(self))
 
 
 @dataclass(frozen=True)
@@ -76,7 +149,7 @@ class FatigueConstants(_Constants):
 
     def swt(self, cycles: ArrayLike) -> FloatArray:
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
-        return at_cycles(*self._terms, cycles)
+        return self.curve.at(cycles)
 
     def cycles(self, swt: ArrayLike) -> FloatArray:
         """Strain cycles N to the initiation of a crack at a given SWT.
@@ -110,7 +183,7 @@ class FatigueConstants(_Constants):
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        return life(*self._terms, not_negative("swt", swt))
+        return self.curve.life(not_negative("swt", swt))
 
     def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
@@ -138,83 +211,7 @@ class FatigueConstants(_Constants):
         >>> float(steel.rounds(steel.swt(1e5), [[1.0, 0.9]], [[4.0, np.nan]]).round())
         25000.0
         """
-        return rounds(*self._terms, swt, counted, counted_number, "swt")
-
-
-def rounds(level: FloatArray, slopes: FloatArray, value: Any, counted: Any, number: Any, name: str) -> Any:
-    """See `FatigueConstants.rounds`: of terms of a strength, and a value that has a name."""
-    import xarray as xr
-
-    if not isinstance(value, xr.DataArray):
-        return lives(level, slopes, not_negative(name, value), np.asarray(counted), np.asarray(number))
-    dims = (*value.dims, *COUNTED_SIZES)
-    both = (each.broadcast_like(value).transpose(*dims).values for each in (counted, number))
-    return value.copy(data=lives(level, slopes, not_negative(name, value.values), *both))
-
-
-def lives(level: FloatArray, slopes: FloatArray, value: FloatArray, *counted: FloatArray) -> FloatArray:
-    """Rounds of the load to the initiation of a crack, see `FatigueConstants.rounds`.
-
-    Parameters
-    ----------
-    level, slopes
-        Both terms of the strength over the logarithm of 2N, shape (2,), or (n, 2) for n draws of constants.
-    value
-        Values ≥ 0 of the criterion, of any shape.
-    counted
-        None, or the ratios of counted cycles to the value, and their numbers, along two more axes.
-
-    Returns
-    -------
-    array
-        Shape: the draws' shape, then the shape of ``value``.
-    """
-    of_draws = level.shape[:-1]
-    level, slopes, flat = level[..., None, :], slopes[..., None, :], value.reshape(-1)
-    found = life(level, slopes, flat)
-    if counted:
-        shape = (*value.shape, *counted[0].shape[-2:])
-        ratio, number = (np.broadcast_to(v, shape).reshape(flat.size, *shape[-2:]) for v in counted)
-        known = (ratio > 0.0) & (number > 0.0)
-        damage = np.zeros((*of_draws, *known.shape))
-        with np.errstate(divide="ignore"):  # no damage at 0, and no life at inf
-            damage[..., known] = number[known] / life(level, slopes, (flat[:, None, None] * ratio)[known])
-            found = np.where(known.any(axis=(-2, -1)), 1.0 / damage.sum(axis=-1).max(axis=-1), found)
-    return found.reshape((*of_draws, *value.shape))
-
-
-def not_negative(name: str, values: object) -> FloatArray:
-    """Read numbers ≥ 0, or NaN, that a user gave; a StudyError if any is negative."""
-    numbers = read_numbers(name, values, "numbers ≥ 0")
-    if (numbers < 0.0).any():
-        raise refused(name, f"{np.nanmin(numbers):g}", "numbers ≥ 0")
-    return numbers
-
-
-def at_cycles(level: FloatArray, slopes: FloatArray, cycles: ArrayLike) -> FloatArray:
-    """Strength at N cycles: the sum of two powers of 2N, by the logarithms of their factors."""
-    with np.errstate(divide="ignore", over="ignore"):  # inf cycles at 0, and 0 at inf
-        logarithm = np.log(2.0 * not_negative("cycles", cycles))
-        return np.asarray(np.exp(level + slopes * logarithm[..., None]).sum(axis=-1))
-
-
-def life(level: FloatArray, slopes: FloatArray, value: FloatArray) -> FloatArray:
-    """The inverse of `at_cycles` for values ≥ 0, by Newton steps; its arrays are broadcast."""
-    with np.errstate(divide="ignore"):
-        level = level - np.log(value)[..., None]
-    # Each term alone gives too short a life: from there Newton's steps only go up.
-    x = np.max(-level / slopes, axis=-1)
-    known = np.isfinite(x)[..., None]
-    for _ in range(_STEPS):
-        # The larger one of both terms over the value is near 1: nothing overflows.
-        terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
-        total = terms.sum(axis=-1)
-        step = np.log(total) * total / (terms * slopes).sum(axis=-1)
-        x = np.where(known[..., 0], x - step, x)
-        if not (np.abs(step) > _ROUNDING)[known[..., 0]].any():
-            break
-    with np.errstate(over="ignore"):
-        return np.asarray(0.5 * np.exp(x))
+        return self.curve.rounds("swt", swt, counted, counted_number)
 
 
 @dataclass(frozen=True)
@@ -245,7 +242,7 @@ class ShearConstants(_Constants):
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
         """Estimate them from tensile constants: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
         if not -1.0 < plain_number(poisson_ratio) <= 0.5:
-            raise StudyError([Mistake("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")])
+            raise refused("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")
         root = math.sqrt(3.0)
         return cls(
             tensile.young_modulus / (2.0 + 2.0 * plain_number(poisson_ratio)),
@@ -257,7 +254,7 @@ class ShearConstants(_Constants):
 
     def parameter(self, cycles: ArrayLike) -> FloatArray:
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
-        return at_cycles(*self._terms, cycles)
+        return self.curve.at(cycles)
 
     def cycles(self, parameter: ArrayLike) -> FloatArray:
         """Cycles N to the initiation of a crack at a given Fatemi–Socie parameter, a strain.
@@ -283,15 +280,15 @@ class ShearConstants(_Constants):
         >>> float(steel.cycles(steel.parameter(1e5)).round())
         100000.0
         """
-        return life(*self._terms, not_negative("parameter", parameter))
+        return self.curve.life(not_negative("parameter", parameter))
 
     def rounds(self, parameter: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack, as `FatigueConstants.rounds`."""
-        return rounds(*self._terms, parameter, counted, counted_number, "parameter")
+        return self.curve.rounds("parameter", parameter, counted, counted_number)
 
 
-def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
-    """Levels and slopes of the elastic and the plastic term of the life over the logarithm of 2N.
+def curve_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeCurve:
+    """The curve by strain–life constants: the sum of an elastic and a plastic term.
 
     Parameters
     ----------
@@ -299,11 +296,6 @@ def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
         The class of the constants.
     values
         Its attributes: numbers, or arrays of n draws.
-
-    Returns
-    -------
-    tuple of arrays
-        Each of shape (2,), or (n, 2).
     """
     b, c = values["strength_exponent"], values["ductility_exponent"]
     strength, ductility = np.log(values["strength"]), np.log(values["ductility"])
@@ -312,7 +304,7 @@ def terms_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeTerms:
     else:
         columns = 2.0 * strength - np.log(values["young_modulus"]), strength + ductility, 2.0 * b, b + c
     stacked = np.stack(np.broadcast_arrays(*columns), axis=-1)
-    return stacked[..., :2], stacked[..., 2:]
+    return LifeCurve(stacked[..., :2], stacked[..., 2:])
 
 
 class Scattered(NamedTuple):
@@ -352,10 +344,10 @@ class Scatter:
     draws: tuple[tuple[float, ...], ...]
     target: float = 0.0
 
-    def terms(
+    def curve(
         self, constants: FatigueConstants | ShearConstants, body: int, tensile: FatigueConstants | None = None
-    ) -> LifeTerms:
-        """Levels and slopes of both terms of the life of a body, 0 or 1, each of shape (n, 2).
+    ) -> LifeCurve:
+        """The curves of a body, 0 or 1, by each draw.
 
         Shear constants that are estimated from tensile ones scatter in proportion to these.
         """
@@ -366,7 +358,7 @@ class Scatter:
             if torsion == in_torsion and body in bodies:
                 ratio = getattr(constants, name) / getattr(tensile, name) if tensile else 1.0
                 values[name] = draws * ratio
-        return terms_of(type(constants), values)
+        return curve_of(type(constants), values)
 
 
 @dataclass(frozen=True)
@@ -401,8 +393,7 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tup
     """
     known, report = list(map(str, loads)), Report()
     if not isinstance(rounds, Mapping):
-        report("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
-        report.refuse()
+        raise refused("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
     report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
         report += wrong_rounds(number, f"blocks.{name}")

@@ -39,29 +39,20 @@ _YOUNG, _MODULUS = "young_modulus", "shear_modulus"
 #: Properties by their keys: words for their values, and meanings. Both moduli are the body's unless given.
 PROPERTIES: dict[str, dict[str, str]] = TABLES["properties"]
 #: The other way: names from a file.
-BY_NAME = {
-    "file": "Path of a TOML file with a table of properties for each material, relative to the study.",
-    "name": "Name of the material in that file.",
-}
+BY_NAME: dict[str, str] = TABLES["by_name"]
 #: Keys that may stand in the table.
 KEYS = (*PROPERTIES, *BY_NAME)
 #: Fields of constants by their keys.
 CONSTANTS = {item.name: item.name for item in fields(FatigueConstants)}
 SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
-#: The shear constants that go together, and why a modulus is needed.
-_FOUR = "all four shear constants of both bodies, or none, to have them estimated from tensile ones"
+#: Properties that go together, of which the load ratio alone may be left out.
+_TENSILE, _TORSION = tuple(CONSTANTS), tuple(SHEAR_CONSTANTS)
+_TOGETHER = (_TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
+#: Why a modulus is needed.
 _SINGLE = ", since that of the bodies is no single value"
 _FILE = "a TOML file with a table of constants for each material"
-#: Critical distances of metals, in m: a few µm (hard steels) to about a mm (cast iron, mild steel).
-USUAL = 1e-6, 3e-3
-#: Strengths over Young's modulus: metals are well within.
-USUAL_STRAINS = 2e-4, 0.05
-#: Constants of all metals are within these, and a percentage is not.
-USUAL_CONSTANTS = {
-    "strength_exponent": (-0.5, 0.0),
-    "ductility": (1e-3, 5.0),
-    "ductility_exponent": (-2.0, 0.0),
-}
+#: Values of metals, least and largest.
+USUAL: dict[str, Any] = TABLES["usual"]
 
 _log = logging.getLogger(__name__)
 #: Values of both bodies; none of what is not given, or wrong.
@@ -130,20 +121,14 @@ def _read_material(
     # A misspelt key is not lacking, too.
     silent = {*told, *(meant(str(name), KEYS) for name in unknown)} if tables else {*KEYS}
     values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
-    lacking = []
-    tensile, torsion = CONSTANTS.keys() & silent, SHEAR_CONSTANTS.keys() & {*told}
-    if tensile or not silent & {*SHEAR_CONSTANTS, STRENGTH, LIMIT, *RANGES}:
-        lacking += [key for key in CONSTANTS if key not in silent and (key != _YOUNG or _YOUNG not in moduli)]
-    few = [key for key in SHEAR_CONSTANTS if torsion and key not in silent and key != _MODULUS]
-    if few:
-        report(", ".join(f"material.{key}" for key in few), "nothing", _FOUR)
-    elif torsion and _MODULUS not in {*moduli, *told}:
-        lacking.append(_MODULUS)
-    for key in lacking:
-        report(f"material.{key}", "nothing", _allowed(key, units) + _SINGLE * (key in (_YOUNG, _MODULUS)))
-    for name, other in (RANGES, RANGES[::-1]):
-        if name not in values and (other in values or LOAD_RATIO in values):
-            report(f"material.{name}", "nothing", f"{_allowed(name, units)}, since there is {other}")
+    groups = {group: [key for key in group if key in silent] for group in _TOGETHER}
+    if not silent & {*PROPERTIES}:
+        groups[_TENSILE] = [*CONSTANTS]
+    for group, there in groups.items():
+        for key in group if there else ():
+            if key not in silent and key not in moduli and key != LOAD_RATIO:
+                why = _SINGLE if key in (_YOUNG, _MODULUS) else f", beside {there[0]}" * (key != there[0])
+                report(f"material.{key}", "nothing", _allowed(key, units) + why)
     strengths = tuple(values.get(STRENGTH, ()))
     if len(report) > before or not tables:
         # A criterion may need the strengths: they are not lacking, too.
@@ -155,9 +140,9 @@ def _read_material(
 
     details = ContactDetails(
         units,
-        materials=of_both(FatigueConstants, CONSTANTS) if tensile else (),
+        materials=of_both(FatigueConstants, CONSTANTS) if groups[_TENSILE] else (),
         yield_strengths=strengths,
-        shear_materials=of_both(ShearConstants, SHEAR_CONSTANTS) if torsion else (),
+        shear_materials=of_both(ShearConstants, SHEAR_CONSTANTS) if groups[_TORSION] else (),
         findley_limits=tuple(values.get(LIMIT, ())),
     )
     ranges = [values[name][0] for name in (*RANGES, LOAD_RATIO) if name in values]
@@ -169,12 +154,12 @@ def _both(
 ) -> _Both:
     """A property of both bodies; none if there are mistakes, which are reported."""
     both = [_number(table.get(key, others and others[body])) for body, table in enumerate(tables)]
-    allowed, sign = _allowed(key, units), -1.0 if key.endswith("exponent") else 1.0
-    wrong = {each.found: each.allowed for value in both for each in wrong_size(key, value, allowed, sign)}
+    allowed = _allowed(key, units)
+    wrong = {each.found: each.allowed for value in both for each in wrong_size(key, value, allowed)}
     if key == LOAD_RATIO:
         wrong = {literal(each): allowed for each in both if not -math.inf < plain_number(each) < 1.0}
     if None in both:
-        wrong = {"that of one body": _FOUR if key in SHEAR_CONSTANTS else "that of both bodies, or of none"}
+        wrong = {"that of one body": "that of both bodies, or of none"}
     elif not wrong and key in (*RANGES, LOAD_RATIO) and both[0] != both[1]:
         words = "one value: there is one critical distance for both bodies"
         wrong = {", ".join(map(literal, both)): words}
@@ -229,11 +214,11 @@ def critical_distance(units: Units, intensity: float, limit: float, load_ratio: 
         f"critical_distance = {length:.4g} {units.length}, (ΔK_th/Δσ_0)²/π of ranges at {ratio}: "
         f"{intensity:g} {units.stress}√{units.length} and {limit:g} {units.stress}"
     )
-    metre = KNOWN["length"].get(units.length)
-    if metre is None or USUAL[0] <= metre * length <= USUAL[1]:
+    metre, (least, largest) = KNOWN["length"].get(units.length), USUAL["critical_distance"]
+    if metre is None or least <= metre * length <= largest:
         _log.info(words)
         return length
-    words += f"; metals have {USUAL[0] / metre:g} to {USUAL[1] / metre:g} {units.length}"
+    words += f"; metals have {least / metre:g} to {largest / metre:g} {units.length}"
     if metre != 1.0:
         words += f": 1 {units.stress}√m is {metre**-0.5:.4g} {units.stress}√{units.length}"
     warnings.warn(words, stacklevel=2)
@@ -250,12 +235,12 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
     }
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
-            if not USUAL_STRAINS[0] <= value / modulus <= USUAL_STRAINS[1]:
+            least, largest = USUAL["strain"]
+            if not least <= value / modulus <= largest:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
-                ends = " to ".join(f"{end:g}" for end in USUAL_STRAINS)
-                stress = of.units.stress or "one unit"
-                warnings.warn(f"{words}, of metals {ends}: are both in {stress}?", stacklevel=2)
-    for name, (least, largest) in USUAL_CONSTANTS.items():
+                words += f", of metals {least:g} to {largest:g}"
+                warnings.warn(f"{words}: are both in {of.units.stress or 'one unit'}?", stacklevel=2)
+    for name, (least, largest) in USUAL["constants"].items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):
             if not least <= value <= largest:
                 warnings.warn(f"material.{name} {value:g}, of metals {least:g} to {largest:g}", stacklevel=2)

@@ -25,6 +25,7 @@ from swtstudy.units import grid as grids
 from swtstudy.units.at_rest import Moduli
 from swtstudy.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.units.rows import (
+    AT_REST_NAMES,
     LABELS,
     MEAN_LOADS,
     NAMES_KEY,
@@ -117,7 +118,7 @@ def _check_units_of_criteria(criteria: set[Value], given: ContactDetails, report
     if given.scatter and rows and not any(map(given.scatters, rows)):
         found = f"{', '.join(given.scatter.names)}, of which no life by {', '.join(rows)} is made"
         report("sample", found, "scatter of the constants of that life")
-    if (names := without_life(criteria)) and (given.materials or given.shear_materials):
+    if (names := without_life(criteria)) and given.has_lives:
         allowed = "none: the Findley stress is compared with a limit, and has no life"
         report("material", f"constants with the criterion {names} alone", allowed)
     elif given.shear_materials and not (given.materials or any(row.constants[1:] for row in rows.values())):
@@ -150,8 +151,7 @@ def completed(
     profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
     loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
     scaling = grids.scaling_of(loads)
-    fixed = fixed | grids.still_load(profiles, given | scaling)
-    fixed = fixed | grids.measured_amplitudes(given, loads)
+    fixed = fixed | grids.implied_amplitudes(given, loads, profiles)
     given |= {*fixed} | replaced_by(fixed)
     table = rows(grids.labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
@@ -212,7 +212,8 @@ def _check_given(
     everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
     # A wrong load is reported: nothing else is lacking because of it.
     measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
-    everything |= {*grids.measured_amplitudes(everything, measured)}
+    profiles = good.get("profile", ())
+    everything |= {*grids.implied_amplitudes(everything, measured, profiles)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
         if name not in everything and not (name == "radius" and all(tables)):
             report.of(name, "nothing", own[name].allowed)
@@ -234,10 +235,8 @@ def _check_given(
     if "bulk_stress_ratio" in everything and not sized:
         report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
     mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
-    profiles = good.get("profile", ())
     if any(map(is_plane, profiles)):
-        still = grids.still_load(profiles, {*everything, *scaling})
-        rules.check_forces({*everything, *still}, good, report)
+        rules.check_forces(everything, good, report)
         return
     for name in ("tangential_amplitude", "normal_amplitude"):
         force = FORCE_OF[name]
@@ -391,7 +390,7 @@ def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
 def _words(grid: PhysicalGrid, here: Mapping[str, Value], but: str = "") -> str:
     """Which contact it is: its size and load, and whatever else of it varies, but for one parameter."""
     words = []
-    for name in (name for name in grids.AT_REST_NAMES if name in here and name != but):
+    for name in (name for name in AT_REST_NAMES if name in here and name != but):
         value = here[name]
         if not isinstance(value, str | Definition) and (name in _SAID or grid.dimension(name)):
             words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")

@@ -12,8 +12,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.points.values import index_at
-from swtstudy.units.life import ROUNDS, UNCOUNTED, Block, LifeTerms, lives
-from swtstudy.units.rows import LABELS
+from swtstudy.units.life import Block, LifeCurve
+from swtstudy.units.rows import LABELS, TABLES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
 from swtstudy.vocabulary.derived import (
@@ -34,17 +34,14 @@ from swtstudy.vocabulary.wording import number_words, numbers_words
 if TYPE_CHECKING:
     from swtstudy.units.at_rest import Contact
     from swtstudy.units.grid import PhysicalGrid
+    from swtstudy.units.rows import Units
 
 #: Facts that an archive has even where there are none; others are left out then.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
 #: Most lives in memory at once.
 _AT_ONCE = 1_000_000
-#: Comments of what blocks make of lives.
-_REPEATED = (
-    "repetitions of the sequence of blocks to the initiation of a crack, by Miner's sum of their damage, "
-    "each at its own worst place: where these differ, the life is longer"
-)
-_SHARED = "share of a load's rounds in the damage of a repetition of the sequence of blocks"
+#: Comments of data variables by their kinds, and of lives without counted cycles.
+COMMENTS: dict[str, str] = TABLES["comments"]
 
 
 def scale_of(name: str, stresses: Sequence[float] = ()) -> Callable[[Contact, int], float]:
@@ -75,6 +72,11 @@ def derived(grid: PhysicalGrid, asked: Request) -> Iterator[Derived]:
             yield row._replace(meaning=row.meaning.format(**words))
 
 
+def attributes(row: Derived, labels: Units) -> dict[str, str]:
+    """Attributes of a data variable with a unit."""
+    return {"long_name": row.meaning, "units": labels.words(row.unit), "symbol": row.symbol}
+
+
 def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     """Names and dimensions of the data variables of a grid with units that one without does not have."""
     found = {new: grid.dims for old, new in NORMALISED.items() if old in asked.variables}
@@ -100,7 +102,6 @@ def measures(dataset: xr.Dataset) -> list[str]:
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:
     """Results of a grid of real contacts, with SWT, lives and all that has a unit."""
     found = dataset.rename({old: new for old, new in NORMALISED.items() if old in dataset.data_vars})
-    comments = {LIFE: ROUNDS if asked.counts else UNCOUNTED, REPETITIONS: _REPEATED, SHARE: _SHARED}
     ranks: dict[str, xr.DataArray] = {}
     for row in derived(grid, asked):
         if row.kind in (REPETITIONS, SHARE):
@@ -114,9 +115,9 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
             values = ranks[row.of].isel(rank=RANKS.index(row.kind))
         else:
             values = _measured(found, row, grid)
-        label = "1" if row.unit == "1" else grid.labels.label(row.unit) or f"unit of {row.unit}"
-        words: dict[str, Any] = {"long_name": row.meaning, "units": label, "symbol": row.symbol}
-        words |= {"comment": comments[row.kind]} if row.kind in comments else {}
+        words: dict[str, Any] = attributes(row, grid.labels)
+        comment = "uncounted" if row.kind == LIFE and not asked.counts else row.kind
+        words |= {"comment": COMMENTS[comment]} if comment in COMMENTS else {}
         found[row.name] = values.dims, values.values, words
     if "SWT" in found:
         found.SWT.attrs["ancillary_variables"] = "SWT_error regime"
@@ -143,7 +144,9 @@ def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataA
     if row.criterion and grid.dimension("criterion") is not None:
         is_own = np.array([value == row.criterion for value in grid.values("criterion")])
         values = values.where(grid.over_dimension("criterion", is_own))
-    return _of_constants(values, grid, dataset, row.criterion, _life) if row.kind == LIFE else values
+    return (
+        _of_constants(values, grid, dataset, row.criterion, LifeCurve.lives) if row.kind == LIFE else values
+    )
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -155,18 +158,12 @@ def without_units(dataset: xr.Dataset) -> xr.Dataset:
     return dataset.drop_vars([name for name in NORMALISED if name in dataset]).rename(known)
 
 
-def _counted_in(dataset: xr.Dataset) -> list[xr.DataArray]:
-    """The counted strain cycles of results; none unless they are counted."""
-    known = {*COUNTED} <= {*map(str, dataset.data_vars)}
-    return [dataset[name] for name in COUNTED] if known else []
-
-
 def _of_constants(
     value: xr.DataArray,
     grid: PhysicalGrid,
     dataset: xr.Dataset,
     criterion: str,
-    make: Callable[[LifeTerms, FloatArray, list[FloatArray]], FloatArray],
+    make: Callable[[LifeCurve, FloatArray, list[FloatArray]], FloatArray],
     drawn: bool = False,
 ) -> xr.DataArray:
     """Lives at values of a criterion, or ranks of lives, by the constants of each body.
@@ -180,12 +177,13 @@ def _of_constants(
     criterion
         The name of the criterion.
     make
-        Function of the terms of the life, of values and of counted cycles: an array of values' shape, or
+        Function of a curve of lives, of values and of counted cycles: an array of values' shape, or
         with the ranks of lives before it.
     drawn
-        True to call it with the terms of each draw of constants.
+        True to call it with the curves by each draw of constants.
     """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
+    names = COUNTED if COUNTED.keys() <= {*dataset.data_vars} else ()
     both = grid.of_both("poisson_ratio")
     if len({grid.constants(criterion, ratios) for ratios in both}) == 1:
         both = both[:1]
@@ -196,10 +194,10 @@ def _of_constants(
         own = value.isel(at, missing_dims="ignore")
         dims = (*own.dims, *COUNTED_SIZES)
         counted = [
-            each.isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
-            for each in _counted_in(dataset)
+            dataset[name].isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
+            for name in names
         ]
-        one, other = grid.terms(criterion, ratios, drawn)
+        one, other = grid.curves(criterion, ratios, drawn)
         found = make(one, own.values, counted)
         if not np.array_equal(one, other):
             is_first = (grid.bodies.isel(at, missing_dims="ignore") == 0).broadcast_like(own)
@@ -207,11 +205,6 @@ def _of_constants(
         before = ("rank",) * drawn
         parts.append(xr.DataArray(found, own.coords, (*before, *own.dims)))
     return (xr.concat(parts, dim) if parts[1:] else parts[0]).transpose(*before, *value.dims)
-
-
-def _life(terms: LifeTerms, values: FloatArray, counted: list[FloatArray]) -> FloatArray:
-    """Load cycles to a crack."""
-    return lives(*terms, values, *counted)
 
 
 def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArray:
@@ -261,16 +254,16 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     return f"{rounds}{':' if several[0].startswith('no crack') else ','} {'; '.join(several)}"
 
 
-def _ranks(terms: LifeTerms, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
+def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
     """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...)."""
-    flat, (level, slopes) = values.ravel(), terms
+    flat = values.ravel()
     of_each = [each.reshape(len(flat), *each.shape[-2:]) for each in counted]
     found = np.full((len(PERCENTS) + 1, len(flat)), np.nan)
-    size = max(1, _AT_ONCE // (len(level) * (of_each[0][0].size if of_each else 1)))
+    size = max(1, _AT_ONCE // (len(curve.level) * (of_each[0][0].size if of_each else 1)))
     for begin in range(0, len(flat), size):  # in parts of the points, so that memory is bounded
         part = slice(begin, begin + size)
         known = np.isfinite(flat[part])
-        each = lives(level, slopes, flat[part][known], *(number[part][known] for number in of_each))
+        each = curve.lives(flat[part][known], [number[part][known] for number in of_each])
         # Without interpolation: a life may be infinite.
         ranks = np.quantile(each, np.array(PERCENTS) / 100.0, axis=0, method="inverted_cdf")
         found[:, np.flatnonzero(known) + begin] = [*ranks, (each < target).mean(axis=0)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import difflib
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -51,6 +51,11 @@ class Units:
     def label(self, kind: str) -> str:
         """Label of a unit: of length, force, stress, or work."""
         return f"{self.force} {self.length}".strip() if kind == "work" else str(getattr(self, kind))
+
+    def words(self, kind: str) -> str:
+        """Label of a unit, or words for one without a label; other kinds of numbers as they are."""
+        has_unit = kind in (*UNIT_KINDS, "work")
+        return self.label(kind) or f"unit of {kind}" if has_unit else kind
 
 
 @dataclass(frozen=True)
@@ -121,9 +126,14 @@ def _likely_units(kind: str, label: str) -> list[str]:
 SMALLEST, LARGEST = 1e-100, 1e100
 
 
-def wrong_size(name: str, value: object, allowed: str, sign: float = 1.0) -> list[Mistake]:
-    """The mistake of a value that is no number of this sign, or of no size that can be computed with."""
-    number = sign * plain_number(value)
+def wrong_size(name: str, value: object, allowed: str = "") -> list[Mistake]:
+    """The mistake of a value that has the wrong sign, or no size that can be computed with.
+
+    Exponents are negative, and all others positive.
+    """
+    negative = name.endswith("exponent")
+    number = -plain_number(value) if negative else plain_number(value)
+    allowed = allowed or f"a {'negative' if negative else 'positive'} number"
     if SMALLEST <= number <= LARGEST:
         return []
     if number > 0.0:
@@ -136,36 +146,28 @@ class Scale(NamedTuple):
 
     Attributes
     ----------
-    of
-        Function of a contact: its scale.
+    name
+        The property of a contact that it is.
+    kind
+        "length", "force" or "stress".
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
     made_of
         The parameter whose length it is, if there is one.
-    kind
-        "length", "force" or "stress".
     """
 
-    of: Callable[[Contact], float]
-    power: float | None
+    name: str
+    kind: str
+    power: float | None = None
     made_of: str = ""
-    kind: str = "length"
+
+    def of(self, contact: Contact) -> float:
+        """Its value for a contact."""
+        return float(getattr(contact, self.name))
 
 
 #: Scales by the name that rows of `swtstudy.vocabulary.parameters.PARAMETERS` have for them.
-SCALES: dict[str, Scale] = {
-    "a_H": Scale(lambda contact: contact.length_scale, 0.5),
-    "δ0": Scale(lambda contact: contact.depth, 1.0),
-    "μ E* δ0/G*": Scale(lambda contact: contact.slip_scale, 1.0),
-    "E* δ0/a_H": Scale(lambda contact: contact.stress_scale, 0.5, kind="stress"),
-    "F0": Scale(lambda contact: contact.normal_force, None, kind="force"),
-    "μ F0": Scale(lambda contact: contact.friction_force, None, kind="force"),
-    "√(hR)": Scale(
-        lambda contact: math.sqrt(contact.shape["waviness_amplitude"] * (contact.radius or math.nan)),
-        0.0,
-        made_of="waviness_amplitude",
-    ),
-}
+SCALES = {name: Scale(**row) for name, row in TABLES["scales"].items()}
 
 
 #: Parameters that a real contact needs: it has no usual friction.
@@ -181,22 +183,19 @@ NOTICEABLE_MISMATCH = 0.06
 NAMES_KEY = "bodies"
 #: Parameters that are 0 unless given: a constant normal load is the plainest one.
 _ZERO = ("normal_amplitude",)
-#: The kinds of what has a unit.
-_KINDS = {
-    **{"young_modulus": "stress", "radius": "length", "depth": "length", "normal_force": "force"},
-    "contact_length": "length",
-}
+#: The kinds of sizes of the contact that have a unit.
+_KINDS: dict[str, str] = TABLES["kinds"]
 #: Symbols that are not the numerator of the non-dimensional one.
 _SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Exactly one of each group is given.
 MEAN_LOADS = ("depth", "normal_force")
 #: One of each pair takes the other's place.
 ONE_OF = (*PAIRS.items(), MEAN_LOADS, ("bulk_stress_mean", "bulk_stress_ratio"))
-#: Parameters on which a contact at rest depends.
-REST_DEPENDS_ON = (
-    *("young_modulus", "poisson_ratio", "radius", *MEAN_LOADS, "load", "contact_length", "body"),
-    *(name for name, row in PARAMETERS.items() if row.part == "shape"),
-)
+_SHAPE = tuple(name for name, row in PARAMETERS.items() if row.part == "shape")
+#: Parameters on which a contact at rest and its slip depend; and on which it depends without its slip, the
+#: load if its mean is measured.
+AT_REST_NAMES = (*OF_BODIES, "radius", *MEAN_LOADS, "friction", "contact_length", *_SHAPE)
+REST_DEPENDS_ON = {*AT_REST_NAMES, "load", "body"} - {"friction"}
 
 
 def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
@@ -209,20 +208,10 @@ def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
 
 def rows(units: Units) -> dict[str, Parameter]:
     """The rows by name, for every parameter, the critical distance, and sizes of the contact."""
-    ratio: dict[str, Any] = {
-        "lower": -LARGEST,
-        "upper": 1.0 - 1e-9,
-        "words": "a number below 1: the least over the largest; of stresses that press bulk_stress_mean",
-    }
-    body: dict[str, Any] = {"lower": 1.0, "upper": 2.0, "open_lower": False, "words": "1 or 2"}
-    own: dict[str, Parameter] = {
-        name: replace(CONTACT_AXES[name], **changes)
-        for name, changes in (("bulk_stress_ratio", ratio), ("body", body))
-    }
     # The share of the strain follows from the moduli.
-    parameters = [name for name in PARAMETERS if name != STRAIN_SHARE]
-    names = [*CONTACT_AXES, *parameters, *(name for name, row in QUANTITY_AXES.items() if row.kind != "name")]
-    return {name: own.get(name) or _row(AXES[name], units) for name in names}
+    names = [*CONTACT_AXES, *(name for name in PARAMETERS if name != STRAIN_SHARE)]
+    names += [name for name, row in QUANTITY_AXES.items() if row.kind != "name"]
+    return {name: _row(AXES[name], units) for name in names}
 
 
 def kind_of(name: str) -> str | None:

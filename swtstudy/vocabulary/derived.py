@@ -5,11 +5,11 @@ The door out (`swtstudy.units.results`), figures and messages read it; none repe
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, Criterion
-from swtstudy.vocabulary.quantities import NONLOCAL, STICK_ENDS, YIELD, error_of
+from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
 from swtstudy.vocabulary.tables import read_table
 
 #: Per cent of the bodies that have a crack before the life of that name.
@@ -130,5 +130,42 @@ NORMALISED = {
         *STICK_ENDS,
     )
 }
+#: Words for the facts of contacts that data variables need.
+_FACTS = {
+    "materials": "fatigue constants ([material], swtstudy.FatigueConstants)",
+    "yield_strengths": "a yield_strength",
+    "findley_limits": "a findley_limit",
+    "blocks": "blocks",
+    "scatter": "constants that scatter",
+    "target_life": "a target_life",
+}
+
+
+def lacking(name: str, facts: object, criteria: Collection[object], asked: Request) -> list[str]:
+    """The facts that contacts lack for a data variable, in words; nothing for an unknown one.
+
+    Parameters
+    ----------
+    name
+        Name of the data variable.
+    facts
+        Has the facts of contacts as attributes, and no ``units`` where there are no contacts.
+    criteria, asked
+        The criteria of the points, and the request beside s.
+    """
+    row = DERIVED.get(name)
+    if row is None:
+        return []
+    words = [] if hasattr(facts, "units") else ["units"]
+    if row.needs and not any(getattr(facts, fact, ()) for fact in row.needs):
+        words.append(_FACTS[row.needs[0]])
+    if row.criterion and row.criterion not in map(str, criteria):
+        words.append(f'the criterion "{row.criterion}"')
+    if row.of in NONLOCAL and not asked.distances:
+        words.append(f"a {DISTANCE}")
+    of = "" if row.of == name else row.of  # a quantity has the name of its value without units
+    return [*dict.fromkeys((*words, *lacking(of, facts, criteria, asked)))]
+
+
 #: Names of all that results with units may have besides.
 NAMES = (*DERIVED, *NORMALISED.values())

@@ -93,7 +93,7 @@ def test_a_table_with_another_content_is_another_profile(folder: Path) -> None:
     ("old", "new", "message"),
     [
         ('"tables/worn.csv"', '"none.csv"', "profiles.worn: found no such file in the folder"),
-        ('file = "tables/worn.csv"', "smoothing = 1e-4", "profiles.worn: found nothing; allowed: radius and"),
+        ('file = "tables/worn.csv"', "smoothing = 1e-4", "profiles.worn: found nothing; allowed: a table"),
         ("smoothing = 2e-3", "smoothing = -1", "profiles.rough: found -1"),
         ("smoothing = 2e-3", "", "rough touches in several places: its fit is wavy at the radius"),
         ("smoothing = 2e-3", "smooth = 2e-3", "profiles.rough.smooth: found unknown key 'smooth'"),

@@ -12,6 +12,7 @@ from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
+from swtstudy.points.grid import Grid
 from swtstudy.runner.run import Stopped
 from swtstudy.study.keys import DESIGNS
 from swtstudy.study.sample import Design, Distribution, drawn_rows
@@ -501,3 +502,9 @@ def test_the_deviation_of_a_logarithm_is_no_length():
         StudyError, match=r"friction.deviation: found 5, as a factor 148; allowed: that of the nat"
     ):
         Study.from_text(text)
+
+
+def test_a_grid_without_end_is_not_sampled():
+    axes = dict.fromkeys(("friction", "phase", "normal_amplitude", "tangential_amplitude"), (0.5,) * 100_000)
+    with pytest.raises(ValueError, match=r"1\d* points are too many to sample, at most 9"):
+        drawn_rows(Grid({}, axes), 1, 0)

@@ -332,7 +332,7 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
             'absolute = true\ncolumns = { normal = "tangential", tangential = "normal" }',
             "loads.rig.absolute: found a mean normal load of -10; allowed: a mean above 0",
         ),
-        ("mean_normal = 3", "loads.rig: found mean_normal beside a file; allowed: with a file only columns"),
+        ("mean_normal = 3", "loads.rig: found mean_normal beside file; allowed: beside file only columns"),
     ],
 )
 def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, words: str) -> None:

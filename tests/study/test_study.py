@@ -591,3 +591,39 @@ def test_axes_without_effect_are_warned_of(fixed: str, axes: str, idle: list[str
         warnings.simplefilter("always")
         Study.from_text(f'title = "t"\n[fixed]\n{fixed}\n[axes]\n{axes}\n')
     assert [str(each.message).split()[1] for each in caught] == [f"axes.{name}" for name in idle]
+
+
+LOOP = 'title = "t"\nfixed.load = "mine"\n[loads.mine]\n'
+
+
+def test_phases_of_harmonics_may_have_units() -> None:
+    text = LOOP + "normal = [[1, 0.5, {}]]\ntangential = [[1, 1, 0]]\n"
+    plain = Study.from_text(text.format(math.pi / 2))
+    assert Study.from_text(text.format('"90 deg"')).grid.loops[0].code == plain.grid.loops[0].code
+    with pytest.raises(StudyError, match=r"loads.mine: found 'x' .*\(normal\[0\]\); allowed: a phase"):
+        Study.from_text(text.format('"x"'))
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            LOOP + "vertices = [[1, 1], [2, -1]]\nabsolute = true\nmean_normal = 3\n",
+            "loads.mine.absolute: found absolute and mean_normal; allowed: true or false; without",
+        ),
+        (
+            LOOP + "vertices = [[1, 1], [2, -1]]\nnormal = [[1, 1, 0]]\n",
+            "loads.mine: found vertices and normal; allowed: a table with vertices, with normal",
+        ),
+        (LOOP + "normal = [[1, 1, 0]]\n", "loads.mine: found normal; allowed: a table with vertices"),
+        (
+            'title = "t"\naxes.critical_distance = [0.1, 0.2]\n'
+            'figure = { x = "critical_distance", y = "s_volume", regimes = true }\n',
+            "figure.regimes: found true over critical_distance; allowed: false: there is one regime",
+        ),
+    ],
+)
+def test_what_excludes_one_another_is_named(text: str, words: str) -> None:
+    with pytest.raises(StudyError) as error:
+        Study.from_text(text, "s")
+    assert str(error.value).startswith(f"s: {words}")

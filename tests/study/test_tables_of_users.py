@@ -217,11 +217,11 @@ def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
     [
         (
             "radius = [0, 1]\nheight = [0, 1]\ntwo_sided = true",
-            "two_sided; allowed: two_sided with a file only",
+            "two_sided beside radius and height; allowed: beside radius and height only smoothing, geometry",
         ),
         (
             'radius = [0, 1]\nheight = [0, 1]\nseparator = ";"',
-            "separator; allowed: separator with a file only",
+            "separator beside radius and height; allowed: beside radius and height only smoothing",
         ),
         ('file = "worn.csv"\nlevel = false', "level; allowed: level with two_sided only"),
     ],
@@ -237,3 +237,19 @@ def test_headers_are_stripped_on_both_sides(tmp_path: Path) -> None:
     (tmp_path / "cycle.csv").write_text(" Fn [N] , Ft\n0,1\n0,-1\n")
     columns = 'columns = { normal = " Fn [N] ", tangential = "Ft" }\n'
     assert Study.from_text(LOOP + columns, "s", tmp_path).grid.values("load")
+
+
+def test_a_sheet_is_one_of_a_workbook(tmp_path: Path) -> None:
+    (tmp_path / "cycle.csv").write_text("normal,tangential\n0,1\n0,-1\n")
+    (line,) = mistakes_of(LOOP + "sheet = 1\n", tmp_path)
+    words = r"found 1, and cycle.csv, a text file \(.*\); allowed: a sheet of an Excel workbook only"
+    assert re.match(f"s: loads.mine.file: {words}", line), line
+
+
+def test_a_stray_quote_beyond_the_search_for_the_header_is_named(tmp_path: Path) -> None:
+    rows = "0,1\n0,-1\n" * 150
+    (tmp_path / "cycle.csv").write_text(f'normal,tangential\n{rows}0,"{"1" * 131_073}\n')
+    (line,) = mistakes_of(LOOP, tmp_path)
+    assert re.match("s: loads.mine.file: found field larger than field limit .*a CSV file that can", line), (
+        line
+    )

@@ -7,12 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from real import ALLOY
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
 from swtstudy.runner.work import assess
+from swtstudy.units.life import Block
 from swtstudy.units.results import sequence_words
 from swtstudy.vocabulary.wording import number_words
 
@@ -232,3 +234,8 @@ def test_repetitions_that_are_not_known_are_counted(tmp_path: Path) -> None:
     assert "times to a crack, unknown at 1 of 2 points" in sequence_words(
         found, Study.from_text(text).grid.blocks
     )
+
+
+def test_a_sequence_without_damage_makes_no_crack() -> None:
+    found = xr.Dataset({"repetitions": ((), np.inf), "damage_share": ("load", [np.nan])})
+    assert sequence_words(found, (Block("running", 2.0),)) == "2 of running: no crack"

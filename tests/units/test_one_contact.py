@@ -171,11 +171,8 @@ def test_a_cylinder_at_rest_under_a_loop_is_inspected() -> None:
 @pytest.mark.parametrize(
     ("minimise", "words"),
     [
-        (
-            "cycles",
-            r"with constants \(swtstudy.FatigueConstants of young_modulus, strength, strength_exponent, ",
-        ),
-        ("cycles_volume", r"with constants \(.*\) and a critical_distance$"),
+        ("cycles", r"with fatigue constants \(\[material\], swtstudy.FatigueConstants\)$"),
+        ("cycles_volume", r"with fatigue constants \(.*\) and a critical_distance$"),
         ("SWT_point", "with a critical_distance"),
         ("yield_ratio", "with a yield_strength"),
         ("FS", 'with the criterion "fatemi_socie"'),

@@ -17,7 +17,7 @@ from scipy.integrate import trapezoid
 import swtstudy
 from swtstudy import FatigueConstants, physical
 from swtstudy.units.at_rest import Moduli
-from swtstudy.units.life import UNCOUNTED
+from swtstudy.units.results import COMMENTS
 from swtstudy.units.rows import SCALES, wrong_size
 from swtstudy.vocabulary.parameters import PARAMETERS
 
@@ -113,13 +113,13 @@ def test_each_body_has_its_own_life():
     assert found.s.dims == ("body",)
     stiff, soft = contact.swt(found.s)
     assert float(soft / stiff) == pytest.approx(210 / 180)
-    assert soft.attrs["long_name"] == "Smith-Watson-Topper parameter of the body"
+    assert soft.attrs["long_name"] == "SWT"
     lives = contact.cycles(STEEL, found.s)
     assert lives.attrs == {
-        "long_name": "rounds to the initiation of a crack",
+        "long_name": "rounds to a crack",
         "units": "1",
         "symbol": "N",
-        "comment": UNCOUNTED,
+        "comment": COMMENTS["uncounted"],
     }
     assert lives.values == pytest.approx([float(STEEL.cycles(stiff)), float(STEEL.cycles(soft))])
     assert contact.swt(1e308, body=1) == np.inf  # without a warning
@@ -523,19 +523,19 @@ def test_the_worked_example():
 
 
 @pytest.mark.parametrize(
-    ("value", "sign", "allowed"),
+    ("name", "value", "allowed"),
     [
-        (1e-100, 1.0, None),
-        (1e100, 1.0, None),
-        (-2.0, -1.0, None),
-        (0, 1.0, "a length"),
-        (-1.0, 1.0, "a length"),
-        (9e-101, 1.0, "a length, in magnitude from 1e-100 to 1e+100"),
-        (-2e100, -1.0, "a length, in magnitude from 1e-100 to 1e+100"),
+        ("radius", 1e-100, None),
+        ("radius", 1e100, None),
+        ("strength_exponent", -2.0, None),
+        ("radius", 0, "a length"),
+        ("radius", -1.0, "a length"),
+        ("radius", 9e-101, "a length, in magnitude from 1e-100 to 1e+100"),
+        ("strength_exponent", -2e100, "a length, in magnitude from 1e-100 to 1e+100"),
     ],
 )
-def test_sizes_that_can_be_computed_with(value, sign, allowed):
-    found = [mistake.allowed for mistake in wrong_size("radius", value, "a length", sign)]
+def test_sizes_that_can_be_computed_with(name, value, allowed):
+    found = [mistake.allowed for mistake in wrong_size(name, value, "a length")]
     assert found == ([] if allowed is None else [allowed])
 
 

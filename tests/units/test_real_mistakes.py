@@ -114,7 +114,7 @@ MISTAKES = [
     (
         "critical_distance = 0.05",
         "",
-        "figure.y: found 'SWT_volume'; allowed: in a study with a critical_distance alone",
+        "figure.y: found 'SWT_volume'; allowed: in a study with a critical_distance; or s, ",
     ),
     (
         'y = ["SWT", "cycles"',
@@ -248,10 +248,40 @@ def test_constants_that_no_metal_has_are_warned_of() -> None:
 )
 def test_a_life_in_a_figure_asks_for_fatigue_constants(life: str) -> None:
     text = f'title = "t"\n[axes]\nphase = [0, 1]\n[figure]\nx = "phase"\ny = "{life}"\n'
-    words = rf"figure.y: found '{life}', a life, without fatigue constants; allowed: \[material\] with them"
+    words = (
+        rf"figure.y: found '{life}'; allowed: in a study with units and .*fatigue constants \(\[material\], "
+    )
     with pytest.raises(StudyError, match=words):
         Study.from_text(text)
-    # With constants, but without the criterion of this life or its blocks, nothing of the kind is lacking.
+    # With constants, the criterion of this life or its blocks are asked for.
     if life not in ("cycles", "cycles_volume"):
-        with pytest.raises(StudyError, match=rf"figure.y: found '{life}' \(not a quantity\)"):
+        lacks = 'the criterion "fatemi_socie"' if life.startswith("FS") else "blocks"
+        with pytest.raises(
+            StudyError, match=rf"figure.y: found '{life}'; allowed: in a study with .*{lacks}"
+        ):
             Study.from_text(STUDY.replace('y = ["SWT", "cycles"', f'y = ["{life}", "cycles"'))
+
+
+def test_more_contacts_than_can_be_made_are_refused() -> None:
+    axes = "[axes]\nradius = { start = 40, stop = 60, num = 600 }\n"
+    axes += "young_modulus = { start = 7e4, stop = 8e4, num = 600 }\n"
+    text = f'title = "t"\n{UNITS}[fixed]\npoisson_ratio = 0.33\nnormal_force = 150\nfriction = 0.5\n'
+    text += f"tangential_amplitude = 1e-3\n{axes}"
+    words = (
+        "axes.radius, axes.young_modulus: found 360000 different contacts at rest; allowed: at most 300000"
+    )
+    with pytest.raises(StudyError, match=words):
+        Study.from_text(text)
+
+
+def test_a_criterion_asks_for_the_stress_that_it_measures_in() -> None:
+    own = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "normal_force": 200.0}
+    words = "yield_strength: found nothing; allowed: a stress: the criterion fatemi_socie measures the normal"
+    with pytest.raises(StudyError, match=words):
+        physical(
+            **own,
+            friction=0.5,
+            tangential_force_amplitude=60.0,
+            criterion="fatemi_socie",
+            normal_sensitivity=1.0,
+        )

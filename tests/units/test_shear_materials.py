@@ -142,16 +142,11 @@ def test_properties_of_shear_of_a_contact_in_python():
     ("lines", "criterion", "words"),
     [
         (
-            SHEAR.splitlines()[:2],
+            SHEAR.splitlines()[:3],
             "fatemi_socie",
-            "material.shear_ductility, material.shear_ductility_exponent: found nothing; allowed: all four",
+            "shear_ductility_exponent: found nothing; allowed: a negative number, beside shear_strength",
         ),
-        ([*SHEAR.splitlines()[1:]], "fatemi_socie", "material.shear_strength: found nothing; allowed: all"),
-        (
-            ["shear_modulus = 80e3"],
-            "fatemi_socie",
-            "material.shear_strength, .*: found nothing; allowed: all",
-        ),
+        ([*SHEAR.splitlines()[1:]], "fatemi_socie", "material.shear_strength: found nothing; allowed: a pos"),
         (
             [SHEAR.replace("530", "-530")],
             "fatemi_socie",
@@ -180,6 +175,12 @@ def test_wrong_properties_of_shear_have_one_message(lines, criterion, words):
     assert len(error.value.mistakes) == 1
 
 
+def test_a_shear_modulus_needs_the_other_constants_of_shear():
+    with pytest.raises(StudyError, match=r"material.shear_strength: found nothing") as error:
+        study("shear_modulus = 80e3", criterion='"fatemi_socie"')
+    assert len(error.value.mistakes) == 4
+
+
 def test_a_shear_modulus_is_asked_for_where_the_bodies_have_none(tmp_path):
     several = FIXED.replace("poisson_ratio = 0.3", "").replace("0.3", '0.3\ncriterion = "fatemi_socie"')
     text = f'title = "t"\n{UNITS}[material]\nyield_strength = 400\n{SHEAR}\n[fixed]\n{several}\n'
@@ -191,7 +192,7 @@ def test_a_shear_modulus_is_asked_for_where_the_bodies_have_none(tmp_path):
         f"[a]\nyield_strength = 400\n{SHEAR}\n[b]\nyield_strength = 400\n"
     )
     named = text.replace(f"yield_strength = 400\n{SHEAR}", 'file = "materials.toml"\nname = ["a", "b"]')
-    with pytest.raises(StudyError, match="all four shear constants of both bodies, or none"):
+    with pytest.raises(StudyError, match="shear_strength: found that of one body; allowed: that of both"):
         Study.from_text(named, "s", tmp_path)
 
 
@@ -257,3 +258,9 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     assert (again.findley_limits, again.shear_materials) == (kept.findley_limits, kept.shear_materials)
     short = found.assign(FS_cycles=found.FS_cycles.where(found.FS_cycles.isnull(), 12.0))
     assert any(line.startswith("FS_cycles extrapolated at ") for line in short.swt.validity())
+
+
+def test_constants_are_estimated_for_a_poisson_ratio_that_a_body_can_have():
+    tensile = swtstudy.FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
+    with pytest.raises(StudyError, match=r"poisson_ratio: found 0.7; allowed: a number in \(-1, 0.5\]"):
+        swtstudy.ShearConstants.estimated(tensile, 0.7)
