@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from swtstudy.figures.point import inspect as inspect
     from swtstudy.figures.profile import draw_profile as draw_profile
     from swtstudy.loads.load_path import LoadPath as LoadPath
-    from swtstudy.paper.audit.audit import audit_study as audit_study
+    from swtstudy.paper.audit import audit_study as audit_study
     from swtstudy.profiles.table import TabulatedProfile as TabulatedProfile
     from swtstudy.results.fitting import fit as fit
     from swtstudy.results.optimise import optimise as optimise
@@ -46,7 +46,7 @@ _HOMES = {
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.vocabulary.mistakes",
     "TabulatedProfile": "swtstudy.profiles.table",
-    "audit_study": "swtstudy.paper.audit.audit",
+    "audit_study": "swtstudy.paper.audit",
     "criterion_of_history": "swtstudy.fields.history",
     "draw_load": "swtstudy.figures.load",
     "draw_profile": "swtstudy.figures.profile",

@@ -55,7 +55,7 @@ def sensitivity(
         check_writable(path)
 
     from swtstudy.archive.netcdf import save
-    from swtstudy.paper.statements.indices import table
+    from swtstudy.paper.markdown import table
 
     indices = swtstudy.sensitivity(swtstudy.run(one, target, workers=workers), y, confidence, seed)
     text = table(indices, file.resolve() in map(Path.resolve, shipped_studies().values()))
@@ -130,8 +130,8 @@ def check(results: str, output: str | None) -> None:
       swtstudy audit figure3 figure4 --points 100
       swtstudy check
     """
-    from swtstudy.paper.statements.check import check as check_statements
-    from swtstudy.paper.statements.check import markdown, summary
+    from swtstudy.paper.statements import check as check_statements
+    from swtstudy.paper.statements import markdown, summary
 
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
@@ -180,7 +180,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.paper.audit.report import report
+    from swtstudy.paper.markdown import report
 
     for source, study in defined.items():
         target = targets[source]

@@ -23,7 +23,7 @@ from swtstudy.figures.point import inspect
 from swtstudy.figures.sheet import PANEL
 from swtstudy.figures.style import picture
 from swtstudy.figures.words import is_life
-from swtstudy.paper.statements.check import about_archive
+from swtstudy.paper.statements import about_archive
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
 from swtstudy.reports.findings import (
