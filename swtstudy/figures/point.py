@@ -20,8 +20,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from swtstudy.fields.inspection import inspect_point
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
-from swtstudy.figures.style import DASHES, Style, stroke, styled
+from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.style import DASHES, Style, stroke
 from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.vocabulary.arrays import FloatArray
@@ -107,14 +107,11 @@ def draw_inspection(
     """
     panels = _PANELS if "displacement" in dataset else _OF_STRIP
     sheet = Sheet(1, len(panels), width, _PANEL, least_height=_LEAST_HEIGHT, fold=False)
-    with styled(style, width):
-        figure = sheet.figure()
-        own = sheet.panels(figure, share_x="none", share_y="none")[0]
+    with sheet.drawn(style) as (figure, (own,)):
         for axes, draw, letter in zip(own, panels, "ABCDEFGHI", strict=False):
             draw(axes, dataset, labels)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset, labels, headlines))
-        wrap_texts(figure)
     return figure
 
 

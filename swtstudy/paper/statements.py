@@ -20,15 +20,22 @@ from swtstudy.paper.markdown import rendered
 from swtstudy.paper.measures import NotInArchiveError
 from swtstudy.vocabulary.tables import read_table
 
-#: A test's result: whether the statement holds, and the values for the words of the finding, by name.
+#: A test's result: whether the statement holds, and the values for the words of its measurement, by name.
 Measured = tuple[Any, dict[str, Any]]
 
 
-class Finding(NamedTuple):
-    """A measurement in words, and whether the statement holds by it."""
+class Outcome(NamedTuple):
+    """A statement with a measurement in words and whether it holds by it, or why there is no measurement."""
 
-    measured: str
-    holds: bool
+    statement: Statement
+    measured: str = ""
+    holds: bool | None = None
+    problem: str = ""
+
+    @property
+    def verdict(self) -> str:
+        """Holds, does not hold, or not checked."""
+        return {True: "holds", False: "does not hold", None: "not checked"}[self.holds]
 
 
 @dataclass(frozen=True)
@@ -48,10 +55,10 @@ class Statement:
         """The criterion with its bounds."""
         return self.holds_if.format(**self.bounds)
 
-    def __call__(self, *archives: xr.Dataset) -> Finding:
+    def __call__(self, *archives: xr.Dataset) -> Outcome:
         """Test the statement on the archives of its studies, in their order."""
         holds, values = resolve_name(f"{__package__}.{self.test}")(*archives, **self.bounds)
-        return Finding(self.measured.format(**self.bounds, **values), bool(holds))
+        return Outcome(self, self.measured.format(**self.bounds, **values), bool(holds))
 
 
 #: All statements by name, in the order of the paper.
@@ -60,21 +67,6 @@ STATEMENTS = {name: Statement(**row) for name, row in read_table(__file__, "stat
 
 #: Names of the archives and audits that the statements are about.
 STUDIES = tuple(dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies))
-
-
-class Outcome(NamedTuple):
-    """A statement with its finding, or with the reason why there is none."""
-
-    statement: Statement
-    finding: Finding | None
-    problem: str = ""
-
-    @property
-    def verdict(self) -> str:
-        """Holds, does not hold, or not checked."""
-        if self.finding is None:
-            return "not checked"
-        return "holds" if self.finding.holds else "does not hold"
 
 
 def check(results: str | PathLike[str] = "results") -> list[Outcome]:
@@ -88,8 +80,8 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Returns
     -------
     list of Outcome
-        One for each statement, in the order of `STATEMENTS`; without a finding if an archive is missing or
-        has gaps.
+        One for each statement, in the order of `STATEMENTS`; without a measurement if an archive is missing
+        or has gaps.
 
     Raises
     ------
@@ -132,11 +124,11 @@ def _outcome(
     statement: Statement, archives: Mapping[str, xr.Dataset], problems: Mapping[str, str]
 ) -> Outcome:
     if found := [problems[name] for name in statement.studies if name in problems]:
-        return Outcome(statement, None, "\n".join(found))
+        return Outcome(statement, problem="\n".join(found))
     try:
-        return Outcome(statement, statement(*(archives[name] for name in statement.studies)))
+        return statement(*(archives[name] for name in statement.studies))
     except NotInArchiveError as error:
-        return Outcome(statement, None, f"{', '.join(statement.studies)}: {error} in the archive")
+        return Outcome(statement, problem=f"{', '.join(statement.studies)}: {error} in the archive")
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:

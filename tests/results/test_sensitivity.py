@@ -7,7 +7,7 @@ from solved import REGIMES
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
-from swtstudy.figures.evaluated import draw_sensitivity
+from swtstudy.figures.statistics import draw_sensitivity
 from swtstudy.paper.markdown import table
 
 STUDY = """
