@@ -1,4 +1,4 @@
-"""What commands share: options and their checks, completion by the shell, lines and tables for a terminal."""
+"""Shared by commands: options with their checks, completion by the shell, lines and tables for a terminal."""
 
 from __future__ import annotations
 

@@ -102,9 +102,9 @@ def draw_load(
         path.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
         path.set_title("path", loc="left")
         if forces:
-            ends = np.array([0.0, 1.05 * loads[:, 0].max()])
-            for sign in (1.0, -1.0):
-                path.plot(ends, sign * slope * ends, **stroke("0.5", "--", linewidth=0.8))
+            end = 1.05 * loads[:, 0].max()
+            limit = [-slope * end, 0.0, slope * end]
+            path.plot([end, 0.0, end], limit, **stroke("0.5", "--", linewidth=0.8))
             with np.errstate(divide="ignore", invalid="ignore"):
                 share = np.abs(loads[:, 1]) / (slope * loads[:, 0])
             margin[0].plot(phase, share, **stroke("C3"))

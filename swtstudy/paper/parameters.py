@@ -1,4 +1,4 @@
-"""How s depends on friction, amplitudes, the Poisson ratio, the phase and the frequency ratio.
+"""Dependence of s on friction, amplitudes, the Poisson ratio, the phase and the frequency ratio.
 
 Section 4.1, figures 3 and 4, and section 4.2.
 """
