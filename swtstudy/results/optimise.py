@@ -330,8 +330,15 @@ def least(objective: Objective, dimensions: int, seed: int) -> Least:
     """
     from scipy.optimize import differential_evolution
 
+    lowest: list[float] = []
+
+    def batch(columns: FloatArray) -> FloatArray:
+        values = objective(np.clip(columns.T, 0.0, 1.0))
+        lowest.append(float(values.min()))
+        return values
+
     found = differential_evolution(
-        lambda columns: objective(np.clip(columns.T, 0.0, 1.0)),
+        batch,
         [(-_BEYOND, 1.0 + _BEYOND)] * dimensions,
         popsize=max(_POINTS_EACH, _LEAST // dimensions),
         init="sobol",
@@ -346,10 +353,9 @@ def least(objective: Objective, dimensions: int, seed: int) -> Least:
     if not np.isfinite(searched):
         words = f"no finite value at any of {len(objective.values)} points"
         raise refused("over", words, "ranges in which the quantity is finite somewhere")
-    generations = objective.values.reshape(-1, len(found.population)).min(axis=1)
     _polish_together(objective, seed)
     unit, sign = objective.points[objective.values.argmin()], objective.sign
-    progress = sign * np.minimum.accumulate(generations)
+    progress = sign * np.minimum.accumulate(lowest)
     return Least(unit, sign * searched, progress, bool(found.success), len(objective.values))
 
 
