@@ -35,7 +35,7 @@ from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import place_of
 from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.work import CONJUGATE
-from swtstudy.paper.audit.body_maximum import body_maximum
+from swtstudy.paper.maxima import body_maximum
 from swtstudy.solver.means import worst_means
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.solver.points import solve_points as solve

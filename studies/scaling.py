@@ -112,8 +112,7 @@ def chart(samples: list[tuple[str, Sequence[float], Sequence[float]]]) -> Figure
             axes.loglog(x, y, "o-", color="#0072B2")
             axes.set_xlabel(LABELS.get(words, words))
             axes.set_title(f"({letter})  like the power ${growth(x, y):.2f}$ at the end", loc="left")
-        for axes in sheet.first_of_lines(panels)[0]:
-            axes.set_ylabel("ms a value")
+        sheet.label_left(panels[0], "ms a value")
     return figure
 
 

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
+import sys
 from typing import TYPE_CHECKING
 
-from swtstudy.results.registration import register_with_xarray
 from swtstudy.vocabulary.version import __version__ as __version__
 
 if TYPE_CHECKING:
+    from importlib.machinery import ModuleSpec
+    from types import ModuleType
+
     from swtstudy.archive.archive import open_results as open_results
     from swtstudy.contacts import physical as physical
     from swtstudy.fields.elements import evaluate_history as evaluate_history
@@ -19,11 +23,11 @@ if TYPE_CHECKING:
     from swtstudy.fields.stress import slip_map as slip_map
     from swtstudy.fields.stress import stress_field as stress_field
     from swtstudy.fields.stress import swt_field as swt_field
-    from swtstudy.figures.load import draw_load as draw_load
+    from swtstudy.figures.definitions import draw_load as draw_load
+    from swtstudy.figures.definitions import draw_profile as draw_profile
     from swtstudy.figures.point import inspect as inspect
-    from swtstudy.figures.profile import draw_profile as draw_profile
     from swtstudy.loads.load_path import LoadPath as LoadPath
-    from swtstudy.paper.audit.audit import audit_study as audit_study
+    from swtstudy.paper.audit import audit_study as audit_study
     from swtstudy.profiles.table import TabulatedProfile as TabulatedProfile
     from swtstudy.results.fitting import fit as fit
     from swtstudy.results.optimise import optimise as optimise
@@ -46,10 +50,10 @@ _HOMES = {
     "Study": "swtstudy.study.definition",
     "StudyError": "swtstudy.vocabulary.mistakes",
     "TabulatedProfile": "swtstudy.profiles.table",
-    "audit_study": "swtstudy.paper.audit.audit",
+    "audit_study": "swtstudy.paper.audit",
     "criterion_of_history": "swtstudy.fields.history",
-    "draw_load": "swtstudy.figures.load",
-    "draw_profile": "swtstudy.figures.profile",
+    "draw_load": "swtstudy.figures.definitions",
+    "draw_profile": "swtstudy.figures.definitions",
     "evaluate_history": "swtstudy.fields.elements",
     "fit": "swtstudy.results.fitting",
     "inspect": "swtstudy.figures.point",
@@ -85,4 +89,30 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-register_with_xarray()
+class _AfterXarray:
+    """An import hook that finds no modules itself; it makes the loader of xarray register ``Dataset.swt``.
+
+    xarray has no entry point for accessors: a package registers its own when it is imported. This package
+    imports xarray, which takes ten times as long as the package itself, only when it is needed.
+    """
+
+    def find_spec(self, name: str, *_: object) -> ModuleSpec | None:
+        if name != "xarray":
+            return None
+        sys.meta_path.remove(self)
+        spec = importlib.util.find_spec(name)
+        if spec is not None and spec.loader is not None:
+            execute = spec.loader.exec_module
+
+            def execute_and_register(module: ModuleType) -> None:
+                execute(module)
+                importlib.import_module("swtstudy.accessor")
+
+            spec.loader.exec_module = execute_and_register  # type: ignore[method-assign]
+        return spec
+
+
+if "xarray" in sys.modules:
+    importlib.import_module("swtstudy.accessor")
+else:
+    sys.meta_path.insert(0, _AfterXarray())

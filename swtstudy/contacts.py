@@ -617,7 +617,7 @@ class PhysicalContact:
 
     def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
-        from swtstudy.figures.profile import draw_shape
+        from swtstudy.figures.definitions import draw_shape
 
         shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
         given, _ = self._headlines(1, at_rest=True)

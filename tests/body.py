@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from solved import Points
 
 from swtstudy.kernel.field import Opened, criterion_at, instants_at, open_cycle, stress_at
-from swtstudy.paper.audit.body_maximum import body_maximum as body_maximum
-from swtstudy.paper.audit.dense import dense_maximum as dense_maximum
+from swtstudy.paper.maxima import body_maximum as body_maximum
+from swtstudy.paper.maxima import dense_maximum as dense_maximum
 
 Array = NDArray[np.float64]
 

@@ -86,7 +86,7 @@ def solved(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
 @pytest.fixture
 def unwrapped(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures whose titles and labels stay in one line: the layout takes most of the time of a figure."""
-    for module in ("draw", "evaluated", "load", "point", "profile"):
+    for module in ("draw", "sheet"):
         monkeypatch.setattr(f"swtstudy.figures.{module}.wrap_texts", lambda _: None)
 
 

@@ -9,9 +9,9 @@ import xarray as xr
 from solved import REGIMES
 
 from swtstudy.archive.netcdf import save as save
-from swtstudy.paper.audit.dataset import AUDITED, audit_dataset
-from swtstudy.paper.audit.report import report as report
-from swtstudy.paper.statements.statement import STATEMENTS as STATEMENTS
+from swtstudy.paper.audit import AUDITED, audit_dataset
+from swtstudy.paper.markdown import report as report
+from swtstudy.paper.statements import STATEMENTS as STATEMENTS
 from swtstudy.points.canonical import ROW
 
 #: Phases over one turn, its end included.

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from swtstudy.figures.profile import draw_profile
+from swtstudy.figures.definitions import draw_profile
 
 #: Shapes at which each is drawn.
 SHAPES = {

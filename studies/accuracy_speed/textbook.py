@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import struve
 
-from swtstudy.paper.reference import march_springs
+from swtstudy.paper.formalisms import march_springs
 
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]

@@ -32,7 +32,7 @@ from overlooked import CHUNK, SCENES
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.field import Opened, criterion_at, largest_radius, mean_about, open_cycle, passed_radii
 from swtstudy.kernel.mean import SPHERE
-from swtstudy.paper.audit.body_maximum import body_maximum
+from swtstudy.paper.maxima import body_maximum
 from swtstudy.solver.means import DOWN, RTOL
 from swtstudy.solver.points import arguments_of, solve_points
 

@@ -28,7 +28,7 @@ from accuracy import SHAPES
 from nonlocal_means import worn
 
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.paper.audit.dense import dense_maximum
+from swtstudy.paper.maxima import dense_maximum
 from swtstudy.profiles.at_rest import check_shape
 from swtstudy.solver.points import Points, Solution, solve_points
 from swtstudy.vocabulary.parameters import Control

@@ -1,7 +1,7 @@
 """Values of s that the tests hold s and s_error against, at random points of the box and of the ranges' ends.
 
 ``python studies/checks/reference_values.py``, from the project's folder, writes results/reference_values.csv:
-s at the tightest tolerance, or what a dense look (`swtstudy.paper.audit.dense`) finds, if that is more. Both
+s at the tightest tolerance, or what a dense look (`swtstudy.paper.maxima`) finds, if that is more. Both
 share the stress history, but neither the choice of instants, positions and planes nor how one is improved.
 """
 
@@ -19,7 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from accuracy import REFERENCE_RTOL, SHAPES, points_at_ends, random_points
 
-from swtstudy.paper.audit.dense import dense_maximum
+from swtstudy.paper.maxima import dense_maximum
 from swtstudy.solver.points import Points, solve_points
 
 COUNT, SEED = 15, 7

@@ -11,7 +11,7 @@ from nonlocal_means import worn
 from overlooked import CHUNK, drawn
 
 from swtstudy.loads.load_path import LoadPath
-from swtstudy.paper.audit import body_maximum
+from swtstudy.paper.maxima import body_maximum
 from swtstudy.solver.points import Points, solve_points
 from swtstudy.solver.quantities import quantities_of
 from swtstudy.vocabulary.parameters import Control
@@ -110,7 +110,7 @@ def in_body(points: Points, rtol: float) -> Values:
     found = []
     for k, x in enumerate(solve_points(some, rtol).critical_x):
         if np.isfinite(x):
-            largest, at_line = body_maximum.body_maximum(some[[k]], float(x))
+            largest, at_line = body_maximum(some[[k]], float(x))
             found += [largest.swt, float(at_line.swt)]
     return np.array(found), np.full(len(found), np.inf)
 

@@ -15,8 +15,8 @@ from typing import Any
 import click
 
 import swtstudy
+from swtstudy.cli import terminal
 from swtstudy.cli.checks import audit, check, fit, history, sensitivity
-from swtstudy.cli.options import check_options
 from swtstudy.cli.points import show, solve
 from swtstudy.cli.results import info, merge, plot, report
 from swtstudy.cli.run import run
@@ -54,7 +54,7 @@ class _Commands(click.Group):
     ) -> tuple[str | None, click.Command | None, list[str]]:
         name, command, rest = super().resolve_command(context, args)
         if command is not None and not context.resilient_parsing:
-            check_options(context, command, rest)
+            terminal.check_options(context, command, rest)
         return name, command, rest
 
     def main(self, *arguments: Any, **options: Any) -> Any:

@@ -9,8 +9,7 @@ from typing import Any
 import click
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.cli.options import study_completion, with_results, with_studies, with_width, with_workers
-from swtstudy.cli.terminal import line_length, of_markdown, say, table
+from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import refused
@@ -18,15 +17,15 @@ from swtstudy.vocabulary.wording import number_words, unit_words
 
 
 @click.command()
-@click.argument("study", shell_complete=study_completion)
+@terminal.with_study
 @click.option(
     "--y", multiple=True, help="A data variable; repeat for more.  [default: s, or such as SWT with units]"
 )
-@click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
+@terminal.with_confidence
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of the bootstrap.")
-@with_results
-@with_width
-@with_workers
+@terminal.with_results
+@terminal.with_width
+@terminal.with_workers
 def sensitivity(
     study: str, y: tuple[str, ...], confidence: float, seed: int, results: str, width: Any, workers: int
 ) -> None:
@@ -41,7 +40,7 @@ def sensitivity(
       swtstudy sensitivity sensitivity
     """
     import swtstudy
-    from swtstudy.figures.evaluated import draw_sensitivity
+    from swtstudy.figures.statistics import draw_sensitivity
     from swtstudy.figures.style import save_figure
     from swtstudy.results.sensitivity import check_design
 
@@ -54,28 +53,28 @@ def sensitivity(
         check_writable(path)
 
     from swtstudy.archive.netcdf import save
-    from swtstudy.paper.statements.indices import table
+    from swtstudy.paper.markdown import table
 
     indices = swtstudy.sensitivity(swtstudy.run(one, target, workers=workers), y, confidence, seed)
     text = table(indices, file.resolve() in map(Path.resolve, shipped_studies().values()))
     save(indices, targets[".nc"])
     write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
-    click.echo(of_markdown(text, line_length()))
+    click.echo(terminal.of_markdown(text, terminal.line_length()))
     for path in (target, *targets.values()):
         click.echo(str(path))
 
 
 @click.command()
-@click.argument("study")
+@terminal.with_study
 @click.argument("tests")
 @click.option(
     "--y", default="cycles_volume", show_default=True, help="Which lives: cycles_volume, _point or _line."
 )
 @click.option("--friction", is_flag=True, help="Fit friction, too.")
-@click.option("--confidence", default=0.95, show_default=True, help="Level of the confidence intervals.")
-@with_results
-@with_width
+@terminal.with_confidence
+@terminal.with_results
+@terminal.with_width
 def fit(study: str, tests: str, y: str, friction: bool, confidence: float, results: str, width: Any) -> None:
     """Fit the critical distance, and friction, to the lives of TESTS.
 
@@ -91,7 +90,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     """
     import swtstudy
     from swtstudy.archive.netcdf import save
-    from swtstudy.figures.evaluated import draw_fit, fit_lines
+    from swtstudy.figures.statistics import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
 
     targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
@@ -101,7 +100,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
-        say(line)
+        terminal.say(line)
     for path in targets.values():
         click.echo(str(path))
 
@@ -129,21 +128,20 @@ def check(results: str, output: str | None) -> None:
       swtstudy audit figure3 figure4 --points 100
       swtstudy check
     """
-    from swtstudy.paper.statements.check import check as check_statements
-    from swtstudy.paper.statements.check import markdown, summary
+    from swtstudy.paper.statements import check as check_statements
+    from swtstudy.paper.statements import markdown, summary
 
     target = Path(output) if output else Path(results) / "statements.md"
     outcomes = check_statements(results)
     rows = [
-        (each.statement.place, f"{each.statement.sentence}\n", each.finding.measured, each.verdict)
+        (each.statement.place, f"{each.statement.sentence}\n", each.measured, each.verdict)
         for each in outcomes
-        if each.finding is not None
+        if each.holds is not None
     ]
-    click.echo(table(rows, max(line_length() or 120, 80), ("where", "the paper says", "measured", "")))
+    width, head = max(terminal.line_length() or 120, 80), ("where", "the paper says", "measured", "")
+    click.echo(terminal.table(rows, width, head))
     click.echo(summary(outcomes))
-    problems = dict.fromkeys(
-        line for each in outcomes if each.finding is None for line in each.problem.splitlines()
-    )
+    problems = dict.fromkeys(line for each in outcomes for line in each.problem.splitlines())
     if problems:
         raise ValueError("\n".join([*problems, f"all of them: {EVERYTHING}"]))
     check_writable(target)
@@ -152,11 +150,11 @@ def check(results: str, output: str | None) -> None:
 
 
 @click.command()
-@with_studies
+@terminal.with_studies
 @click.option("--points", default=1000, show_default=True, type=click.IntRange(1), help="Points to sample.")
 @click.option("--seed", default=0, show_default=True, type=click.IntRange(0), help="Seed of random numbers.")
-@with_results
-@with_workers
+@terminal.with_results
+@terminal.with_workers
 @click.option(
     "--dense", is_flag=True, help="Look densely at the surface line, too: was a maximum overlooked?"
 )
@@ -179,18 +177,18 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.paper.audit.report import report
+    from swtstudy.paper.markdown import report
 
     for source, study in defined.items():
         target = targets[source]
         text = report(swtstudy.audit_study(study, target, points, seed, workers, dense))
         write_text(target.with_suffix(".md"), text)
-        click.echo(of_markdown(text, line_length()))
+        click.echo(terminal.of_markdown(text, terminal.line_length()))
         click.echo(f"{target}\n{target.with_suffix('.md')}")
 
 
 @click.command()
-@click.argument("study", shell_complete=study_completion)
+@terminal.with_study
 @click.argument("file")
 @click.option("--order", help="Components: swtstudy (xx yy zz yz xz xy) or abaqus (S11 S22 S33 S12 S13 S23).")
 @click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Whose properties.")
@@ -227,5 +225,5 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
             words += f", {lives} = {number_words(float(at[lives]), 3)}" if lives in found else ""
             places = [f"id = {at['id'].item()}"] if "id" in at.coords else []
             places += [f"{each} = {number_words(float(at[each]))}" for each in "xyz" if each in at.coords]
-            say(f"{words} at {', '.join(places) or 'the only point'}")
+            terminal.say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

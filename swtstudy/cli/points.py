@@ -9,15 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from swtstudy.cli.options import (
-    SEVERAL,
-    InSections,
-    NamesInSections,
-    study_completion,
-    with_style,
-    with_width,
-)
-from swtstudy.cli.terminal import fitted, line_length, say
+from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study
 from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.files import check_writable
@@ -59,11 +51,11 @@ def with_parameters(metavar: str, parameters: Iterable[Parameter]) -> Callable[[
     return decorate
 
 
-@click.command(cls=InSections)
-@with_parameters(SEVERAL, PARAMETERS.values())
+@click.command(cls=terminal.InSections)
+@with_parameters(terminal.SEVERAL, PARAMETERS.values())
 @click.option("--rtol", default=DEFAULT_RTOL, show_default=True, help="Target of the relative error of s.")
-@click.option("--quantities", metavar=SEVERAL, help="Columns beside s, such as dissipation.")
-@with_parameters(SEVERAL, [QUANTITY_AXES[DISTANCE]])
+@click.option("--quantities", metavar=terminal.SEVERAL, help="Columns beside s, such as dissipation.")
+@with_parameters(terminal.SEVERAL, [QUANTITY_AXES[DISTANCE]])
 def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
     """Print s for single values or lists: a table, or tabs in a pipe.
 
@@ -93,13 +85,13 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
         values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
         for place, column in zip(places(own), values.T, strict=True):
             found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{each:.6g}" for each in column)
-    lines, room = [*zip(*found.values(), strict=True)], line_length()
+    lines, room = [*zip(*found.values(), strict=True)], terminal.line_length()
     if room is None:  # for programs
         click.echo("\n".join("\t".join(line) for line in [(*found,), *lines]))
     else:
-        click.echo(fitted([*found], [[*map(raised, line)] for line in lines], room))
+        click.echo(terminal.fitted([*found], [[*map(raised, line)] for line in lines], room))
     for name in (name for name in WHY if name in found["regime"]):
-        say(f"{name}: {WHY[name]}", err=True)
+        terminal.say(f"{name}: {WHY[name]}", err=True)
 
 
 def _values(text: str) -> str | list[str]:
@@ -107,14 +99,14 @@ def _values(text: str) -> str | list[str]:
     return parts if len(parts) > 1 else parts[0]
 
 
-@click.command(cls=NamesInSections)
-@click.argument("study", required=False, metavar="[STUDY]", shell_complete=study_completion)
+@click.command(cls=terminal.NamesInSections)
+@click.argument("study", required=False, metavar="[STUDY]", shell_complete=terminal.study_completion)
 @with_parameters("VALUE", (*PARAMETERS.values(), *_SIZES))
 @click.option("--body", metavar="BODY", help="1 or 2, or its name.  [default: 1]")
 @click.option("--output", "-o", default="point.png", show_default=True, help="PNG, PDF or SVG file.")
-@with_style
+@terminal.with_style
 @click.option("--smoothing", type=float, help="Largest misfit of a table, in its lengths.")
-@with_width
+@terminal.with_width
 def show(
     study: str | None,
     output: str,
@@ -157,7 +149,7 @@ def show(
     save_figure(figure, output, style)
     if width == "column" and figure.get_figheight() > TALLEST:
         height = f"{output} is {INCH * figure.get_figheight():.0f} cm high, more than a page"
-        say(f"{height}: --width page draws it lower", err=True)
+        terminal.say(f"{height}: --width page draws it lower", err=True)
     if words:
         click.echo(words)
     click.echo(output)
@@ -165,8 +157,8 @@ def show(
 
 def _point_or_profile(values: dict[str, object], smoothing: float, look: dict[str, Any]) -> Figure:
     """A point, or a profile where its shape alone is given."""
+    from swtstudy.figures.definitions import draw_profile
     from swtstudy.figures.point import inspect
-    from swtstudy.figures.profile import draw_profile
     from swtstudy.study.keys import ProfileTable
     from swtstudy.study.reading import profile_from
 
@@ -204,7 +196,7 @@ def _of_shape(values: dict[str, object]) -> bool:
 
 def _load(source: str, name: str, look: dict[str, Any]) -> tuple[Figure, str]:
     """A load of a study, and what its record is like in words."""
-    from swtstudy.figures.load import draw_load
+    from swtstudy.figures.definitions import draw_load
     from swtstudy.study.definition import Study
     from swtstudy.study.reading import read_signal_of
 

@@ -9,8 +9,7 @@ from typing import Any
 import click
 
 from swtstudy.archive.paths import check_archive_path, locked
-from swtstudy.cli.options import archive_completion, with_style, with_width
-from swtstudy.cli.terminal import say
+from swtstudy.cli import terminal
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
@@ -18,13 +17,11 @@ from swtstudy.vocabulary.wording import place_words
 
 
 @click.command()
-@click.argument("archives", metavar="ARCHIVE...", nargs=-1, required=True, shell_complete=archive_completion)
+@terminal.with_archives
 @click.option(
     "--output", "-o", help="HTML file, by default beside the archive; of several archives a folder."
 )
-@click.option(
-    "--workers", default=2, show_default=True, type=click.IntRange(1), help="Processes, for several."
-)
+@terminal.with_workers
 def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
     """Write an HTML page about each ARCHIVE, to send to people without Python.
 
@@ -46,10 +43,10 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
 
 
 @click.command()
-@click.argument("archive", shell_complete=archive_completion)
+@terminal.with_archive
 @click.option("--output", "-o", help="PNG, PDF or SVG file; by default a PNG beside the archive.")
-@with_style
-@with_width
+@terminal.with_style
+@terminal.with_width
 @click.option("--x", help="The axis along the horizontal axis.")
 @click.option("--hue", help="The axis whose values are the lines.")
 @click.option("--panels", help="The axis whose values are the panels.")
@@ -107,7 +104,7 @@ def plot(
 
 
 @click.command()
-@click.argument("archive", shell_complete=archive_completion)
+@terminal.with_archive
 def info(archive: str) -> None:
     """Describe an ARCHIVE.
 
@@ -123,7 +120,7 @@ def info(archive: str) -> None:
 
     dataset = open_results(archive)
     for line in describe(dataset):
-        say(line, INDENT)
+        terminal.say(line, INDENT)
     if saved := points_saved(parts_folder(Path(archive))):
         click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")
     folder = kept_folder(Path(archive))
@@ -132,7 +129,7 @@ def info(archive: str) -> None:
 
 
 @click.command()
-@click.argument("archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion)
+@terminal.with_archives
 @click.option("--output", "-o", required=True, help="File for the merged archive.")
 @click.option(
     "--sparse", is_flag=True, help="Allow points that are in none of the archives; they are missing."

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.cli.options import study_completion, with_results, with_width, with_workers
-from swtstudy.cli.terminal import say, say_next
+from swtstudy.cli import terminal
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.wording import number_of, number_words
 
@@ -37,9 +36,9 @@ _NAMED = 5
 
 
 @click.command()
-@click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=study_completion)
+@click.argument("studies", nargs=-1, metavar="STUDY...", shell_complete=terminal.study_completion)
 @click.option("--all", "suite", is_flag=True, help="Every study of the paper; see swtstudy list.")
-@with_results
+@terminal.with_results
 @click.option(
     "--format",
     "formats",
@@ -49,8 +48,8 @@ _NAMED = 5
     type=click.Choice(["png", "pdf", "svg"]),
     help="Format of the figure; may be given more than once.",
 )
-@with_width
-@with_workers
+@terminal.with_width
+@terminal.with_workers
 @click.option("--processes", is_flag=True, help="Compute in processes: a point that kills one fails alone.")
 @click.option("--scheduler", metavar="ADDRESS", help="Use this dask cluster instead, e.g. tcp://host:8786.")
 @click.option("--retry-failed", is_flag=True, help="Recompute points that failed before.")
@@ -115,7 +114,7 @@ def run(
     if any(failed):
         sys.exit(POINTS_FAILED)
     if len(targets) == 1:
-        say_next(f"swtstudy report {next(iter(targets.values()))}")
+        terminal.say_next(f"swtstudy report {next(iter(targets.values()))}")
 
 
 @contextmanager
@@ -176,7 +175,7 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
         worst = f"relative error up to {number_words(relative.max(), 2)}"
     click.echo(f"{target}: {number_of(dataset.s.size, 'point')} {effort}, {worst}")
     for line in outcome(dataset):
-        say(line, 2)
+        terminal.say(line, 2)
     failed = [*failures(dataset)]
     for where, why in failed[:_NAMED]:
         click.echo(f"failed: {where}: {why}", err=True)

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from swtstudy.archive.paths import archive_paths
-from swtstudy.cli.options import by_section, with_studies, with_workers
-from swtstudy.cli.terminal import say, say_next
+from swtstudy.cli import terminal
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Report, literal, refused
@@ -58,11 +57,11 @@ def new(name: str, units: bool) -> None:
     if not schema.exists():
         write_text(schema, schema_text())
         click.echo(str(schema))
-    say_next(f"swtstudy run {target}")
+    terminal.say_next(f"swtstudy run {target}")
 
 
 @click.command()
-@with_studies
+@terminal.with_studies
 def validate(studies: tuple[str, ...]) -> None:
     """Check each STUDY (a TOML file) without computing anything.
 
@@ -84,16 +83,16 @@ def validate(studies: tuple[str, ...]) -> None:
         words = f"{source}: valid, {number_of(grid.size, 'point')}" + (f" = {sizes}" if sizes else "")
         with report:
             archive_paths([source], "")
-            say(words, 2)
+            terminal.say(words, 2)
             for line in foreseen_lines(grid):
                 click.echo(f"validity: {line}", err=True)
     report.refuse()
 
 
 @click.command()
-@with_studies
+@terminal.with_studies
 @click.option("--results", default="results", show_default=True, help="Folder of the archives.")
-@with_workers
+@terminal.with_workers
 def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     """Show what a run of each STUDY would compute, and how long it would take.
 
@@ -109,44 +108,41 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
     defined = read_studies(studies)
     targets = archive_paths(defined, results)
     for source, study in defined.items():
-        for line in describe(study, targets[source], workers):
-            say(line, 21)
+        terminal.say(study.title, 21)
+        for label, words in describe(study, targets[source], workers):
+            terminal.say(f"  {label:<19}{words}", 21)
 
 
-def describe(study: Study, target: Path, workers: int) -> Iterator[str]:
-    """Describe in lines what a run would do, with its time from a few points that are solved."""
+def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
+    """Describe a run in labels and words, with its time from a few points that are solved."""
     from swtstudy.runner.work import assess, estimate
 
     work = assess(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
     count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
     panels = f" in {count} panels" if count > 1 else ""
-    yield study.title
-    for label, words in (
-        ("prescribed", grid.control.name),
-        ("archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"),
-        ("points", f"{grid.size}{panels}"),
-    ):
-        yield f"  {label:<19}{words}"
+    yield "prescribed", grid.control.name
+    yield "archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"
+    yield "points", f"{grid.size}{panels}"
     if study.asked.items:
         unit = unit_words(grid.row(DISTANCE).units)
         asked = [item for item in study.asked.items if item != DISTANCE]
         asked += [f"{DISTANCE}={distance:.6g}{unit}" for distance in study.asked.distances]
-        yield f"  quantities         {', '.join(asked)}"
-    yield f"  distinct points    {distinct} ({grid.size - distinct} saved by symmetry)"
-    yield f"  already computed   {distinct - todo}"
-    yield f"  to be computed     {todo}"
+        yield "quantities", ", ".join(asked)
+    yield "distinct points", f"{distinct} ({grid.size - distinct} saved by symmetry)"
+    yield "already computed", str(distinct - todo)
+    yield "to be computed", str(todo)
     if work.incomplete.any():
-        yield f"  incomplete         {int(work.incomplete.sum())} of them lack quantities"
+        yield "incomplete", f"{int(work.incomplete.sum())} of them lack quantities"
     if work.outdated:
-        yield f"  recomputed         {work.outdated} come from another version of the solver"
+        yield "recomputed", f"{work.outdated} come from another version of the solver"
     if work.coarse:
-        yield f"  recomputed         {work.coarse} are less accurate than the study asks for"
+        yield "recomputed", f"{work.coarse} are less accurate than the study asks for"
     if todo:
         seconds, timed, parts = estimate(work, study.rtol)
         each = f"{1e3 * seconds / todo:.3g} ms a point, from {number_of(timed, 'point')} timed"
         wall = duration(seconds / min(workers, parts))
-        yield f"  time               about {wall} with {workers} workers ({each})"
+        yield "time", f"about {wall} with {workers} workers ({each})"
 
 
 @click.command("list")
@@ -176,14 +172,14 @@ def list_studies(context: click.Context, parameters: bool) -> None:
         for name in names:
             size = studies[name].grid.size
             points = "random" if size > LARGEST_GRID else f"{size} points"  # random boxes are drawn
-            say(f"  {name:<{width}}  {points:>12}  {studies[name].title}", indent=width + 18)
+            terminal.say(f"  {name:<{width}}  {points:>12}  {studies[name].title}", indent=width + 18)
         click.echo()
     click.echo(f"files: {shipped_folder()}")
 
 
 def _explained(formatter: click.HelpFormatter) -> str:
     """Every parameter with its meaning, by what it is a part of, and every quantity."""
-    for title, names in by_section(PARAMETERS).items():
+    for title, names in terminal.by_section(PARAMETERS).items():
         with formatter.section(title):
             formatter.write_dl([(name, PARAMETERS[name].explained) for name in names])
     quantities = {name: f"{row.meaning}." for name, row in NAMED.items()}

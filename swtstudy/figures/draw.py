@@ -8,8 +8,8 @@ import xarray as xr
 
 from swtstudy.archive.attributes import defined_in
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
-from swtstudy.figures.samples import draw_histogram, draw_scatter
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
+from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
@@ -140,8 +140,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             words = axis_words(str(layout.vertical), dataset[layout.vertical].attrs)
         for bottom in sheet.lowest(axes[: row + 1]) if upright or row == len(layout.y) - 1 else []:
             bottom.set_xlabel(across)
-        for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel(words)
+        sheet.label_left(axes[row], words)
         for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
             # The letter of a panel, the quantity where that differs between rows, and its place.
             letter = f"({chr(ord('A') + (row * len(parts) + column) % 26)})" if axes.size > 1 else ""

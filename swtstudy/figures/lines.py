@@ -20,15 +20,14 @@ from swtstudy.figures.words import (
     is_life,
     part_words,
     slices,
+    tick_angles,
     tick_flags,
-    tick_in_pi,
     tick_in_ratios,
 )
 from swtstudy.results.evaluate import words_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import WITHOUT_S
-from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 from swtstudy.vocabulary.wording import axis_words
 
@@ -68,8 +67,7 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
 def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, values: xr.DataArray) -> None:
     """Add the colour bar of a parameter beside all panels."""
     bar = figure.colorbar(scale, ax=axes, label=axis_words(str(values.name), values.attrs), pad=0.02)
-    if AXES[str(values.name)].units == "rad":
-        tick_in_pi(bar.ax.yaxis, *bar.ax.get_ylim())
+    tick_angles(bar.ax.yaxis, values)
 
 
 def draw_lines(
@@ -102,7 +100,7 @@ def draw_lines(
         _draw_line(axes, part, panel.value, y, layout, look)
     if not np.isfinite(panel.value).any():
         axes.text(0.5, 0.5, "no value", ha="center", va="center", color="0.3", transform=axes.transAxes)
-    _scale_axes(axes, panel[layout.x].values, panel.value, layout)
+    _scale_axes(axes, panel[layout.x], panel.value, layout)
     if layout.regimes:
         regimes = [words_of(part, "regime").values.tolist() for part in parts]
         _shade_without(axes, panel[layout.x].values, regimes)
@@ -232,7 +230,7 @@ def mark_points(axes: Axes, x: ArrayLike, y: ArrayLike, words: str) -> None:
         axes.plot(x, y, markersize=0.8 * rcParams["lines.markersize"], label=words, **look)
 
 
-def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, layout: FigureLayout) -> None:
+def _scale_axes(axes: Axes, x: xr.DataArray, values: xr.DataArray, layout: FigureLayout) -> None:
     """Set limits, logarithmic axes and ticks that suit the curves; of lives x is upright."""
     upright = layout.kind == "life"
     own, other = ("y", "x") if upright else ("x", "y")
@@ -245,12 +243,11 @@ def _scale_axes(axes: Axes, x: NDArray[Any], values: xr.DataArray, layout: Figur
     least, most = float(values.where(values > 0.0).min()), float(values.max())
     positive = not words and float(values.min()) >= 0.0
     decades = upright or (is_life(values.attrs) and float(values.min()) > 0.0)
-    if in_equal_ratios(x):
+    if in_equal_ratios(x.values):
         axes.set(**{f"{own}scale": "log"})
         tick_in_ratios(getattr(axes, f"{own}axis"), low, high)
         decades |= positive and (most / least > _LOG_RATIO or layout.x == DISTANCE)
     if decades:
         axes.set(**{f"{other}scale": "log"})
         tick_in_ratios(getattr(axes, f"{other}axis"), least, most)
-    if AXES[layout.x].units == "rad":
-        tick_in_pi(getattr(axes, f"{own}axis"), low, high)
+    tick_angles(getattr(axes, f"{own}axis"), x)

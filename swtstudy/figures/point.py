@@ -20,8 +20,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from swtstudy.fields.inspection import inspect_point
-from swtstudy.figures.sheet import Sheet, Width, check_width, wrap_texts
-from swtstudy.figures.style import DASHES, Style, stroke, styled
+from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.style import DASHES, Style, stroke
 from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.vocabulary.arrays import FloatArray
@@ -107,14 +107,11 @@ def draw_inspection(
     """
     panels = _PANELS if "displacement" in dataset else _OF_STRIP
     sheet = Sheet(1, len(panels), width, _PANEL, least_height=_LEAST_HEIGHT, fold=False)
-    with styled(style, width):
-        figure = sheet.figure()
-        own = sheet.panels(figure, share_x="none", share_y="none")[0]
+    with sheet.drawn(style) as (figure, (own,)):
         for axes, draw, letter in zip(own, panels, "ABCDEFGHI", strict=False):
             draw(axes, dataset, labels)
             axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
         figure.suptitle(_headline(dataset, labels, headlines))
-        wrap_texts(figure)
     return figure
 
 
@@ -311,8 +308,8 @@ def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], facto
         colour, dashes = _INSTANTS[(number - 1) % len(_INSTANTS)], DASHES[(number - 1) % len(DASHES)]
         along = one[one[name].dims[0]]
         axes.plot(along, one[name], **stroke(colour, dashes, label=str(number)))
-        for sign in (factor, -factor):
-            axes.plot(along, sign * one[bound], **stroke(colour, linewidth=0.7, alpha=0.45))
+        bounds = np.outer(one[bound], (factor, -factor))
+        axes.plot(along, bounds, **stroke(colour, linewidth=0.7, alpha=0.45))
     _guide(axes, 0.0, zorder=0)
     look: dict[str, Any] = {"color": "0.25", "fontsize": "small", "bbox": {**_BOX, "alpha": 0.8}}
     axes.text(0.02, 0.02, words, transform=axes.transAxes, **look)
@@ -445,8 +442,7 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     _draw_loop(axes, dataset, "tangential_force", "normal_force", labels)
     ends, highest = axes.axis(), axes.get_ylim()[1]
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
-    for sign in (1.0, -1.0):
-        axes.plot([0.0, sign * highest], [0.0, highest], **stroke(_FAINT, linewidth=_thin()))
+    axes.plot([-highest, 0.0, highest], [highest, 0.0, highest], **stroke(_FAINT, linewidth=_thin()))
     axes.axis(ends)
     axes.set_title(r"load plane of forces, $|F_x| \leq \mu F_N$", loc="left")
 

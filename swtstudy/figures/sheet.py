@@ -7,7 +7,8 @@ longer than there is room; a legend stands below all panels.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -22,7 +23,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from swtstudy.figures.style import picture, stroke
+from swtstudy.figures.style import Style, picture, stroke, styled
 from swtstudy.loads.loop import Loop
 from swtstudy.vocabulary.mistakes import literal, refused
 
@@ -110,9 +111,17 @@ class Sheet:
         height = self.panel[1] * self.rows * -(-self.count // across)
         return new_figure((self.panel[0] * across + beside, height))
 
-    def panels(
-        self, figure: Figure, share_x: str = "all", share_y: str = "row", projection: str | None = None
-    ) -> NDArray[Any]:
+    @contextmanager
+    def drawn(
+        self, style: Style | None, share_x: str = "none", share_y: str = "none"
+    ) -> Iterator[tuple[Figure, NDArray[Any]]]:
+        """A figure and its `panels`, to be drawn in a style; at the end its texts are wrapped."""
+        with styled(style, self.width):
+            figure = self.figure()
+            yield figure, self.panels(figure, share_x, share_y)
+            wrap_texts(figure)
+
+    def panels(self, figure: Figure, share_x: str = "all", share_y: str = "row") -> NDArray[Any]:
         """Panels of shape (rows, count).
 
         Parameters
@@ -121,8 +130,6 @@ class Sheet:
             Where they are.
         share_x, share_y
             Which panels have the axis in common: "all", the panels of a "row", or "none".
-        projection
-            Projection of the panels as matplotlib names it, such as "polar".
         """
         across, panels = self.across, np.empty((self.rows, self.count), dtype=object)
         lines = -(-self.count // across)
@@ -130,17 +137,17 @@ class Sheet:
             line, column = divmod(index, across)
             first = {"all": panels[0, 0], "row": panels[row, 0], "none": None}
             cell = (self.rows * lines, across, (row * lines + line) * across + column + 1)
-            shared = {"sharex": first[share_x], "sharey": first[share_y]}
-            one = figure.add_subplot(*cell, projection=projection, **shared)
+            one = figure.add_subplot(*cell, sharex=first[share_x], sharey=first[share_y])
             lowest = row == self.rows - 1 and index + across >= self.count
             one.tick_params(labelleft=column == 0 or share_y == "none")
             one.tick_params(labelbottom=lowest or share_x != "all")
             panels[row, index] = one
         return panels
 
-    def first_of_lines(self, panels: NDArray[Any]) -> NDArray[Any]:
-        """The panels at the left end of their lines, of shape (rows, lines)."""
-        return panels[:, :: self.across]
+    def label_left(self, panels: NDArray[Any], words: str) -> None:
+        """Label the vertical axes of a row of panels, at the left end of each of its lines."""
+        for first in panels[:: self.across]:
+            first.set_ylabel(words)
 
     def lowest(self, panels: NDArray[Any]) -> list[Axes]:
         """The panels with nothing beneath them."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from functools import cache
 from io import BytesIO
 from os import PathLike
@@ -81,11 +81,10 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
     wanted: Any = style_of("screen" if width is None else "print").items()
     own: Any = {name: value for name, value in wanted if known[name] == rcParamsDefault[name]}
     own["text.usetex"] = False  # our words are not LaTeX: it would stop at the first % or _
-    with ExitStack() as stack:
-        stack.enter_context(matplotlib.rc_context(own))
+    with matplotlib.rc_context(own):
         if style is not None:
             try:
-                stack.enter_context(matplotlib.style.context(style))
+                matplotlib.style.use(style)
             except (OSError, KeyError, ValueError) as error:
                 allowed = "rcParams of matplotlib and their values"
                 if isinstance(error, OSError):

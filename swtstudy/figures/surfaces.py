@@ -25,7 +25,7 @@ from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
-from swtstudy.figures.words import flag_words, is_life, power_words, tick_in_pi, tick_names
+from swtstudy.figures.words import flag_words, is_life, power_words, tick_angles, tick_names
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.parameters import AXES
@@ -81,6 +81,9 @@ def draw_maps(
         if layout.regimes:
             mark_borders(one, panel.regime)
         filled = draw(one, surface, look)
+        if is_contour:
+            tick_angles(one.xaxis, surface[layout.x])
+            tick_angles(one.yaxis, surface[layout.vertical])
         if layout.validity:
             mark_cells(one, panel.outside, is_contour)
     bar = figure.colorbar(filled, ax=axes, label=words, pad=0.02)
@@ -129,7 +132,6 @@ def _draw_areas(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Scal
     up, at = (surface[dim].values for dim in surface.dims)
     mesh = axes.pcolormesh(at, up, surface, shading="nearest", rasterized=True, **look)
     axes.set(xlim=at[[0, -1]], ylim=up[[0, -1]])
-    _tick_angles(axes, surface)
     return mesh
 
 
@@ -149,11 +151,10 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     light = filled.to_rgba(shown)[:, :3] ** 2.2 @ [0.2126, 0.7152, 0.0722]
     labels: dict[str, Any] = {"fmt": power_words if life else "%g", "fontsize": "x-small"}
     labels["colors"] = ["black" if each > 0.18 else "white" for each in light]
-    tried = axes.clabel(lines, shown, inline=False, **labels)
-    if places := _apart(axes, tried):
+    # Tried on whole lines first: only lines whose label stays are broken there.
+    if places := _apart(axes, axes.clabel(lines, shown, inline=False, **labels)):
         for words in axes.clabel(lines, shown, manual=places, **labels):
             words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
-    _tick_angles(axes, surface)
     return filled
 
 
@@ -250,12 +251,6 @@ def lowest(x: FloatArray, values: FloatArray, angle: bool) -> FloatArray:
 def _jumps(places: FloatArray, turn: float) -> IndexArray:
     """The rows at which another run begins: a step that is a larger share of the range of x."""
     return np.flatnonzero(~(np.abs(np.diff(places, prepend=np.nan)) <= 0.1 * turn))
-
-
-def _tick_angles(axes: Axes, surface: xr.DataArray) -> None:
-    for axis, name in zip((axes.yaxis, axes.xaxis), map(str, surface.dims), strict=True):
-        if AXES[name].units == "rad":
-            tick_in_pi(axis, float(surface[name].min()), float(surface[name].max()))
 
 
 def _draw_cells(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> ScalarMappable:

@@ -17,6 +17,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import as_text, pi_words, place_words
@@ -144,13 +145,19 @@ def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) ->
             axis.set_label_text(f"${symbol}$" + (f" ({label.unit.strip()})" if label.unit else ""))
 
 
+def tick_angles(axis: Axis, values: xr.DataArray) -> None:
+    """Put ticks at multiples of π along an axis of a parameter, if that is an angle."""
+    if AXES[str(values.name)].units == "rad":
+        tick_in_pi(axis, float(values.min()), float(values.max()))
+
+
 def tick_in_pi(axis: Axis, low: float, high: float) -> None:
     """Put ticks at multiples of π/4, or at coarser ones over a long range."""
     turns = (high - low) / math.pi
     step = next((s for s in (0.25, 0.5) if turns <= 6 * s), float(max(1, math.ceil(turns / 6))))
     first, last = math.ceil(low / math.pi / step - 1e-9), math.floor(high / math.pi / step + 1e-9)
-    places = step * np.arange(first, last + 1)
-    axis.set_ticks(places * math.pi, labels=[pi_words(Fraction(each)) for each in places.tolist()])
+    places = [step * number for number in range(first, last + 1)]
+    axis.set_ticks([math.pi * each for each in places], labels=[pi_words(Fraction(each)) for each in places])
 
 
 def tick_in_ratios(axis: Axis, low: float, high: float) -> None:

@@ -15,7 +15,7 @@ from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
-from swtstudy.reports.values import rendered, symbol_html, value_text
+from swtstudy.reports.html import rendered, symbol_html, value_text
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout

@@ -18,38 +18,15 @@ from swtstudy.archive import describe
 from swtstudy.archive.attributes import defined_in
 from swtstudy.contacts import contact_of
 from swtstudy.figures.draw import draw, layout_of
-from swtstudy.figures.evaluated import draw_sensitivity
 from swtstudy.figures.point import inspect
 from swtstudy.figures.sheet import PANEL
+from swtstudy.figures.statistics import draw_sensitivity
 from swtstudy.figures.style import picture
 from swtstudy.figures.words import is_life
-from swtstudy.paper.statements.check import about_archive
+from swtstudy.paper.statements import about_archive
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import index_at
-from swtstudy.reports.findings import (
-    extreme_places,
-    extreme_points,
-    indices_of,
-    levers,
-    measured,
-    measured_at,
-    parameters_of,
-    sentences,
-)
-from swtstudy.reports.values import (
-    about,
-    along,
-    packed,
-    place_html,
-    rendered,
-    rows_of,
-    share,
-    symbol_html,
-    symbol_of,
-    table_of,
-    value_text,
-    with_unit,
-)
+from swtstudy.reports import findings, html
 from swtstudy.results.evaluate import quantity, quantity_error
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import shipped_studies
@@ -94,7 +71,7 @@ def thumbnail(dataset: xr.Dataset) -> Picture:
     """A small picture of the study's figure: its first quantity where it is largest, without words around."""
     layout = layout_of(dataset)
     if layout.panels:
-        worst = extreme_places(dataset).get("worst", {})
+        worst = findings.extreme_places(dataset).get("worst", {})
         dataset = dataset.isel({layout.panels: worst.get(layout.panels, 0)})
     figure = draw(dataset, replace(layout, panels=None, y=layout.y[:1], title=None))
     for legend in figure.legends:
@@ -121,30 +98,30 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
     str
         HTML. It shows everything without JavaScript but values under the pointer and slices.
     """
-    indices = indices_of(dataset)
-    rows = table_of(dataset)
-    known = about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
+    indices = findings.indices_of(dataset)
+    rows = html.table_of(dataset)
+    known = html.about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
     shown = _study_figure(dataset, known) if "figure" in dataset.attrs else None
     shipped, ends = shipped_studies().get(name), [*_ends(dataset)]
     text = str(dataset.attrs.get("study", ""))
-    return rendered(
+    return html.rendered(
         "page.html",
         ds=dataset,
         name=name,
         home=home,
         title=dataset.attrs["title"],
-        sentences=sentences(dataset, indices),
+        sentences=findings.sentences(dataset, indices),
         tiles=tiles(dataset, ends),
         contact=read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None,
         stress=str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else "",
         figure=shown,
-        source=packed(rows),
+        source=html.packed(rows),
         size=rows.shape,
         extremes=[*_extremes(dataset)],
         indices=_indices(dataset, indices),
         points=points_of(dataset, ends),
         settings=_settings(dataset),
-        paper=[each for each in about_archive(name, dataset) if each.finding is not None],
+        paper=[each for each in about_archive(name, dataset) if each.holds is not None],
         own=name if shipped and shipped.read_text("utf-8") == text else f"{name}.toml",
         about=htmlsafe_json_dumps(known, separators=(",", ":"), ensure_ascii=False),
     )
@@ -156,8 +133,8 @@ def _study_figure(dataset: xr.Dataset, known: dict[str, Any]) -> dict[str, Any]:
     figure = draw(dataset, layout)
     shown = embedded(figure)
     known["panels"] = [*_panels(figure, dataset, layout)]
-    known["derived"] = derived(dataset, layout, rows_of(dataset))
-    fixed = extreme_places(dataset).get("worst", {})
+    known["derived"] = derived(dataset, layout, html.rows_of(dataset))
+    fixed = findings.extreme_places(dataset).get("worst", {})
     known["start"] = {"x": layout.x, "y": layout.y[0], "hue": layout.hue, "fixed": fixed}
     words = f"{', '.join(layout.y)} {FIGURES[layout.kind].over or f'over {layout.x}'}"
     live = bool(known["panels"])
@@ -204,13 +181,13 @@ def derived(dataset: xr.Dataset, layout: FigureLayout, dims: list[str]) -> dict[
 
 def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
     """Caption of a figure: its quantities and parameters in symbols."""
-    words = Markup(", ").join(y if "/" in y else symbol_of(dataset[y]) for y in layout.y)
+    words = Markup(", ").join(y if "/" in y else html.symbol_of(dataset[y]) for y in layout.y)
     mark = "a line" if FIGURES[layout.kind].of == "lines" else "a colour"
     role_words = {"x": "over", "vertical": "and", "hue": f"{mark} for each", "panels": "a panel for each"}
     parts = [
         escape(FIGURES[layout.kind].over)
         if each == SAMPLE
-        else Markup("{} {}").format(role_words[role], symbol_of(dataset[each]))
+        else Markup("{} {}").format(role_words[role], html.symbol_of(dataset[each]))
         for role, each in layout.roles()
         if each in dataset
     ]
@@ -220,27 +197,28 @@ def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
 
 def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[tuple[Any, str, Any]]:
     """The numbers that one asks for first: what each is, its value, and a note."""
-    values = measured(dataset)
+    values = findings.measured(dataset)
     beside = [dim for dim in values.dims if dim not in dataset.s.dims]
     known = (np.isfinite(values) & (dataset.status == COMPUTED)).any(beside)
     shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
     yield "points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value"
-    lives = [row.life for row in CRITERIA.values() if row.life]
+    lives, single = [row.life for row in CRITERIA.values()], values.size == 1 and has_units(dataset)
     for end, one in ends:
-        own = dict.fromkeys((*measures(one), *(n for n in one if n in lives), measured(one).name))
-        for value in [one[name] for name in own] if values.size == 1 and has_units(one) else [measured(one)]:
-            label = Markup("{} {}").format(end, symbol_of(value)).strip()
-            yield label, with_unit(number_words(float(value)), value), _where(dataset, one)
+        first = findings.measured(one)
+        names = (*measures(one), *(n for n in one if n in lives)) if single else ()
+        for value in ({name: one[name] for name in names} | {first.name: first}).values():
+            label = Markup("{} {}").format(end, html.symbol_of(value)).strip()
+            yield label, html.with_unit(number_words(float(value)), value), _where(dataset, one)
     relative = describe.relative_errors(dataset)
     if relative.size:
-        largest, middle = (share(float(each)) for each in (relative.max(), np.median(relative)))
+        largest, middle = (html.share(float(each)) for each in (relative.max(), np.median(relative)))
         words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
         yield "relative error, at most", largest, words
 
 
 def _ends(dataset: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
     """The points of `extreme_points`, each with its word; none where all points have one value."""
-    points, life = extreme_points(dataset), is_life(measured(dataset).attrs)
+    points, life = findings.extreme_points(dataset), is_life(findings.measured(dataset).attrs)
     words = {"best": "longest", "worst": "shortest"} if life else {"best": "lowest", "worst": "highest"}
     for word, one in points.items():
         yield words[word] if len(points) > 1 else "", one
@@ -250,13 +228,13 @@ def _where(dataset: xr.Dataset, one: xr.Dataset) -> Markup:
     """The parameters of a point that differ from point to point."""
     dims = {*dataset.s.dims}
     own = [name for name in map(str, dataset.coords) if name in AXES and {*dataset[name].dims} & dims]
-    return Markup(", ").join(place_html(one[name]) for name in own if dataset[name].size > 1)
+    return Markup(", ").join(html.place_html(one[name]) for name in own if dataset[name].size > 1)
 
 
 def _extremes(dataset: xr.Dataset) -> Iterator[dict[str, Any]]:
     """Tables of the lowest and highest values along every dimension, for each place of the others."""
-    symbol = symbol_of(measured(dataset))
-    for lever in levers(dataset):
+    symbol = html.symbol_of(findings.measured(dataset))
+    for lever in findings.levers(dataset):
         ratio = lever.table.ratio
         others, flat = [str(name) for name in ratio.dims], ratio.values.ravel()
         order = np.argsort(-np.nan_to_num(flat, nan=-1.0, posinf=-0.5), kind="stable")
@@ -265,16 +243,16 @@ def _extremes(dataset: xr.Dataset) -> Iterator[dict[str, Any]]:
         rows = []
         for place in chosen:
             one = lever.table.isel(index_at(ratio, int(place)))
-            cells = [along(one[name]) for name in others]
+            cells = [html.along(one[name]) for name in others]
             for end in ("minimum", "maximum"):
-                value = with_unit(number_words(float(one[end])), measured_at(dataset, one))
-                cells += [value, along(one[f"at_{end}"].rename(lever.name))]
+                value = html.with_unit(number_words(float(one[end])), findings.measured_at(dataset, one))
+                cells += [value, html.along(one[f"at_{end}"].rename(lever.name))]
             rows.append([*cells, number_words(float(one.ratio), 3)])
         yield {
-            "symbol": symbol_of(dataset[lever.name]),
+            "symbol": html.symbol_of(dataset[lever.name]),
             "meaning": AXES[lever.name].meaning,
             "of": ratio.size if ratio.size > len(rows) else 0,
-            "others": [symbol_of(dataset[name]) for name in others],
+            "others": [html.symbol_of(dataset[name]) for name in others],
             "quantity": symbol,
             "rows": rows,
         }
@@ -288,17 +266,17 @@ def _indices(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> An
     flat = indices.isel(quantity=0).stack(row=[*axes, "parameter"]).transpose("row", ...)
     rows = []
     for one in (flat.isel(row=k) for k in range(flat.sizes["row"])):
-        cells = [along(dataset[name].sel({name: one[name].item()})) for name in axes]
-        cells += [symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning]
+        cells = [html.along(dataset[name].sel({name: one[name].item()})) for name in axes]
+        cells += [html.symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning]
         for name in ("first_order", "total"):
             value, low, high = (float(one[f"{name}{end}"]) for end in ("", "_low", "_high"))
             cells.append(f"{value:.2f} ({low:.2f} to {high:.2f})")
         rows.append(cells)
     y = str(indices["quantity"].values[0])
     return {
-        "quantity": Markup("<i>s</i>") if y == "s" else symbol_of(dataset[y]),
+        "quantity": Markup("<i>s</i>") if y == "s" else html.symbol_of(dataset[y]),
         "picture": embedded(draw_sensitivity(indices)),
-        "head": [symbol_of(dataset[name]) for name in axes],
+        "head": [html.symbol_of(dataset[name]) for name in axes],
         "rows": rows,
     }
 
@@ -307,13 +285,14 @@ def points_of(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> list[d
     """The best and the worst point with their pictures, as `swtstudy.inspect` draws them."""
     parts = []
     for end, one in ends:
-        part: dict[str, Any] = {"end": end, "symbol": symbol_of(measured(one)), "where": _where(dataset, one)}
+        part: dict[str, Any] = {"end": end, "where": _where(dataset, one)}
+        part["symbol"] = html.symbol_of(findings.measured(one))
         try:
             if has_units(one):  # a real contact, in its units
                 body = int(one.body) if "body" in one.coords and not one.body.ndim else 1
                 figure = contact_of(one).inspect(body)
             else:
-                figure = inspect(**parameters_of(one))
+                figure = inspect(**findings.parameters_of(one))
             part["picture"] = embedded(figure, _DPI_SMALL, drawing=False)
             part["line"] = Markup("; ").join(_point_line(one))
         except StudyError as error:
@@ -330,7 +309,7 @@ def _point_line(one: xr.Dataset) -> Iterator[Any]:
     lives = [n for n in map(str, one) if is_life(one[n].attrs) or n.startswith("failure_probability")]
     for name in (*measures(one), *lives, place, "critical_angle"):
         if name in one and not one[name].ndim and np.isfinite(one[name].item()):
-            yield place_html(one[name])
+            yield html.place_html(one[name])
     yield one.regime.attrs["flag_meanings"].split()[int(one.regime)].replace("_", " ")
 
 
@@ -341,17 +320,17 @@ def _settings(dataset: xr.Dataset) -> Iterator[tuple[xr.DataArray, str, str]]:
         if name in AXES and name not in hidden:
             values = dataset[name]
             known = np.atleast_1d(values.values)
-            said = list(dict.fromkeys(value_text(name, each, values.attrs) for each in known.tolist()))
+            said = list(dict.fromkeys(html.value_text(name, each, values.attrs) for each in known.tolist()))
             if len(known) > _LISTED and known.dtype.kind in "fiu":
-                ends = (value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
+                ends = (html.value_text(name, float(end), values.attrs) for end in (known.min(), known.max()))
                 said = [f"{' to '.join(ends)} ({len(np.unique(known))} values)"]
             meaning = AXES[name].meaning
             if name == "load":
                 loops = defined_in(dataset.attrs).get("load", {}).items()
-                of_name = {value_text("load", each): loop for each, loop in loops}
+                of_name = {html.value_text("load", each): loop for each, loop in loops}
                 said = [f"{each}: {_course(of_name.get(each))}" for each in said]
                 meaning = meaning.partition(":")[0]
-            yield values, meaning, with_unit(", ".join(said), values)
+            yield values, meaning, html.with_unit(", ".join(said), values)
 
 
 def _course(loop: Any) -> str:

@@ -16,7 +16,8 @@ from markupsafe import Markup
 from swtstudy.archive.archive import open_results
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.reports.findings import sentences
-from swtstudy.reports.page import Picture, page, rendered, thumbnail
+from swtstudy.reports.html import rendered
+from swtstudy.reports.page import Picture, page, thumbnail
 from swtstudy.runner.workers import LocalPool
 from swtstudy.study.shipped import in_groups
 from swtstudy.vocabulary.files import check_writable, write_text

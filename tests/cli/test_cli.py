@@ -258,7 +258,7 @@ def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
     drawn = []
     own = swtstudy.draw_profile
     monkeypatch.setattr(
-        "swtstudy.figures.profile.draw_profile", lambda **given: drawn.append(given) or own(**given)
+        "swtstudy.figures.definitions.draw_profile", lambda **given: drawn.append(given) or own(**given)
     )
     rows = "".join(f"{r / 10},{(r / 10) ** 2 / 2}\n" for r in range(20))
     Path("worn.csv").write_text(f"radius,height\n{rows}")

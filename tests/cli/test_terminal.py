@@ -52,7 +52,7 @@ def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch
     arguments = ["solve", "--friction", "0.1,0.2", "--rtol", "1e-2"]
     piped = CliRunner().invoke(main, arguments).stdout
     assert piped.splitlines()[0].startswith("friction\ts\t")
-    monkeypatch.setattr(import_module("swtstudy.cli.points"), "line_length", lambda: 80)
+    monkeypatch.setattr(import_module("swtstudy.cli.terminal"), "line_length", lambda: 80)
     shown = CliRunner().invoke(main, arguments)
     assert "\t" not in shown.stdout
     error = piped.splitlines()[1].split("\t")[2]

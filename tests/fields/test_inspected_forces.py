@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 import swtstudy
 from swtstudy.figures import point as panels
 from swtstudy.figures.point import STATE_COLOURS
-from swtstudy.paper.reference import march_springs
+from swtstudy.paper.formalisms import march_springs
 
 SQUARE = swtstudy.LoadPath("square", [[1, 1], [1, -1], [-1, -1], [-1, 1]])
 MINOR = swtstudy.LoadPath.harmonic_sum("minor", [(1, 1, 0), (3, 0.4, 0.5)], [(1, 1, 1.0), (5, 0.25, 0)])

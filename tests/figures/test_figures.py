@@ -10,7 +10,6 @@ from drawn import draw, keys
 from made_up import PANELS
 
 from swtstudy import Study, StudyError, run
-from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import save_figure, style_of
 from swtstudy.results.evaluate import quantity
 from swtstudy.vocabulary.wording import value_words
@@ -291,9 +290,3 @@ def test_long_labels_of_neighbours_do_not_touch_on_a_screen(tmp_path):
     for one, other in itertools.pairwise(boxes):
         assert one.x1 + 10.0 < other.x0
     assert boxes[-1].x1 < figure.bbox.x1
-
-
-def test_panels_may_be_polar():
-    sheet = Sheet(1, 2)
-    panels = sheet.panels(sheet.figure(), projection="polar")
-    assert [one.name for one in panels.flat] == ["polar", "polar"]

@@ -17,8 +17,8 @@ from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.point import NEAREST, TEARS
-from swtstudy.paper.audit.dataset import TOLERANCE
-from swtstudy.reports.values import LARGEST_TABLE
+from swtstudy.paper.audit import TOLERANCE
+from swtstudy.reports.html import LARGEST_TABLE
 from swtstudy.units.rows import NOTICEABLE_MISMATCH, SIMILAR
 
 PAGES = {

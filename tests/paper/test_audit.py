@@ -32,7 +32,7 @@ def audited(monkeypatch):
         rows.append(row)
         return made_up_point(s_error=float(len(rows)))
 
-    monkeypatch.setattr("swtstudy.paper.audit.audit.audit_point", audit_point)
+    monkeypatch.setattr("swtstudy.paper.audit.audit_point", audit_point)
     monkeypatch.setattr("swtstudy.runner.workers.start_workers", ThreadPoolExecutor)
     return rows
 

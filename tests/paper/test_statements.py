@@ -313,7 +313,7 @@ def test_long_cycles_matter_little(third, holds):
 
 def test_formalisms_agree_and_a_wrong_one_would_not(monkeypatch):
     assert STATEMENTS["formalisms_agree"]().holds
-    wrong = "swtstudy.paper.statements.formalisms.march_springs"
+    wrong = "swtstudy.paper.formalisms.march_springs"
     monkeypatch.setattr(wrong, lambda g, depth, *_, **__: (None, np.ones((len(depth), len(g)))))
     assert not STATEMENTS["formalisms_agree"]().holds
 

@@ -5,7 +5,7 @@ import pytest
 from solved import REGIMES
 
 import swtstudy
-from swtstudy.paper.audit.dataset import VERDICTS
+from swtstudy.paper.audit import VERDICTS
 from swtstudy.vocabulary.variables import ATTRIBUTES
 
 STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}

@@ -30,9 +30,9 @@ from swtstudy.cli import main
 from swtstudy.figures.point import inspect
 from swtstudy.figures.style import picture
 from swtstudy.reports.findings import extreme_points, indices_of, levers, parameters_of, sentences
+from swtstudy.reports.html import about, packed, place_html, symbol_html, table_of
 from swtstudy.reports.page import Picture, caption_of, derived, embedded, page
 from swtstudy.reports.site import entry, write_reports
-from swtstudy.reports.values import about, packed, place_html, symbol_html, table_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.quantities import QUANTITIES
@@ -341,7 +341,7 @@ def test_what_is_sure_has_regimes_where_points_have_one(
 
 @pytest.mark.slow
 def test_a_large_table_is_left_out(small: xr.Dataset, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("swtstudy.reports.values.LARGEST_TABLE", 100)
+    monkeypatch.setattr("swtstudy.reports.html.LARGEST_TABLE", 100)
     text = page(small, "small")
     assert 'id="table"' not in text
     assert "too many for a page" in checked(text).text

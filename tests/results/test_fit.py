@@ -12,7 +12,7 @@ from real import ALLOY, ALUMINIUM
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, physical
 from swtstudy.cli import main
-from swtstudy.figures.evaluated import draw_fit, fit_lines
+from swtstudy.figures.statistics import draw_fit, fit_lines
 from swtstudy.results import fitting
 
 #: Each round has two cycles.

@@ -7,8 +7,8 @@ from solved import REGIMES
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
 from swtstudy.cli import main
-from swtstudy.figures.evaluated import draw_sensitivity
-from swtstudy.paper.statements.indices import table
+from swtstudy.figures.statistics import draw_sensitivity
+from swtstudy.paper.markdown import table
 
 STUDY = """
 title = "Ishigami"

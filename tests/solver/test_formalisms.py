@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from oracles.springs import polygon, spring_forces
 from scipy.integrate import trapezoid
 
-from swtstudy.paper.statements.formalisms import JaegerContact, MemoryDiagram, random_path
+from swtstudy.paper.formalisms import JaegerContact, MemoryDiagram, random_path
 
 Array = NDArray[np.float64]
 

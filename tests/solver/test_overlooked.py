@@ -1,6 +1,6 @@
 """Maxima that a search along the line once overlooked: small motions make narrow rings.
 
-The values are those of `swtstudy.paper.audit.dense`: plain loops over 400 positions of each piece and 64
+The values are those of `swtstudy.paper.maxima`: plain loops over 400 positions of each piece and 64
 planes; some of the last ones are up to 2e-5 higher, by both ways through the solver, with and without a bulk
 stress.
 """

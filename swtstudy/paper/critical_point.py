@@ -12,8 +12,8 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.recall import grid_of
-from swtstudy.paper.audit.dataset import VERDICTS
-from swtstudy.paper.statements.statement import Measured
+from swtstudy.paper.audit import VERDICTS
+from swtstudy.paper.statements import Measured
 from swtstudy.points.canonical import alike, canonical_points, points_from
 from swtstudy.solver.margins import margins_of
 from swtstudy.vocabulary.arrays import FloatArray

@@ -1,18 +1,30 @@
-"""The report of an audit; its template is ``audit.md``."""
+"""Reports in Markdown, from the templates in this folder: of an audit, and of Sobol indices."""
 
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
+import jinja2
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from swtstudy.archive.attributes import defined_in
-from swtstudy.paper.audit.dataset import TOLERANCE, VERDICTS, canonical_rows
-from swtstudy.paper.rendered import rendered
+from swtstudy.paper.audit import TOLERANCE, VERDICTS, canonical_rows
 from swtstudy.points.canonical import describe_point
 from swtstudy.vocabulary.choices import REGIMES, SHARP
+from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.wording import unit_words, value_words
+
+
+def rendered(template: str, **content: Any) -> str:
+    """A report from a template."""
+    look: dict[str, Any] = {"trim_blocks": True, "lstrip_blocks": True, "keep_trailing_newline": True}
+    loader = jinja2.PackageLoader("swtstudy.paper", ".")
+    room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
+    return room.get_template(template).render(**content)
+
 
 #: Ends of the ranges of ν in the report: closer where the surface line begins not to be enough.
 _POISSON_ENDS = (0.0, 0.1, 0.2, 0.3, 0.35, 0.4, 0.45, 0.5)
@@ -44,7 +56,7 @@ def report(dataset: xr.Dataset) -> str:
     rows, known = canonical_rows(dataset), defined_in(dataset.attrs)
     definitions = {each.code: each for own in known.values() for each in own.values()}
     return rendered(
-        "audit/audit.md",
+        "audit.md",
         title=dataset.attrs["title"],
         tolerance=f"{TOLERANCE:.1%}",
         points=points,
@@ -85,3 +97,24 @@ def _of_bulk_stress(points: pd.DataFrame) -> pd.Categorical:
 def _percent(share: float, digits: int) -> str:
     """A share in per cent; that over next to nothing is a large one, whatever its digits."""
     return f"{share:.{digits}%}" if share <= 10.0 else "over 1000%"
+
+
+def table(indices: xr.Dataset, of_paper: bool = False) -> str:
+    """Sobol indices as Markdown.
+
+    Parameters
+    ----------
+    indices
+        From `swtstudy.sensitivity`.
+    of_paper
+        Whether they belong to a study of the paper, with the paper's words.
+    """
+    axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
+    units = {name: unit_words(indices[name].attrs.get("units", "1")) for name in axes}
+    places, parts = indices.stack(place=["quantity", *axes]), []
+    for number in range(places.sizes["place"]):
+        one = places.isel(place=number)
+        where = [f"{name} = {value_words(name, one[name].item())}{unit}" for name, unit in units.items()]
+        parts.append((", ".join([one.quantity.item(), *where]), one))
+    letters = {name: AXES[name].letter for name in indices["parameter"].values}
+    return rendered("indices.md", indices=indices, parts=parts, letters=letters, of_paper=of_paper)

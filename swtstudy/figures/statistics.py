@@ -1,4 +1,4 @@
-"""Figures of a sample: a quantity over each of its parameters, and how often it has which values."""
+"""Figures of samples and of tests: clouds, histograms, Sobol indices, predicted against observed lives."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from matplotlib.colors import to_rgba
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
-from swtstudy.figures.sheet import Figure, Sheet, Width
-from swtstudy.figures.style import COLOURS
+from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
+from swtstudy.figures.style import COLOURS, Style, stroke
 from swtstudy.figures.words import (
     flag_words,
     is_life,
     part_words,
     quantity_words,
     slices,
+    tick_angles,
     tick_flags,
-    tick_in_pi,
 )
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import quantity
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import FigureLayout, wrong_formula
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.wording import axis_words, place_words, raised
+from swtstudy.vocabulary.wording import as_text, axis_words, place_words, raised
 
 #: Colours of the points of values of hue, dark and light by turns, and markers: in grey, too, they differ.
 _SHADES = ("#0072B2", "#E69F00", "#000000", "#56B4E9", "#D55E00", "#CC79A7", "#009E73")
@@ -52,12 +52,10 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 _draw_points(one, part, y, name, label, index, layout.validity)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
             tick_flags(one, flag_words(whole))
-            if AXES[name].units == "rad":
-                tick_in_pi(one.xaxis, float(dataset[name].min()), float(dataset[name].max()))
+            tick_angles(one.xaxis, dataset[name])
             if is_life(whole.attrs):
                 one.set_yscale("log")
-        for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel(quantity_words(whole, y))
+        sheet.label_left(axes[row], quantity_words(whole, y))
     return figure
 
 
@@ -111,9 +109,8 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 one.set_xscale("log")
             if flags:
                 one.set_xticks(range(len(flags)), flags, rotation=30, ha="right")
-        for first in sheet.first_of_lines(axes)[row]:
-            first.set_ylabel("points")
-            first.yaxis.get_major_locator().set_params(integer=True)
+        sheet.label_left(axes[row], "points")
+        axes[row, 0].yaxis.get_major_locator().set_params(integer=True)  # of all panels of the row
     return figure
 
 
@@ -135,3 +132,98 @@ def _edges(values: xr.DataArray) -> list[float]:
 def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:
     """The slices of a Dataset along a dimension, with their values in words."""
     return [(part_words(part, name) if name else None, part) for part in slices(dataset, name)]
+
+
+_WORDS = {"first_order": "alone (first order)", "total": "alone and with others (total)"}
+
+
+def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
+    """Bars of the indices of every parameter with their confidence intervals.
+
+    Parameters
+    ----------
+    indices
+        From `swtstudy.sensitivity`.
+    style, width
+        As for `swtstudy.accessor.SwtAccessor.figure`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        A row of panels for every quantity, a column for every place on the axes.
+    """
+    axes = [str(dim) for dim in indices.first_order.dims if dim not in ("quantity", "parameter")]
+    columns = indices.stack(place=axes).transpose("place", ...) if axes else indices.expand_dims("place")
+    count, at = indices.sizes["parameter"], np.arange(indices.sizes["parameter"])
+    sheet = Sheet(indices.sizes["quantity"], columns.sizes["place"], width, (1.0 + 0.75 * count, 3.0))
+    with sheet.drawn(style, "all", "all") as (figure, panels):
+        for (row, column), panel in np.ndenumerate(panels):
+            one = columns.isel(quantity=row, place=column)
+            for number, (key, words) in enumerate(_WORDS.items()):
+                value, low, high = (one[f"{key}{end}"].values for end in ("", "_low", "_high"))
+                error, places = np.maximum([value - low, high - value], 0.0), at + 0.4 * (number - 0.5)
+                # A legend would not know the line style of a container of bars.
+                panel.bar(places, value, 0.38, color=COLOURS[number]).patches[0].set_label(words)
+                panel.errorbar(places, value, error, **stroke(dashes="none", elinewidth=1.2, capsize=2.5))
+            panel.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
+            panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
+            panel.grid(False, axis="x")
+            sheet.label_left(panels[row], f"share of the variance of {one.quantity.item()}".replace("_", " "))
+            where = [place_words(name, columns[name][column].item(), columns[name].attrs) for name in axes]
+            panel.set_title(", ".join(where if row == 0 else []), loc="left")
+        title = str(indices.attrs["title"])
+        figure.suptitle(as_text(title) if wrong_formula(title) else title)
+        add_legend(figure)
+    return figure
+
+
+def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None = None) -> Figure:
+    """Predicted over observed lives, with the lines of equal lives and of factors of 2 and 5.
+
+    Parameters
+    ----------
+    fitted
+        From `swtstudy.fit`.
+    style, width
+        As for `swtstudy.accessor.SwtAccessor.figure`.
+    """
+    sheet = Sheet(1, 1, width, (4.6, 4.4))
+    with sheet.drawn(style) as (figure, ((axes,),)):
+        both = np.concatenate([fitted.observed.values, fitted.predicted.values])
+        ends = np.array([both.min() / 8.0, both.max() * 8.0])
+        for factor, dashes, label in ((1, "-", "equal"), (2, "--", "factor of 2"), (5, ":", "factor of 5")):
+            look = stroke("0.4", dashes, linewidth=0.8)
+            axes.plot(ends, ends * factor, label=label, **look)
+            if factor > 1:
+                axes.plot(ends, ends / factor, **look)
+        survived = fitted.runout.values == 1
+        look = {"color": COLOURS[0], "linestyle": "none"}
+        for some, words, marker in (
+            (~survived, "tests with a crack" if survived.any() else "tests", {"marker": "o"}),
+            (survived, "run-outs: no crack so far", {"marker": ">", "fillstyle": "none"}),
+        ):
+            if some.any():
+                axes.plot(fitted.observed[some], fitted.predicted[some], label=words, **look, **marker)
+        axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
+        axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")
+        add_legend(figure)
+        figure.suptitle("\n".join(fit_lines(fitted, math=True)))
+    return figure
+
+
+def fit_lines(fitted: xr.Dataset, math: bool = False) -> list[str]:
+    """Caption of a fit: its results with their intervals, and its scatter; ``math`` for math text."""
+    lines = []
+    level = f"{100 * fitted.attrs['confidence']:g} %"
+    for name in ("critical_distance", "friction"):
+        if f"{name}_low" not in fitted:
+            continue
+        value, low, high = (float(fitted[f"{name}{end}"]) for end in ("", "_low", "_high"))
+        unit = str(fitted[name].attrs["units"])
+        shown = f"${fitted[name].attrs['symbol']}$" if math else name
+        unit = "" if unit == "1" else f" {unit}"
+        lines.append(f"{shown} = {value:.4g}{unit} ({level}: {low:.4g} to {high:.4g})")
+    count = fitted.sizes["test"]
+    scatter = 10.0 ** float(fitted.scatter)
+    within = ", ".join(f"{int(fitted[f'within_{factor}'])} within a factor of {factor}" for factor in (2, 5))
+    return [*lines, f"scatter: a factor of {scatter:.3g}", f"of {count} tests {within}"]

@@ -1,40 +1,72 @@
-"""Testing every statement on the archives in a folder, and the outcomes as a table.
+"""Statements of the paper: the rows of ``statements.toml``, each tested on the archives in a folder.
 
-The template of the table is ``statements.md``.
+The functions that test them are in files beside it; the template of the table is ``statements.md``.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from pkgutil import resolve_name
+from typing import Any, NamedTuple
 
 import xarray as xr
 
 from swtstudy.paper.audit import AUDIT_PREFIX
-from swtstudy.paper.rendered import rendered
-from swtstudy.paper.statements.measures import NotInArchiveError
-from swtstudy.paper.statements.statement import STATEMENTS, Finding, Statement
+from swtstudy.paper.markdown import rendered
+from swtstudy.paper.measures import NotInArchiveError
+from swtstudy.vocabulary.tables import read_table
 
-#: Names of the archives and audits that the statements are about.
-STUDIES = tuple(dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies))
+#: A test's result: whether the statement holds, and the values for the words of its measurement, by name.
+Measured = tuple[Any, dict[str, Any]]
 
 
 class Outcome(NamedTuple):
-    """A statement with its finding, or with the reason why there is none."""
+    """A statement with a measurement in words and whether it holds by it, or why there is no measurement."""
 
     statement: Statement
-    finding: Finding | None
+    measured: str = ""
+    holds: bool | None = None
     problem: str = ""
 
     @property
     def verdict(self) -> str:
         """Holds, does not hold, or not checked."""
-        if self.finding is None:
-            return "not checked"
-        return "holds" if self.finding.holds else "does not hold"
+        return {True: "holds", False: "does not hold", None: "not checked"}[self.holds]
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A statement of the paper and how it is tested; ``statements.toml`` explains the attributes."""
+
+    place: str
+    sentence: str
+    holds_if: str
+    measured: str
+    test: str
+    studies: tuple[str, ...] = ()
+    bounds: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def criterion(self) -> str:
+        """The criterion with its bounds."""
+        return self.holds_if.format(**self.bounds)
+
+    def __call__(self, *archives: xr.Dataset) -> Outcome:
+        """Test the statement on the archives of its studies, in their order."""
+        holds, values = resolve_name(f"{__package__}.{self.test}")(*archives, **self.bounds)
+        return Outcome(self, self.measured.format(**self.bounds, **values), bool(holds))
+
+
+#: All statements by name, in the order of the paper.
+STATEMENTS = {name: Statement(**row) for name, row in read_table(__file__, "statements").items()}
+
+
+#: Names of the archives and audits that the statements are about.
+STUDIES = tuple(dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies))
 
 
 def check(results: str | PathLike[str] = "results") -> list[Outcome]:
@@ -48,8 +80,8 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     Returns
     -------
     list of Outcome
-        One for each statement, in the order of `STATEMENTS`; without a finding if an archive is missing or
-        has gaps.
+        One for each statement, in the order of `STATEMENTS`; without a measurement if an archive is missing
+        or has gaps.
 
     Raises
     ------
@@ -57,7 +89,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
         A ValueError, if one of the files is not an archive.
     """
     from swtstudy.archive.archive import open_results
-    from swtstudy.paper.audit.dataset import open_audit
+    from swtstudy.paper.audit import open_audit
 
     archives: dict[str, xr.Dataset] = {}
     problems: dict[str, str] = {}
@@ -92,11 +124,11 @@ def _outcome(
     statement: Statement, archives: Mapping[str, xr.Dataset], problems: Mapping[str, str]
 ) -> Outcome:
     if found := [problems[name] for name in statement.studies if name in problems]:
-        return Outcome(statement, None, "\n".join(found))
+        return Outcome(statement, problem="\n".join(found))
     try:
-        return Outcome(statement, statement(*(archives[name] for name in statement.studies)))
+        return statement(*(archives[name] for name in statement.studies))
     except NotInArchiveError as error:
-        return Outcome(statement, None, f"{', '.join(statement.studies)}: {error} in the archive")
+        return Outcome(statement, problem=f"{', '.join(statement.studies)}: {error} in the archive")
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
@@ -108,4 +140,4 @@ def summary(outcomes: Sequence[Outcome]) -> str:
 
 def markdown(outcomes: Sequence[Outcome]) -> str:
     """The table as a Markdown file."""
-    return rendered("statements/statements.md", summary=summary(outcomes), outcomes=outcomes)
+    return rendered("statements.md", summary=summary(outcomes), outcomes=outcomes)
