@@ -56,6 +56,8 @@ _FILE = "a TOML file with a table of constants for each material"
 USUAL = 1e-6, 3e-3
 #: Strengths over Young's modulus: metals are well within.
 USUAL_STRAINS = 2e-4, 0.05
+#: Young's modulus of strain–life constants over the body's: a cyclic one differs by less than a factor of 2.
+USUAL_RATIOS = 0.5, 2.0
 #: Constants of all metals are within these, and a percentage is not.
 USUAL_CONSTANTS = {
     "strength_exponent": (-0.5, 0.0),
@@ -255,6 +257,13 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
                 ends = " to ".join(f"{end:g}" for end in USUAL_STRAINS)
                 stress = of.units.stress or "one unit"
                 warnings.warn(f"{words}, of metals {ends}: are both in {stress}?", stacklevel=2)
+    for each, own in dict.fromkeys(zip(of.materials, young, strict=False)):
+        ratio, strain = each.young_modulus / own, each.strength / own
+        # With an unusual strength the body's modulus is the odd one, of which a warning has told.
+        if USUAL_STRAINS[0] <= strain <= USUAL_STRAINS[1] and not USUAL_RATIOS[0] <= ratio <= USUAL_RATIOS[1]:
+            words = f"material.young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
+            stress = of.units.stress or "one unit"
+            warnings.warn(f"{words}: are both of one material, and in {stress}?", stacklevel=2)
     for name, (least, largest) in USUAL_CONSTANTS.items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):
             if not least <= value <= largest:
