@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -112,20 +113,13 @@ def solve_grid(
 
     from swtstudy.points.labelled import label, margins, values_at
 
-    own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
-
-    def block_values(*positions: IndexArray) -> tuple[NDArray[Any], ...]:
-        """Values of a block of the grid, from positions along its dimensions."""
-        places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
-        points = Distinct.of(grid, asked, places.ravel())
-        arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
-        sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
-        return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
-
     points = None
     if lazy:
+        own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
         made = xr.apply_ufunc(
-            block_values,
+            partial(
+                _block_values, grid, rtol, asked, own
+            ),  # unlike a function in a function it can be pickled
             *(
                 xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
                 for dim, size in grid.sizes.items()
@@ -141,6 +135,19 @@ def solve_grid(
         arrays = values_at(grid, points, _found(points, rtol, asked), asked)
     arrays |= margins(grid, points)
     return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
+
+
+def _block_values(
+    grid: Grid, rtol: float, asked: Request, own: Mapping[str, tuple[str, ...]], *positions: IndexArray
+) -> tuple[NDArray[Any], ...]:
+    """Values of a block of the grid, from positions along its dimensions; ``own`` are their further ones."""
+    from swtstudy.points.labelled import values_at
+
+    places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
+    points = Distinct.of(grid, asked, places.ravel())
+    arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
+    sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
+    return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
 
 
 def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
@@ -181,6 +188,8 @@ def dimensions_of(raw: object) -> int:
     """Number of dimensions of a value; 0 for text and bytes, although they are sequences."""
     if isinstance(raw, str | bytes | bytearray | memoryview):
         return 0
+    if isinstance(raw, Iterator | Mapping | Set):
+        return 2  # several values without an order that can be read twice
     try:
         return np.ndim(raw)  # type: ignore[arg-type]
     except (TypeError, ValueError):

@@ -1,4 +1,5 @@
 import inspect
+import pickle
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -124,7 +125,9 @@ def test_attributes_follow_the_table():
         ({"friction": np.array([True])}, "not a number"),
         ({"friction": 0.3 + 0j}, "not a number"),
         ({"friction": b"0.3"}, "not a number"),
-        ({"friction": {0.3}}, "not a number"),
+        ({"friction": {0.3}}, "one-dimensional"),
+        ({"friction": {"start": 0.1, "stop": 0.3}}, "one-dimensional"),
+        ({"friction": iter([0.1, 0.3])}, "one-dimensional"),
         ({"phase": bytearray(b"a")}, "not a number"),
         ({"phase": memoryview(b"a")}, "not a number"),
         ({"phase": xr.Dataset({"a": 1.0})}, "one-dimensional"),
@@ -170,6 +173,11 @@ def test_axes_of_dask_are_solved_when_they_are_computed_and_once(monkeypatch):
     assert counting.points == 0
     later.compute()
     assert counting.points == 6
+
+
+def test_lazy_results_can_be_pickled():
+    later = swtstudy.solve(phase=dask.array.from_array([0.1, 3.0], chunks=1), rtol=1e-2)
+    xr.testing.assert_identical(pickle.loads(pickle.dumps(later)).compute(), later.compute())
 
 
 def test_axes_of_dask_are_checked_at_once():
