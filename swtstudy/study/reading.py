@@ -124,7 +124,8 @@ class StudyReader:
         for name, table in self.parts.loads.items():
             given = self.raw["loads"][name]
             measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
-            loads[name] = ANY_MEASURED if measured else ANY
+            # Without units a measured load is a mistake of its own.
+            loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
             if table is not None:
                 part = next((each for each in ("vertices", "file") if getattr(table, each) is not None), "")
                 with under(self.report, f"loads.{name}", part):
