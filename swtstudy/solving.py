@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence, Set
 from functools import partial
 from types import MappingProxyType
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.rules import idle_axes
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
@@ -85,7 +87,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     """
     report = Report()
     lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]
-    parameters = {name: np.asarray(raw) if name in lazy else raw for name, raw in parameters.items()}
     fixed, axes = spanned(parameters, report)
     if not is_rtol(rtol):
         report("rtol", literal(rtol), ALLOWED_RTOL)
@@ -94,6 +95,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or report:
         raise StudyError([*found, *report])
+    for name in idle_axes(grid):
+        warnings.warn(f"{name} has no effect: what it is of does not oscillate", stacklevel=2)
     return solve_grid(grid, float(rtol), asked, lazy)
 
 
@@ -177,7 +180,7 @@ def spanned(
         if dimensions == 0:
             fixed[name] = raw
         elif dimensions == 1:
-            axes[name] = list(raw)  # type: ignore[call-overload]
+            axes[name] = list(np.asarray(raw) if getattr(raw, "chunks", None) else raw)  # type: ignore[call-overload]
         else:
             axes[name] = None
             report(name, literal(raw), "a single value or a one-dimensional sequence")

@@ -146,6 +146,15 @@ def check_loops_alone(good: Mapping[str, Sequence[Any]], report: Report) -> None
         check_loops(complete({}, own), report)
 
 
+def idle_axes(grid: Grid) -> list[str]:
+    """Axes of phases and frequencies of what stands still, or of loops, which have their own."""
+    harmonic = len(grid.loops) < len(grid.values("load"))
+    moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
+    pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
+    idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
+    return [name for name, still in idle.items() if still and name in grid.axes]
+
+
 def sizes_of(load: Loop) -> dict[str, float]:
     """Largest size of the values of a loop, by the amplitude that multiplies them."""
     ends = load.normal_ends, load.tangential_ends, load.bulk_ends or (0.0, 0.0)
