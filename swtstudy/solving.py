@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Iterator, Mapping, Sequence, Set
+from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +13,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.rules import idle_axes
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
@@ -84,7 +87,6 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     """
     report = Report()
     lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]
-    parameters = {name: np.asarray(raw) if name in lazy else raw for name, raw in parameters.items()}
     fixed, axes = spanned(parameters, report)
     if not is_rtol(rtol):
         report("rtol", literal(rtol), ALLOWED_RTOL)
@@ -93,6 +95,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or report:
         raise StudyError([*found, *report])
+    for name in idle_axes(grid):
+        warnings.warn(f"{name} has no effect: what it is of does not oscillate", stacklevel=2)
     return solve_grid(grid, float(rtol), asked, lazy)
 
 
@@ -112,20 +116,13 @@ def solve_grid(
 
     from swtstudy.points.labelled import label, margins, values_at
 
-    own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
-
-    def block_values(*positions: IndexArray) -> tuple[NDArray[Any], ...]:
-        """Values of a block of the grid, from positions along its dimensions."""
-        places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
-        points = Distinct.of(grid, asked, places.ravel())
-        arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
-        sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
-        return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
-
     points = None
     if lazy:
+        own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
         made = xr.apply_ufunc(
-            block_values,
+            partial(
+                _block_values, grid, rtol, asked, own
+            ),  # unlike a function in a function it can be pickled
             *(
                 xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
                 for dim, size in grid.sizes.items()
@@ -141,6 +138,19 @@ def solve_grid(
         arrays = values_at(grid, points, _found(points, rtol, asked), asked)
     arrays |= margins(grid, points)
     return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
+
+
+def _block_values(
+    grid: Grid, rtol: float, asked: Request, own: Mapping[str, tuple[str, ...]], *positions: IndexArray
+) -> tuple[NDArray[Any], ...]:
+    """Values of a block of the grid, from positions along its dimensions; ``own`` are their further ones."""
+    from swtstudy.points.labelled import values_at
+
+    places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
+    points = Distinct.of(grid, asked, places.ravel())
+    arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
+    sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
+    return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
 
 
 def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
@@ -170,7 +180,7 @@ def spanned(
         if dimensions == 0:
             fixed[name] = raw
         elif dimensions == 1:
-            axes[name] = list(raw)  # type: ignore[call-overload]
+            axes[name] = list(np.asarray(raw) if getattr(raw, "chunks", None) else raw)  # type: ignore[call-overload]
         else:
             axes[name] = None
             report(name, literal(raw), "a single value or a one-dimensional sequence")
@@ -181,6 +191,8 @@ def dimensions_of(raw: object) -> int:
     """Number of dimensions of a value; 0 for text and bytes, although they are sequences."""
     if isinstance(raw, str | bytes | bytearray | memoryview):
         return 0
+    if isinstance(raw, Iterator | Mapping | Set):
+        return 2  # several values without an order that can be read twice
     try:
         return np.ndim(raw)  # type: ignore[arg-type]
     except (TypeError, ValueError):

@@ -48,7 +48,7 @@ def test_a_name_is_offered_as_it_is_typed_and_taken_as_a_figure_has_it(dataset):
     assert dataset.swt.slice(profile="rounded punch").profile.item() == "rounded_punch"
     assert "fixed          profile: rounded_punch" in repr(dataset.swt)
     with pytest.raises(
-        StudyError, match=r"profile: found 'rounded punsh' .no such profile.; allowed: one of"
+        StudyError, match=r"profile: found 'rounded punsh' .no such profile.; allowed: rounded_punch$"
     ):
         dataset.swt.slice(profile="rounded punsh")
 
@@ -166,6 +166,15 @@ def test_tables_and_figures_after_xarrays_operations(dataset):
         assert sum(line.get_linestyle() != "None" for line in figure.axes[0].lines) == 3
         assert one.swt.extrema("flat_radius").ratio.shape == (2, 3)
         assert one.swt.slice(phase="pi").swt.normalised("b=0").shape == (3, 5)
+
+
+def test_stacked_axes_are_named_with_their_values():
+    found = swtstudy.solve(friction=[0.2, 0.3], profile=["paraboloid", "power_law"], exponent=3, rtol=1e-2)
+    stacked = found.stack(point=("friction", "profile"))
+    words = repr(stacked.swt)
+    assert "axis           point: 4 points of friction, profile" in words
+    assert "s = 0.08612 (friction = 0.2, profile = paraboloid; x/a_H = −1.32) to" in words
+    assert stacked.swt.validity() == found.swt.validity()
 
 
 def test_figures(dataset):

@@ -1,4 +1,5 @@
 import inspect
+import pickle
 import re
 from decimal import Decimal
 from fractions import Fraction
@@ -109,6 +110,8 @@ def test_attributes_follow_the_table():
         ({"phase": [[0, 1]]}, "one-dimensional"),
         ({"phase": [[0, 1], [2]]}, "one-dimensional"),
         ({"profile": "rounded_punch"}, "flat_radius"),
+        ({"profile": "Sphere"}, r"allowed: did you mean paraboloid \(sphere\)\?"),
+        ({"criterion": "FS"}, r"allowed: did you mean fatemi_socie \(FS\)\?"),
         ({"flat_radius": 0.5}, "flat_radius: found 0.5, which no profile here has"),
         ({"rtol": 0}, "rtol"),
         ({"rtoll": 1e-3}, r"rtoll: found unknown .* did you mean rtol\?"),
@@ -124,7 +127,9 @@ def test_attributes_follow_the_table():
         ({"friction": np.array([True])}, "not a number"),
         ({"friction": 0.3 + 0j}, "not a number"),
         ({"friction": b"0.3"}, "not a number"),
-        ({"friction": {0.3}}, "not a number"),
+        ({"friction": {0.3}}, "one-dimensional"),
+        ({"friction": {"start": 0.1, "stop": 0.3}}, "one-dimensional"),
+        ({"friction": iter([0.1, 0.3])}, "one-dimensional"),
         ({"phase": bytearray(b"a")}, "not a number"),
         ({"phase": memoryview(b"a")}, "not a number"),
         ({"phase": xr.Dataset({"a": 1.0})}, "one-dimensional"),
@@ -152,6 +157,9 @@ def test_the_package_exports_lazily():
         swtstudy.nothing  # noqa: B018
 
 
+FORCES = dask.array.from_array([100.0, 200.0], chunks=1)
+
+
 def test_axes_of_dask_are_solved_lazily_and_give_the_same_bits():
     given = {"normal_amplitude": [0.25, 0.75], "rtol": 1e-3, "critical_distance": 0.1}
     given["quantities"] = ["dissipation"]
@@ -170,6 +178,27 @@ def test_axes_of_dask_are_solved_when_they_are_computed_and_once(monkeypatch):
     assert counting.points == 0
     later.compute()
     assert counting.points == 6
+
+
+@pytest.mark.parametrize("axis", ["phase", "frequency_ratio"])
+def test_an_axis_without_effect_is_warned_of(axis):
+    loop = swtstudy.LoadPath("to and fro", [[0.0, 0.5], [0.0, -0.5]])
+    with pytest.warns(UserWarning, match=f"^{axis} has no effect: what it is of does not oscillate"):
+        found = swtstudy.solve(load=loop, **{axis: [1, 2]}, rtol=1e-2)
+    assert found.s[0] == found.s[1]
+
+
+def test_arrays_of_dask_are_sequences_of_contacts():
+    rig = {"young_modulus": 7e4, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
+    pull = {"tangential_force_amplitude": 20.0}
+    contacts = (swtstudy.physical(**rig, **pull, normal_force=each) for each in ([100, 200], FORCES))
+    one, other = (each.solve(rtol=1e-2) for each in contacts)
+    xr.testing.assert_identical(one, other)
+
+
+def test_lazy_results_can_be_pickled():
+    later = swtstudy.solve(phase=dask.array.from_array([0.1, 3.0], chunks=1), rtol=1e-2)
+    xr.testing.assert_identical(pickle.loads(pickle.dumps(later)).compute(), later.compute())
 
 
 def test_axes_of_dask_are_checked_at_once():

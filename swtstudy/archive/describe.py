@@ -100,6 +100,9 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
                 design = str(attributes["design"]).replace("_", " ")
                 words += f" ({design} design, seed {attributes.get('seed')})"
             yield "sample", words
+        elif name in dataset.indexes and dataset.indexes[name].nlevels > 1:  # stacked, by xarray
+            axes = ", ".join(map(str, dataset.indexes[name].names))
+            yield "axis", f"{name}: {number_of(dataset.sizes[name], 'point')} of {axes}"
         else:
             yield "axis", f"{name}: {_axis_words(dataset[name])}{unit_of(dataset[name])}"
     for load, words in recorded_loads(dataset):

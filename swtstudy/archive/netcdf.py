@@ -67,6 +67,8 @@ def read_archive(path: Path) -> xr.Dataset:
         words = f"{path}: a netCDF file, but not an archive of swtstudy"
         if str(loaded.attrs.get("source", "")).startswith("swtstudy") or "s" in loaded:
             words = f"{path}: an archive changed by another program"
+            if {"status", "study"} <= {*absent}:
+                words = f"{path}: results without a study, as of solve; xarray.open_dataset opens them"
         raise ArchiveError(f"{words} (no {', '.join(absent)})")
     found = mistakes(loaded, str(path))
     if found:

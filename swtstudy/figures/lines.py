@@ -40,6 +40,8 @@ _MARKS = {
     "not_finite": ("x", "not finite from here on"),
     "no_equilibrium": ("X", "no equilibrium from here on"),
 }
+#: Points of a line up to which each has a marker: between few points a line is not the curve.
+_FEW = 10
 #: A vertical axis over a logarithmic one is so, too, from this ratio of its ends: two decades.
 _LOG_RATIO = 100.0
 
@@ -124,6 +126,10 @@ def _draw_line(
     across, up = turned(np.insert(x.astype(float), gaps, np.nan), np.insert(curve, gaps, np.nan))
     (line,) = axes.plot(across, up, **look)
     colour = line.get_color()
+    if len(x) <= _FEW:
+        line.set_markevery(1)
+        if line.get_marker() in ("", "None"):
+            line.set(marker=".", markersize=1.6 * rcParams["lines.markersize"])
     dots: dict[str, Any] = {"linestyle": "none", "marker": "o", "color": colour}
     if ends := [*(gaps - 1), *gaps]:
         small = 0.8 * rcParams["lines.markersize"]

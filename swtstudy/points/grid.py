@@ -13,12 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import COST, GIVEN_COLUMNS, Column, canonical_number, code_of
-from swtstudy.points.values import NamedValues, Value, amplitudes_of, read_value
+from swtstudy.points.values import NamedValues, Value, amplitudes_of, press_steadily, read_value
+from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import (
     AXES,
     LOOP_AMPLITUDE,
+    NORMAL_AMPLITUDES,
     PARAMETERS,
     STRAIN_SHARE,
     Control,
@@ -192,11 +194,17 @@ def _number(name: str, value: Value) -> float:
 def complete(fixed: dict[str, Value], axes: NamedValues, samples: NamedValues | None = None) -> Grid:
     """A grid with defaults for every parameter that is not given, nor one in its place.
 
-    They are taken from Table 1, but for the amplitudes that scale loops, which are 1.
+    They are taken from Table 1, but for the amplitudes that scale loops, which are 1. A plane contact under
+    loops with a constant normal load has a normal force that does not oscillate.
     """
     samples, given = samples or {}, {*fixed, *axes, *(samples or {})}
+    loads, profiles = (
+        axes.get(name) or samples.get(name) or (fixed.get(name),) for name in ("load", "profile")
+    )
+    if NORMAL_AMPLITUDES.isdisjoint(given) and press_steadily(loads) and any(map(is_plane, profiles)):
+        fixed, given = fixed | {"normal_force_amplitude": 0.0}, given | {"normal_force_amplitude"}
     given |= replaced_by(given)
-    scaling = amplitudes_of(axes.get("load") or samples.get("load") or (fixed.get("load"),))
+    scaling = amplitudes_of(loads)
     filled = fixed | {
         name: read_value(row, LOOP_AMPLITUDE if name in scaling else row.default)
         for name, row in PARAMETERS.items()

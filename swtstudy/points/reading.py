@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -28,7 +29,7 @@ from swtstudy.points.values import (
     read_value,
 )
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -39,6 +40,9 @@ MANY_TURNS = 8.0 * math.pi
 #: Definitions of the user, by parameter and name.
 Known = Mapping[str, Mapping[str, Definition]]
 NOTHING_KNOWN: Known = {}
+
+#: Classes of the values that users define themselves.
+OWN = {"load": "LoadPath", "profile": "TabulatedProfile"}
 
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
@@ -106,6 +110,7 @@ def read_grid(
     rules.check_forces(given, good, report)
     rules.check_criteria(given, good, report)
     if report or len(good_samples) < len(samples):
+        rules.check_loops_alone(good, report)
         return None, report
     grid = complete(good_fixed, good_axes, good_samples)
     rules.check_sizes(grid, given, report)
@@ -195,13 +200,24 @@ def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -
     try:
         return read_value(row, raw, names)
     except ValueError as error:
-        of_name = row.kind == "name" and isinstance(raw, str)
-        allowed = nearest(str(raw), [*row.names, *names]) if of_name else row.allowed
+        allowed = _allowed_name(row, raw, names) if row.kind == "name" else row.allowed
         # As TOML gives what is meant for an axis.
         if isinstance(raw, list | dict) and key == f"fixed.{row.name}":
             allowed += "; several values under [axes]"
         report(key, f"{literal(raw)} ({error})", allowed)
         return None
+
+
+def _allowed_name(row: Parameter, raw: object, names: Mapping[str, Definition]) -> str:
+    """Which names there are; unless one of them is meant, how one of the user's own is defined."""
+    known = [*row.names, *names]
+    if isinstance(raw, str) and meant(raw, known):
+        return nearest(raw, known)
+    allowed = f"one of {', '.join(known)}"
+    if row.name not in OWN:
+        return allowed
+    table = raw if isinstance(raw, str) and re.fullmatch(r"[A-Za-z0-9_-]+", raw) else "NAME"
+    return f"{allowed}; your own: [{row.name}s.{table}] in a study, swtstudy.{OWN[row.name]} in Python"
 
 
 def _read_axis(
@@ -225,7 +241,10 @@ def _read_axis(
         # Definitions with the same name cannot be distinguished in results.
         own = str(value) if isinstance(value, Definition) else value
         first = seen.setdefault(canonical_number(own) if isinstance(own, float) else own, own_key)
-        if first != own_key:
+        if first != own_key and isinstance(value, Definition) and value not in values[:-1]:
+            found = f"{literal(element)}, another {row.name} with the name of {first}"
+            report(own_key, found, "a name of its own")
+        elif first != own_key:
             report(own_key, f"{literal(element)}, the same as {first}", "distinct values")
     if also:
         descending = len(values) > 1 and as_number(values[0]) > as_number(values[1])

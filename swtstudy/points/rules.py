@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
-from swtstudy.points.grid import Grid, numbers_at, positions
-from swtstudy.points.values import amplitudes_of, as_number, values_taken
+from swtstudy.points.grid import Grid, complete, numbers_at, positions
+from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
@@ -72,6 +72,8 @@ def check_forces(given: Iterable[str], good: Mapping[str, Sequence[Any]], report
     """
     plane = [str(profile) for profile in values_taken("profile", good) if is_plane(profile)]
     names = set(given)
+    if "normal_amplitude" not in names and press_steadily(values_taken("load", good)):
+        names.add("normal_force_amplitude")  # it would scale nothing: `grid.complete` makes it 0
     wanted = [force for force in PAIRS if force not in names]
     if not plane or not wanted:
         return
@@ -135,6 +137,22 @@ def check_loops(grid: Grid, report: Report) -> None:
     elif smooth:
         found = f"harmonics, {', '.join(smooth)}, and {control.name}"
         report.of("load", found, "two displacements or two forces; or vertices")
+
+
+def check_loops_alone(good: Mapping[str, Sequence[Any]], report: Report) -> None:
+    """Check loops where other mistakes leave no grid: only if both amplitudes are given, soundly and once."""
+    own = {name: tuple(good[name]) for name in ("load", *PAIRS, *PAIRS.values()) if good.get(name)}
+    if "load" in own and all(len({*pair} & own.keys()) == 1 for pair in PAIRS.items()):
+        check_loops(complete({}, own), report)
+
+
+def idle_axes(grid: Grid) -> list[str]:
+    """Axes of phases and frequencies of what stands still, or of loops, which have their own."""
+    harmonic = len(grid.loops) < len(grid.values("load"))
+    moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
+    pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
+    idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
+    return [name for name, still in idle.items() if still and name in grid.axes]
 
 
 def sizes_of(load: Loop) -> dict[str, float]:

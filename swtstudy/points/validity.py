@@ -293,12 +293,16 @@ def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -
     """Where one of the flattened points lies, such as "friction = 0.5, normal_force = 100 N"."""
     words = []
     for dim, number in index_at(dataset.s, flat).items():
-        if dim in dataset.coords and dim not in besides:
-            value: Any = dataset[dim].values[number]
+        if dim in besides:
+            continue
+        # A stacked dimension has the values of several axes.
+        names = dataset.indexes[dim].names if dim in dataset.indexes else ()
+        for name in map(str, names):
+            value: Any = dataset[name].values[number]
             value = value if isinstance(value, str) else float(value)
-            named = coordinate_words(dim, value, dataset[dim].attrs)
-            words.append(f"{dim} = {named}{unit_of(dataset[dim])}")
-        elif dim not in besides:
+            named = coordinate_words(name, value, dataset[name].attrs)
+            words.append(f"{name} = {named}{unit_of(dataset[name])}")
+        if not names:
             words.append(f"{dim} = {number}")
     return ", ".join(words)
 

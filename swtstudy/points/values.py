@@ -100,7 +100,9 @@ def _value(node: ast.expr, text: str) -> Fraction | float:
 
 
 def _what_is_wrong(text: str) -> str:
-    if not text or text[-1] in "+-*/(":
+    if not text:
+        return "an empty text"
+    if text[-1] in "+-*/(":
         return "not a number: the expression ends too early"
     if re.search(r"sqrt(?! ?\()", text):
         return "sqrt needs parentheses"
@@ -155,6 +157,11 @@ def values_taken(name: str, good: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
 def amplitudes_of(loads: Iterable[object]) -> set[str]:
     """Names of the amplitudes that scale some of the loads that are loops."""
     return {name for load in loads if isinstance(load, Definition) for name in load.scaled_by}
+
+
+def press_steadily(loads: Iterable[object]) -> bool:
+    """Return whether all loads are loops in which the normal load is the mean one at every instant."""
+    return all(getattr(load, "normal_ends", None) == (0.0, 0.0) for load in loads)
 
 
 def read_value(parameter: Parameter, raw: object, known: Mapping[str, Definition] = NOTHING) -> Value:

@@ -13,7 +13,7 @@ from swtstudy.profiles.families import MEAN_LOAD
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, more_like_it, plain_number
 
 if TYPE_CHECKING:
     from scipy.interpolate import CubicSpline, PPoly
@@ -339,8 +339,14 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         yield mistake
         name = "profile"
     for key, values in (("radius", radius), ("height", height)):
-        if values.ndim != 1 or not np.all(np.isfinite(values)):
-            yield Mistake(f"{name}.{key}", "no one-dimensional array of finite numbers", "one")
+        if values.ndim != 1:
+            yield Mistake(
+                f"{name}.{key}", "no one-dimensional array of numbers", "a list of numbers, or an array"
+            )
+            return
+        if (gaps := np.flatnonzero(~np.isfinite(values))).size:
+            found = f"{values[gaps[0]]:g} at point {gaps[0] + 1}{more_like_it(gaps.size)}"
+            yield Mistake(f"{name}.{key}", found, "finite numbers: leave out points without a value")
             return
         largest = np.abs(values).max(initial=0.0)
         if largest > 0.0 and not SMALLEST <= largest <= LARGEST:
@@ -358,7 +364,7 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
         yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
-    falls = np.flatnonzero(np.diff(radius) < LEAST_STEP * radius.max())
+    falls = np.flatnonzero(np.diff(radius) <= LEAST_STEP * radius.max())
     if falls.size:
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"
         allowed = f"ascending radii, by {LEAST_STEP:g} of the largest at least"

@@ -78,7 +78,8 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
         sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
         value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
     except ValueError as error:
-        report(name, f"{literal(raw)} ({error})", _listed(there) if meanings else AXES[name].allowed)
+        listed = meanings or AXES[name].kind == "name"
+        report(name, f"{literal(raw)} ({error})", _listed(there) if listed else AXES[name].allowed)
         return 0
     index = index_of(value, known, tolerance)
     if index is None:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from swtstudy.points.grid import SAMPLE
@@ -68,7 +69,7 @@ NONLOCAL_LIVES = tuple(name for name in LIVES if not name.endswith("cycles"))
 
 def fit(
     study: str | PathLike[str],
-    tests: str | PathLike[str] | Mapping[str, Sequence[object]],
+    tests: str | PathLike[str] | Mapping[str, Sequence[object]] | pd.DataFrame,
     *,
     y: str = "cycles_volume",
     friction: bool = False,
@@ -86,9 +87,10 @@ def fit(
         A study file with units and constants, common to all tests. Its axes, sample and figure do
         not count, nor do parameters that the table of tests gives.
     tests
-        A CSV file, or its columns by name: parameters, in the units of the study, and ``life``, the load
-        cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or with 1
-        in a column ``runout``. Other columns, such as names of specimens, are left alone with a warning.
+        A CSV file, a DataFrame, or columns by name: parameters, in the units of the study, and ``life``, the
+        load cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or
+        with 1 in a column ``runout``. Other columns, such as names of specimens, are left alone with a
+        warning.
     y
         Name of the predicted life: "cycles_volume", "cycles_point" or "cycles_line", the latter two straight
         down; with ``FS_`` before the name, a life by the criterion of Fatemi and Socie.
@@ -319,6 +321,8 @@ def _read(
     study: str | PathLike[str], tests: object, parameters: int
 ) -> tuple[PhysicalGrid, FloatArray, BoolArray]:
     """The tests as a sample of the study's contacts, their lives, and which are lower bounds, shape (n,)."""
+    if not isinstance(study, str | PathLike):
+        raise refused("study", literal(study), "the path of a study file")
     raw, (columns, lines) = tables_of(study), _columns(tests)
     report, place = Report(), str(tests) if lines else ""
     lives, runout = _observed(columns, parameters, report, place, lines)
@@ -405,12 +409,18 @@ def _with_tests(raw: dict[str, Any], path: Path, columns: dict[str, list[Any]], 
 
 def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
     """The columns of a table of tests by name, and the lines of a file's rows."""
+    if isinstance(tests, pd.DataFrame):
+        tests = {name: tests[name].tolist() for name in tests}
     if isinstance(tests, Mapping):
         lone = [name for name, values in tests.items() if isinstance(values, str) or np.ndim(values) != 1]
         if lone:
             allowed = "a list, with a value for each test"
             raise StudyError([Mistake(f"tests.{name}", literal(tests[name]), allowed) for name in lone])
-        return {str(name): list(values) for name, values in tests.items()}, []
+        columns = {str(name): list(values) for name, values in tests.items()}
+        if len({*map(len, columns.values())}) > 1:
+            found = ", ".join(f"{len(values)} of {name}" for name, values in columns.items())
+            raise refused("tests", found, "as many values in each column: one for each test")
+        return columns, []
     if not isinstance(tests, str | PathLike):
         raise refused("tests", literal(tests), "a CSV file, or columns by name")
     table = read_table(Path(tests), (LIFE,), AXES, None, LONGEST_AXIS)

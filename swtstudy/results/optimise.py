@@ -448,9 +448,9 @@ CASES = {"best": 1, "worst": -1}
 
 @with_parameters(PARAMETERS.values())
 def optimise(
-    *,
     over: Mapping[str, tuple[object, object]],
     minimise: str = "s",
+    *,
     rtol: float = DEFAULT_RTOL,
     seed: int = 0,
     **parameters: object,

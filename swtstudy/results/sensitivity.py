@@ -64,6 +64,8 @@ def sensitivity(
     -----
     Computed by `scipy.stats.sobol_indices`, the confidence intervals by `scipy.stats.bootstrap`.
     """
+    if not isinstance(dataset, xr.Dataset):
+        raise refused("dataset", literal(dataset), "results, as of swtstudy.run or swtstudy.open_results")
     check_confidence(confidence)
     if not is_seed(seed):
         raise refused("seed", literal(seed), ALLOWED_SEED)

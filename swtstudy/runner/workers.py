@@ -23,6 +23,7 @@ import cloudpickle
 
 from swtstudy.points.chunk import Arrays, Chunk, Solver, blank, solve_chunk
 from swtstudy.vocabulary.arrays import IndexArray
+from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.variables import FAILED
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -207,9 +208,12 @@ class ClusterPool(Workers):
     apart = True
 
     def __init__(self, client: Client) -> None:
+        from distributed import Client
         from distributed.comm import CommClosedError
         from distributed.scheduler import KilledWorker
 
+        if not isinstance(client, Client):
+            raise refused("client", literal(client), "a Client of dask.distributed")
         super().__init__(max(1, sum(client.nthreads().values())))
         self._client, self._ended = client, threading.Event()
         self.lost, self.gone = (KilledWorker,), (CancelledError, CommClosedError)

@@ -123,8 +123,10 @@ class UserTable:
             found.append(values * self.form.scale.get(name, 1.0))
             for row in np.flatnonzero(~np.isfinite(values))[:1]:
                 text, hint = texts[row], ""  # the key that is usually missing there
-                if not text:
-                    hint = "; with the header of the time, time = ..., such rows are left out"
+                if text.lower() in MISSING:
+                    timed = "time" in type(self.form).model_fields
+                    hint = "; with the header of the time, time = ..., such rows are left out" * timed
+                    hint = hint or "; leave such rows out"
                 elif "," in text and self.form.decimal == ".":
                     hint = COMMA_HINT
                 elif row == 0:

@@ -14,6 +14,7 @@ import numpy as np
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid, warn_of_degrees
+from swtstudy.points.rules import idle_axes
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
@@ -121,7 +122,8 @@ class StudyReader:
         for name, table in self.parts.loads.items():
             given = self.raw["loads"][name]
             measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
-            loads[name] = ANY_MEASURED if measured else ANY
+            # Without units a measured load is a mistake of its own.
+            loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
             if table is not None:
                 part = next((each for each in ("vertices", "file") if getattr(table, each) is not None), "")
                 with under(self.report, f"loads.{name}", part):
@@ -313,12 +315,8 @@ def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
 
 
 def doubts(grid: Grid, has_units: bool) -> Iterator[str]:
-    """Axes of phases and frequencies of what stands still, or of loops, which have their own; odd units."""
-    harmonic = len(grid.loops) < len(grid.values("load"))
-    moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
-    pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
-    idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
-    for name in (name for name, still in idle.items() if still and name in grid.axes):
+    """Axes that have no effect; odd units."""
+    for name in idle_axes(grid):
         yield f"axes.{name} has no effect: what it is of does not oscillate"
     if has_units:
         yield from doubts_of_units(grid)  # type: ignore[arg-type]

@@ -240,6 +240,14 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
                 words += f", of metals {least:g} to {largest:g}"
                 warnings.warn(f"{words}: are both in {of.units.stress or 'one unit'}?", stacklevel=2)
+    (weakest, strongest), (least, largest) = USUAL["strain"], USUAL["modulus_ratio"]
+    for each, own in dict.fromkeys(zip(of.materials, young, strict=False)):
+        ratio, strain = each.young_modulus / own, each.strength / own
+        # With an unusual strength the body's modulus is the odd one, of which a warning has told.
+        if weakest <= strain <= strongest and not least <= ratio <= largest:
+            words = f"material.young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
+            stress = of.units.stress or "one unit"
+            warnings.warn(f"{words}: are both of one material, and in {stress}?", stacklevel=2)
     for name, (least, largest) in USUAL["constants"].items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):
             if not least <= value <= largest:

@@ -95,6 +95,7 @@ def read_contacts(
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
     check_shapes_given(single, {**axes, **samples}, good, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
+        rules.check_loops_alone(good, report)
         return None, report
     about = replace(given, pairs=pairs, similar=similar, body_names=body_names)
     grid = completed(good_fixed, good_axes, good_samples, about)

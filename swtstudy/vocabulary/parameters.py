@@ -118,3 +118,6 @@ SYMBOLS: dict[str, tuple[str, str]] = {
     for row in (*CONTACT_AXES.values(), *reversed(PARAMETERS.values()))
     for symbol in (row.letter, row.symbol, row.symbol.split("/")[0])
 }
+#: And the names of values, with the words that others have for them.
+SYMBOLS |= {word.lower(): ("paraboloid", word) for word in ("sphere", "ball", "Hertz")}
+SYMBOLS |= {"fs": ("fatemi_socie", "FS")}

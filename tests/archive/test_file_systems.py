@@ -14,7 +14,7 @@ import stand_in
 from click.testing import CliRunner
 from command import call
 
-from swtstudy import Study, open_results, run
+from swtstudy import Study, open_results, run, solve
 from swtstudy.cli import main
 
 fcntl = pytest.importorskip("fcntl")
@@ -115,6 +115,12 @@ def test_an_archive_that_another_program_has_changed_says_so(tmp_path, name):
     open_results(path).drop_vars(name).to_netcdf(path)
     with pytest.raises(ValueError, match=rf"t\.nc: an archive changed by another program \(no {name}"):
         open_results(path)
+
+
+def test_results_of_solve_are_no_archive(tmp_path):
+    solve(rtol=1e-2).to_netcdf(tmp_path / "s.nc")
+    with pytest.raises(ValueError, match=r"s\.nc: results without a study, as of solve; xarray.open_dataset"):
+        open_results(tmp_path / "s.nc")
 
 
 def test_archives_and_studies_are_told_apart(tmp_path):

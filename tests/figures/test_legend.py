@@ -109,7 +109,19 @@ def test_many_numbers_have_a_scale_and_no_legend(count, scale):
         assert figure.axes[1].get_ylabel() == r"$\mu$"
         assert figure.axes[1].get_ylim() == pytest.approx((0.1, 1.0))
         assert {line.get_linestyle() for line in lines} == {"-"}
-        assert {line.get_marker() for line in lines} <= {"", "None"}
+        assert {line.get_marker() for line in lines} == {"."}  # of few points each is seen
+
+
+@pytest.mark.usefixtures("unwrapped")
+@pytest.mark.parametrize(("count", "seen"), [(3, True), (10, True), (11, False)])
+def test_a_line_through_few_points_shows_where_they_are(count, seen):
+    phase = np.linspace(0.0, 2.0, count)
+    dataset = lines_over(np.linspace(0.1, 0.6, 6)).interp(phase=phase)
+    lines = dataset.swt.panels("phase", "friction").axes[0].lines
+    for line in lines[:5]:
+        assert (line.get_marker() in ("", "None")) != seen
+    assert [line.get_markevery() == 1 for line in lines] == [seen] * 6
+    assert lines[5].get_marker() == "o"  # as of the cycle
 
 
 def colours_of(friction):

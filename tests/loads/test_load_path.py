@@ -36,7 +36,8 @@ def test_a_loop_is_its_path_whatever_its_first_vertex_and_name() -> None:
     assert code(CONE) == code(rolled) == code(between) == LoadPath("other", CONE).code
     others = [np.array(CONE)[::-1], np.array(CONE) * [1.0, -1.0], np.array(CONE) * (1.0 + 1e-15)]
     assert len({code(CONE), *map(code, others)}) == 4
-    same = swtstudy.solve(load=[LoadPath("a", CONE), LoadPath("b", rolled)], phase=[0, 1], rtol=0.01)
+    with pytest.warns(UserWarning, match="phase has no effect"):
+        same = swtstudy.solve(load=[LoadPath("a", CONE), LoadPath("b", rolled)], phase=[0, 1], rtol=0.01)
     assert (same.s == same.s[0, 0]).all()
 
 
@@ -112,6 +113,25 @@ def test_a_loop_of_force_and_displacement_needs_a_constant_normal_load() -> None
     with pytest.raises(StudyError, match="a normal load that is not constant") as caught:
         swtstudy.solve(load=LoadPath("mine", SQUARE), normal_force_amplitude=1.0, tangential_amplitude=0.5)
     assert len(caught.value.mistakes) == 1
+    mixed = {"normal_force_amplitude": 1.0, "tangential_amplitude": 0.5, "friction": -1}
+    with pytest.raises(StudyError) as caught:
+        swtstudy.solve(load=LoadPath("mine", SQUARE), **mixed)
+    friction, load = caught.value.mistakes
+    assert friction.key == "friction"
+    assert load.key == "load"
+    assert "or scale = { normal = 0 } under [loads.NAME]" in load.allowed
+    contact = {"young_modulus": 7e4, "poisson_ratio": 0.3, "radius": -5.0, "normal_force": 100.0}
+    with pytest.raises(StudyError) as caught:
+        swtstudy.physical(load=LoadPath("mine", SQUARE), **contact, **mixed)
+    assert [mistake.key for mistake in caught.value.mistakes] == ["radius", "friction", "load"]
+
+
+def test_a_measured_load_without_units_is_told_of_alone() -> None:
+    """What stands for it in the checks of its use is no load that the user knows."""
+    study = 'title = "t"\nfixed.load = "rig"\n[loads.rig]\nabsolute = true\nvertices = [[0, 1], [0, -1]]\n'
+    with pytest.raises(StudyError) as caught:
+        Study.from_text(study)
+    assert [mistake.key for mistake in caught.value.mistakes] == ["loads.rig.vertices"]
 
 
 @pytest.mark.quick(1)
@@ -320,11 +340,16 @@ def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, word
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"load": "square"}, "load: found 'square' .no such load.; allowed: one of harmonic"),
+        ({"load": "square"}, r"load: .*; your own: \[loads.square\] in a study, swtstudy.LoadPath in Python"),
+        ({"load": [[0.0, 0.5], [0.5, 0.5]]}, "load: found .*; allowed: a single value or a one-dimensional"),
+        (
+            {"load": np.sin},
+            r"load: found .* .not a name.; .*; your own: \[loads.NAME\] in a study, swtstudy.Load",
+        ),
         ({"load": 3.0}, "load: found 3.0 .not a name."),
         (
             {"load": [LoadPath("a", SQUARE), LoadPath("a", CONE)]},
-            r"load\[1\]: found .*, the same as load\[0\]",
+            r"load\[1\]: found <LoadPath a>, another load with the name of load\[0\]; allowed: a name of",
         ),
         (
             {"load": ["harmonic", LoadPath("a", SQUARE)], "tangential_amplitude": 1.0},

@@ -214,7 +214,8 @@ def test_its_amplitude_is_1_unless_given_and_only_loops_that_have_it_know_it() -
     assert float(both.s[1, 0]) == float(both.s[1, 1])
     assert float(both.s[0, 1]) > 1.1 * float(both.s[0, 0])
     assert both.bulk_shift[1].values.tolist() == [0.0, 0.0]
-    phases = swtstudy.solve(load=loops, bulk_stress_amplitude=0.4, bulk_stress_phase=[0.0, 1.0, 4.0])
+    with pytest.warns(UserWarning, match="bulk_stress_phase has no effect"):
+        phases = swtstudy.solve(load=loops, bulk_stress_amplitude=0.4, bulk_stress_phase=[0.0, 1.0, 4.0])
     assert (phases.s == phases.s[:, :1]).all()
     assert (phases.critical_x == phases.critical_x[:, :1]).all()
 

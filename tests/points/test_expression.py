@@ -41,7 +41,7 @@ def test_value(text, value):
     ("text", "reason"),
     [
         ("3/0", "division by zero"),
-        ("", "ends too early"),
+        ("", "an empty text"),
         ("2pi", "unexpected"),
         ("(1", "not closed"),
         ("1)", "unexpected"),

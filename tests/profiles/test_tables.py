@@ -109,13 +109,19 @@ R = np.linspace(0.0, 2.0, 20)
             R,
             np.where(R > 1.0, np.nan, R),
             0.0,
-            "pad.height: found no one-dimensional array of finite numbers",
+            "pad.height: found nan at point 11; 9 more like it; allowed: finite numbers: leave out points",
         ),
+        (0.0 * R, R**2, 0.0, "pad.radius: found 0 after 0; allowed: ascending radii"),
         (R, 0.0 * R, 0.0, "found a flat face alone"),
         (R, -R * R, 0.0, "found heights that fall from the axis; allowed: heights with the other sign"),
         (R, np.maximum(R - R[-6], 0.0), 0.0, "allowed: at least 6 points beside it"),
         (R, R**2, -1.0, "pad.smoothing: found -1.0; allowed: a number ≥ 0"),
-        ("no", R**2, 0.0, "pad.radius: found no one-dimensional"),
+        (
+            "no",
+            R**2,
+            0.0,
+            "pad.radius: found no one-dimensional array of numbers; allowed: a list of numbers, or an array",
+        ),
     ],
 )
 def test_tables_that_are_refused(radius: Array, heights: Array, smoothing: float, message: str) -> None:

@@ -5,7 +5,9 @@ import re
 import warnings
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 from click.testing import CliRunner
 from real import ALLOY, ALUMINIUM
 
@@ -271,11 +273,32 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
             {"friction": 0.3, "life": [1e5, 1e6]},
             "tests.friction: found 0.3; allowed: a list, with a value for",
         ),
+        (
+            {"tangential_force_amplitude": [30, 60, 70], "life": [1e5, 1e6]},
+            "^tests: found 3 of tangential_force_amplitude, 2 of life; allowed: as many values in each",
+        ),
+        (
+            {"tangential_force_amplitude": ["", 60, 70], "life": [1e5, 1e6, 1e7]},
+            r"^tests.tangential_force_amplitude: found '' .an empty text. at \[0\]; allowed: a force",
+        ),
     ],
 )
 def test_wrong_tables_are_named(rig, tests, words):
     with pytest.raises(StudyError, match=words):
         swtstudy.fit(rig[0], tests)
+
+
+def test_a_table_of_pandas_is_one_of_tests(rig, monkeypatch):
+    tests = {"tangential_force_amplitude": FORCES, "life": [100.0, 60.0, 40.0]}
+    monkeypatch.setattr(fitting, "_lives", Law(FORCES))
+    table = pd.DataFrame(tests, index=range(5, 5 + len(FORCES)))
+    xr.testing.assert_identical(swtstudy.fit(rig[0], table), swtstudy.fit(rig[0], tests))
+
+
+def test_a_study_is_given_as_its_file(rig):
+    tests = {"tangential_force_amplitude": [30, 60], "life": [1e5, 1e6]}
+    with pytest.raises(StudyError, match=r"^study: found <Study .*; allowed: the path of a study file"):
+        swtstudy.fit(Study.from_toml("figure3"), tests)  # type: ignore[arg-type]
 
 
 def test_mistakes_in_a_file_of_tests_are_named_by_file_and_line(rig, tmp_path):

@@ -131,6 +131,12 @@ def test_wrong_arguments_are_named(results, given, words):
         sensitivity(results, **given)
 
 
+@pytest.mark.parametrize("given", ["sensitivity.nc", Study.from_text('title = "t"\naxes.phase = [0, 1]\n')])
+def test_only_results_have_indices(given):
+    with pytest.raises(StudyError, match=r"^dataset: found .*; allowed: results, as of swtstudy.run or"):
+        sensitivity(given)
+
+
 def test_other_samples_are_refused(results, tmp_path):
     for part in (results.isel(sample=slice(100)), results.isel(sample=slice(None, None, -1))):
         with pytest.raises(StudyError, match=r"^sample: found .*; allowed: all points of a saltelli design"):

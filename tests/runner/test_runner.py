@@ -341,6 +341,11 @@ def test_workers_are_gone_after_the_block():
         os.kill(worker, 0)
 
 
+def test_a_client_is_one_of_dask(wide, tmp_path):
+    with pytest.raises(StudyError, match=r"^client: found 'tcp://host:8786'; allowed: a Client of dask"):
+        run(wide, tmp_path / "none.nc", client="tcp://host:8786")
+
+
 @pytest.mark.parametrize("workers", [0, -5, 1.5, "two"])
 def test_there_must_be_workers(wide, tmp_path, workers):
     with pytest.raises(StudyError, match=r"^workers: found .*; allowed: a number of workers, from 1 on"):

@@ -240,6 +240,22 @@ def test_displacements_are_refused_in_one_line(
         assert "with the profile cylinder" in line
 
 
+def test_a_loop_with_a_constant_normal_load_needs_no_normal_force_amplitude() -> None:
+    loop = swtstudy.LoadPath("to and fro", [[0.0, 1.0], [0.0, -1.0]])
+    given: dict[str, Any] = {"load": loop, "tangential_force_amplitude": 0.5, "rtol": 1e-6}
+    for profile in ("cylinder", ["paraboloid", "cylinder"]):
+        found = swtstudy.solve(profile=profile, **given)
+        assert found.normal_force_amplitude.item() == 0.0
+        np.testing.assert_array_equal(
+            found.s, swtstudy.solve(profile=profile, normal_force_amplitude=0, **given).s
+        )
+    moving = swtstudy.LoadPath("round", [[0.1, 1.0], [0.1, -1.0]])
+    with pytest.raises(StudyError, match=r"^normal_force_amplitude: found nothing"):
+        swtstudy.solve(profile="cylinder", **given | {"load": moving})
+    with pytest.raises(StudyError, match=r"^normal_amplitude: found a displacement"):
+        swtstudy.solve(profile="cylinder", normal_amplitude=0.1, **given)
+
+
 def test_it_shares_an_axis_with_discs() -> None:
     both = swtstudy.solve(
         profile=["cylinder", "paraboloid"],

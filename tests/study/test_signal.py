@@ -528,6 +528,9 @@ def test_nan_is_a_missing_value_and_a_picture_no_table(tmp_path: Path) -> None:
     (tmp_path / "rig.csv").write_text("\n".join(["time,normal,tangential", *rows]))
     with pytest.warns(UserWarning, match=r"rig\.csv: line 9 left out: a value is missing"):
         read_signal(tmp_path / "rig.csv", time="time")
+    words = r"line 9, normal: found 'NaN'; allowed: a finite number; with the header of the time"
+    with pytest.raises(StudyError, match=words):
+        read_signal(tmp_path / "rig.csv")
     for content, words in ((b"\x89PNG\r\n\x00\xff", "a binary file"), (b"", "an empty file")):
         (tmp_path / "rig.csv").write_bytes(content)
         with pytest.raises(StudyError, match=f"found {words}"):

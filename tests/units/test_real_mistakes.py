@@ -1,5 +1,7 @@
 """Studies in units of the user's own: what is wrong in them."""
 
+from dataclasses import replace
+
 import pytest
 from real import ALUMINIUM, STUDY, UNITS
 
@@ -238,6 +240,13 @@ def test_constants_that_no_metal_has_are_warned_of() -> None:
     )  # fmt: skip
     with pytest.warns(UserWarning, match=r"material.strength 927 over young_modulus 73.1 is 12.7"):
         contact.solve(1e-2, constants=ALUMINIUM)
+    # Constants with a modulus in another unit, which would give a life 10¹³ times as long.
+    sound = physical(
+        young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, friction=0.5, normal_force=200.0,
+        tangential_force_amplitude=60.0,
+    )  # fmt: skip
+    with pytest.warns(UserWarning, match=r"material.young_modulus 73.1 is 0.001 times the body's 73100"):
+        sound.solve(1e-2, constants=replace(ALUMINIUM, young_modulus=73.1))
     findley = contact.with_parameters(criterion="findley", normal_sensitivity=0.3)
     with pytest.raises(StudyError, match="constants: found constants with the criterion findley alone"):
         findley.solve(1e-2, constants=ALUMINIUM)
