@@ -164,10 +164,12 @@ class PhysicalContact:
             return self._plain(self.grid.over_dimension(name, np.array(values, object)))
         return self._plain(self.grid.along(name))
 
-    def _plain(self, values: xr.DataArray) -> Any:
+    def _plain(self, values: xr.Variable) -> Any:
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
+        import xarray as xr
+
         labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
-        return values.assign_coords(labels) if labels else values.item()
+        return xr.DataArray(values, labels) if labels else values.values.item()
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *AT_REST, *self.grid.rows]
@@ -469,7 +471,7 @@ class PhysicalContact:
         several = [name for name in self.grid.dims if name != "body"]
         if several:
             raise refused(", ".join(several), "several contacts", "one: a single value of each")
-        return self.grid.at_rest.item()
+        return self.grid.at_rest.values.item()
 
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.

@@ -300,7 +300,7 @@ def index_of(value: Value, axis: Sequence[Value], tolerance: float = AXIS_TOLERA
     return int(np.where(near, distance, np.inf).argmin()) if near.any() else None
 
 
-def index_at(values: xr.DataArray, flat: int) -> dict[str, int]:
+def index_at(values: xr.DataArray | xr.Variable, flat: int) -> dict[str, int]:
     """Index along each dimension of a place among the flattened values."""
     index = np.unravel_index(flat, values.shape) if values.ndim else ()
     return dict(zip(map(str, values.dims), map(int, index), strict=True))

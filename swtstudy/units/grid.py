@@ -217,7 +217,7 @@ class PhysicalGrid(ContactDetails, Grid):
         return tuple(dim for dim in self.dims if dim in varying)
 
     @cached_property
-    def at_rest(self) -> xr.DataArray:
+    def at_rest(self) -> xr.Variable:
         """The contacts at rest over these dimensions; where there is none, the StudyError that says why."""
         import xarray as xr
 
@@ -239,7 +239,7 @@ class PhysicalGrid(ContactDetails, Grid):
         """The contacts at rest, each once."""
         return [*{id(each): each for each in self.at_rest.values.flat}.values()]
 
-    def each(self, value: Callable[[Contact], float], kind: type = float) -> xr.DataArray:
+    def each(self, value: Callable[[Contact], float], kind: type = float) -> xr.Variable:
         """A number of every contact at rest."""
         numbers = {id(each): value(each) for each in self.distinct}
         found: NDArray = np.array([numbers[id(each)] for each in self.at_rest.values.flat], kind)
@@ -274,29 +274,29 @@ class PhysicalGrid(ContactDetails, Grid):
         loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Definition)}
 
-    def along(self, name: str) -> xr.DataArray:
+    def along(self, name: str) -> xr.Variable:
         """The numbers of a parameter, over its dimension if it has one."""
         return self.over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
 
-    def of_bodies(self, value: Callable[[Contact, int], float]) -> xr.DataArray:
+    def of_bodies(self, value: Callable[[Contact, int], float]) -> xr.Variable:
         """A number of every contact and of each point's body, 0 or 1; over contacts if both are alike."""
         one, two = (self.each(lambda contact, k=k: value(contact, k)) for k in (0, 1))  # type: ignore[misc]
         return one if one.equals(two) else one.where(self.bodies == 0, two)
 
-    def over_dimension(self, name: str, numbers: NDArray) -> xr.DataArray:
+    def over_dimension(self, name: str, numbers: NDArray) -> xr.Variable:
         """Numbers that go with the values of a parameter."""
         import xarray as xr
 
         dim = self.dimension(name)
-        return xr.DataArray(numbers, dims=dim) if dim else xr.DataArray(numbers[:1].reshape(()))
+        return xr.Variable((dim,), numbers) if dim else xr.Variable((), numbers[0])
 
     @property
-    def bodies(self) -> xr.DataArray:
+    def bodies(self) -> xr.Variable:
         """Indices of the bodies of the points, 0 or 1; the first one where they are alike."""
         return (self.along("body") - 1 if self.values("body") else _scalar(0)).astype(int)
 
     @cached_property
-    def numbers(self) -> dict[str, xr.DataArray]:
+    def numbers(self) -> dict[str, xr.Variable]:
         """The non-dimensional parameters that are numbers, over the dimensions that each depends on."""
         found = {
             name: self.each(lambda contact, name=name: contact.shape_parameters.get(name, 0.0))  # type: ignore[misc]
@@ -324,7 +324,7 @@ class PhysicalGrid(ContactDetails, Grid):
             found["bulk_stress_mean"] = found["bulk_stress_mean"].where(carries, 0.0)
         return found
 
-    def mean_of_bulk(self, amplitude: xr.DataArray) -> xr.DataArray:
+    def mean_of_bulk(self, amplitude: xr.Variable) -> xr.Variable:
         """The mean at which a bulk stress of this amplitude has its ratio of least over largest."""
         loads, ratio = self.values("load"), self.along("bulk_stress_ratio")
         ends = [(load.bulk_ends or (0.0, 0.0)) if isinstance(load, Loop) else (-1.0, 1.0) for load in loads]
@@ -336,7 +336,7 @@ class PhysicalGrid(ContactDetails, Grid):
         alike = ((as_number(value),) * 2 for value in self.values(name))
         return [self.pairs[name]] if name in self.pairs else [*alike]
 
-    def of_body(self, name: str) -> xr.DataArray:
+    def of_body(self, name: str) -> xr.Variable:
         """A parameter of the bodies, of each point's own body."""
         if name not in self.pairs:
             return self.along(name)
@@ -370,7 +370,7 @@ class PhysicalGrid(ContactDetails, Grid):
         return (*super().margins, "radius_ratio", *("slide_ratio",) * (not self.control.tangential_force))
 
     @property
-    def _strain_share(self) -> xr.DataArray:
+    def _strain_share(self) -> xr.Variable:
         """Strain of the points' body over the mean of both, over the dimensions that it depends on."""
         body = self.bulk_stress_body
         share = self.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
@@ -401,7 +401,7 @@ def _rounded_face(contact: Contact) -> float:
     return contact.flat / contact.length_scale * (contact.profile != SHARP)
 
 
-def _scalar(value: float) -> xr.DataArray:
+def _scalar(value: float) -> xr.Variable:
     import xarray as xr
 
-    return xr.DataArray(value)
+    return xr.Variable((), value)

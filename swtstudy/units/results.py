@@ -138,15 +138,14 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
 def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataArray:
     """A variable without units in units, NaN at points of other criteria; or the life at it."""
     stresses = getattr(grid, row.needs[0]) if row.needs and row.kind != LIFE else ()
-    values = grid.of_bodies(scale_of(row.scale, stresses))
-    if row.of:
-        values = dataset[NORMALISED.get(row.of, row.of)] * values
+    scale = grid.of_bodies(scale_of(row.scale, stresses))
+    values = dataset[NORMALISED.get(row.of, row.of)] * scale if row.of else xr.DataArray(scale)
     if row.criterion and grid.dimension("criterion") is not None:
         is_own = np.array([value == row.criterion for value in grid.values("criterion")])
         values = values.where(grid.over_dimension("criterion", is_own))
-    return (
-        _of_constants(values, grid, dataset, row.criterion, LifeCurve.lives) if row.kind == LIFE else values
-    )
+    if row.kind == LIFE:
+        return _of_constants(values, grid, dataset, row.criterion, LifeCurve.lives)
+    return values
 
 
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
@@ -200,7 +199,7 @@ def _of_constants(
         one, other = grid.curves(criterion, ratios, drawn)
         found = make(one, own.values, counted)
         if not np.array_equal(one, other):
-            is_first = (grid.bodies.isel(at, missing_dims="ignore") == 0).broadcast_like(own)
+            is_first = xr.ones_like(own, bool) & (grid.bodies.isel(at, missing_dims="ignore") == 0)
             found = np.where(is_first.transpose(*own.dims), found, make(other, own.values, counted))
         before = ("rank",) * drawn
         parts.append(xr.DataArray(found, own.coords, (*before, *own.dims)))
