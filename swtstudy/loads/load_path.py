@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,7 @@ from swtstudy.loads.loop import FINITE, LARGEST, FloatArray, Loop, checked_mean,
 from swtstudy.loads.smooth_path import SmoothPath, sampled
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, refused
+from swtstudy.vocabulary.parameters import MANY_TURNS
 
 #: Most vertices of a loop: a value with so many takes some 6 s.
 MOST_VERTICES = 2000
@@ -145,7 +147,15 @@ class LoadPath(Loop):
         StudyError
             A ValueError with what is wrong with them.
         """
-        return SmoothPath(name, normal, tangential, bulk, mean_normal=mean_normal)
+        path = SmoothPath(name, normal, tangential, bulk, mean_normal=mean_normal)
+        for column, rows in path.harmonics.items():
+            largest = max((phase for *_, phase in rows), key=abs, default=0.0)
+            if abs(largest) > MANY_TURNS:
+                words = f'for degrees np.radians({largest:g}), in a study "{largest:g} deg"'
+                warnings.warn(
+                    f"{column} of {name}: a phase of {largest:g} is in radians; {words}", stacklevel=2
+                )
+        return path
 
     @staticmethod
     def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:

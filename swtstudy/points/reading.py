@@ -31,11 +31,8 @@ from swtstudy.points.values import (
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
-
-#: An angle beyond so many rad is probably meant in degrees.
-MANY_TURNS = 8.0 * math.pi
 
 #: Definitions of the user, by parameter and name.
 Known = Mapping[str, Mapping[str, Definition]]

@@ -13,7 +13,7 @@ import numpy as np
 
 from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.reading import Known, Range, read_distances, read_grid, warn_of_degrees
+from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.points.rules import idle_axes
 from swtstudy.points.values import read_angle
 from swtstudy.profiles.table import TabulatedProfile
@@ -263,14 +263,12 @@ def _harmonics(rows: Any, column: str) -> Any:
     """Rows of order, amplitude and phase, which may be a text as in studies."""
     read = list(rows) if isinstance(rows, list | tuple) else rows
     for number, row in enumerate(read if isinstance(read, list) else ()):
-        if isinstance(row, list | tuple) and len(row) == 3:
-            warn_of_degrees(column, row[-1])
-            if isinstance(row[-1], str):
-                try:
-                    read[number] = (*row[:-1], float(read_angle(row[-1])))
-                except ValueError as error:
-                    key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
-                    raise refused(key, found, "a phase") from None
+        if isinstance(row, list | tuple) and len(row) == 3 and isinstance(row[-1], str):
+            try:
+                read[number] = (*row[:-1], float(read_angle(row[-1])))
+            except ValueError as error:
+                key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
+                raise refused(key, found, "a phase") from None
     return read
 
 

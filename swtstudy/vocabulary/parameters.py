@@ -8,6 +8,7 @@ a parameter, or what only some results range over.
 
 from __future__ import annotations
 
+import math
 from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -111,6 +112,8 @@ CONTROLS: dict[Control, str] = {
     Control(False, True): "normal_displacement+tangential_force",
 }
 
+#: An angle beyond so many rad is probably meant in degrees.
+MANY_TURNS = 8.0 * math.pi
 
 #: Name and letter of a parameter by what may be typed for it: its letter, its symbol, the numerator of that.
 SYMBOLS: dict[str, tuple[str, str]] = {

@@ -434,8 +434,12 @@ def test_phases_of_harmonics_are_written_as_other_angles() -> None:
     (expected,) = Study.from_text(harmonics(np.pi / 2)).grid.loops
     for words in ('"pi/2"', '"90 deg"'):
         assert Study.from_text(harmonics(words)).grid.loops[0].code == expected.code
-    with pytest.warns(UserWarning, match="tangential: 90 is in radians"):
+    words = r'tangential of mine: a phase of 90 is in radians; for degrees np.radians\(90\), .* "90 deg"'
+    with pytest.warns(UserWarning, match=words) as told:
         Study.from_text(harmonics(90))
+    assert len(told) == 1
+    with pytest.warns(UserWarning, match=words):
+        LoadPath.harmonic_sum("mine", [(1, 0.5, 0.0)], [(2, 1.0, 90)])
     with pytest.raises(StudyError, match=r"found .x. .*; allowed: a phase"):
         Study.from_text(harmonics('"x"'))
 
