@@ -294,7 +294,7 @@ vertices = {}
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ("", "loads.mine: found nothing; allowed: vertices, file, or normal and tangential"),
+        ("", "loads.mine: found nothing; allowed: a table with vertices, with normal and tangential"),
         ('vertices = [[0, 1], [0, 2]]\nfile = "a.csv"', "loads.mine: found vertices and file; "),
         ("vertices = [[0, 1]]", r"loads.mine.vertices: found a single point .*; allowed: 2 distinct points"),
         ("vertices = [[0, 1], [0, 1]]", r"loads.mine.vertices: found a single point"),
@@ -314,7 +314,10 @@ vertices = {}
             'file = "long.csv"',
             r"loads.mine.file: found 3000 vertices .*; allowed: at most 2000; .*recorded_cycles",
         ),
-        ("normal = [[1, 1, 0]]", "loads.mine: found normal; allowed: vertices, file, or normal and"),
+        (
+            "normal = [[1, 1, 0]]",
+            "loads.mine: found normal; allowed: a table with vertices, with normal and tang",
+        ),
         (
             "normal = [[1, 1, 0]]\ntangential = [[0.5, 1, 0]]",
             r"loads.mine: found \[0.5, 1, 0\] .tangential of",

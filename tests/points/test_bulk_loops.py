@@ -286,7 +286,10 @@ def test_a_study_has_it_in_its_text_or_in_files(tmp_path: Path) -> None:
         ("vertices = [[0, 1, 2, 3]]", r".*shape \(1, 4\).*; allowed: pairs .* or triples with the bulk"),
         ("vertices = [[0, 1, 2], [0, 1, 2]]", r"loads.mine.vertices: found a single point"),
         ('file = "hole.csv"', r"loads.mine.file: found nothing .*line 3, bulk\)"),
-        ("vertices = [[0, 1], [0, 2]]\nbulk = [[1, 1, 0]]", "loads.mine: found vertices and bulk; allowed:"),
+        (
+            "vertices = [[0, 1], [0, 2]]\nbulk = [[1, 1, 0]]",
+            "loads.mine: found bulk beside vertices; allowed:",
+        ),
         ("normal = []\ntangential = []\nbulk = [[0, 1, 0.5]]", "loads.mine: found nothing that changes"),
         ("normal = []\ntangential = [[1, 1, 0]]\nbulk = [[1, 1]]", r"loads.mine: found \[1, 1\] .bulk of"),
     ],

@@ -91,7 +91,7 @@ def test_each_body_has_its_own_strength():
     np.testing.assert_allclose(found.yield_ratio[0], 2.0 * found.yield_ratio[1], rtol=1e-12)
     with pytest.raises(swtstudy.StudyError, match="yield_strength: found -1; allowed: a positive stress"):
         contact.solve(yield_strength=-1)
-    with pytest.raises(swtstudy.StudyError, match="one, or a pair"):
+    with pytest.raises(swtstudy.StudyError, match="a positive stress, or a pair of them"):
         contact.solve(yield_strength=[1, 2, 3])
 
 
