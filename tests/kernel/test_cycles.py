@@ -7,7 +7,7 @@ import pytest
 import rainflow
 
 from swtstudy import LoadPath
-from swtstudy.kernel import cycles
+from swtstudy.kernel import count, cycles
 from swtstudy.kernel.batch import count_batch
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.criterion import ask
@@ -20,7 +20,7 @@ def counted(swing, stress, **criterion):
     """Values of the cycles of a history, descending; ν is 0, so that swt is σ_n times the amplitude."""
     ROOM.points = len(swing)
     ROOM.swing[: len(swing)], ROOM.stress[: len(swing)] = swing, stress
-    cycles.count_cycles(ROOM, ask(0.0, 0.3, 1e-4, **criterion))
+    count.count_cycles(ROOM, ask(0.0, 0.3, 1e-4, **criterion))
     return -np.sort(-ROOM.value[: ROOM.cycles])
 
 
@@ -33,7 +33,7 @@ def test_ranges_are_those_of_a_library(seed: int) -> None:
     ranges = [size for size, count in rainflow.count_cycles(closed) for _ in range(round(2 * count))]
     expected = 0.5 * -np.sort(-np.array(ranges))[::2]
     found = counted(swing, np.ones(swing.size))
-    expected = expected[expected > 0.5 * cycles.LEAST_RANGE * np.ptp(swing)]
+    expected = expected[expected > 0.5 * count.LEAST_RANGE * np.ptp(swing)]
     np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
