@@ -40,8 +40,11 @@ TOGETHER = (
     ("trace",),
     ("validity",),
 )
-#: Hardly a test of these rooms solves anything: one process runs them while another compiles.
-READING = ("study", "vocabulary")
+#: Tests of these files compile nothing, or next to nothing: one process runs them while another compiles.
+READING = (
+    *("test_study.py", "test_schema.py", "test_sample.py", "test_rig_files.py", "test_tables_of_users.py"),
+    *("test_expression.py", "test_at_rest.py", "test_signal.py"),
+)
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
 #: Examples in docstrings that take seconds.
@@ -113,7 +116,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def turn_of(item: pytest.Item) -> int:
     """Which tests are run first: what compiles, what does not, what stays with one process, all others."""
-    if item.path.parent.name in READING and item.path.name not in GROUP_OF:
+    if item.path.name in READING:
         return 1
     group = GROUP_OF.get(item.path.name)
     return 3 if group is None else 0 if group == TOGETHER[0][0] else 2
