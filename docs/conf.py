@@ -35,7 +35,7 @@ nitpicky = True
 nitpick_ignore = [
     ("py:class", name)
     for name in (
-        *("Grid", "FigureLayout", "Request", "Sample"),
+        *("Grid", "FigureLayout", "Request", "Design"),
         *("swtstudy.vocabulary.definition.Definition", "swtstudy.units.grid.PhysicalGrid"),
     )
 ]
