@@ -95,8 +95,8 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
     if grid is None or report:
         raise StudyError([*found, *report])
-    for name in idle_axes(grid):
-        warnings.warn(f"{name} has no effect: what it is of does not oscillate", stacklevel=2)
+    for words in idle_axes(grid):
+        warnings.warn(words, stacklevel=2)
     return solve_grid(grid, float(rtol), asked, lazy)
 
 
@@ -119,10 +119,10 @@ def solve_grid(
     points = None
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
+        # Unlike a function in a function it can be pickled.
+        values_of_block = partial(_block_values, grid, rtol, asked, own)
         made = xr.apply_ufunc(
-            partial(
-                _block_values, grid, rtol, asked, own
-            ),  # unlike a function in a function it can be pickled
+            values_of_block,
             *(
                 xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
                 for dim, size in grid.sizes.items()

@@ -168,9 +168,10 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
             panel.axhline(0.0, color="black", linewidth=0.8, linestyle="-")
             panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
             panel.grid(False, axis="x")
-            sheet.label_left(panels[row], f"share of the variance of {one.quantity.item()}".replace("_", " "))
             where = [place_words(name, columns[name][column].item(), columns[name].attrs) for name in axes]
             panel.set_title(", ".join(where if row == 0 else []), loc="left")
+        for own, name in zip(panels, indices.quantity.values, strict=True):
+            sheet.label_left(own, f"share of the variance of {name}".replace("_", " "))
         title = str(indices.attrs["title"])
         figure.suptitle(as_text(title) if wrong_formula(title) else title)
         add_legend(figure)

@@ -147,12 +147,13 @@ def check_loops_alone(good: Mapping[str, Sequence[Any]], report: Report) -> None
 
 
 def idle_axes(grid: Grid) -> list[str]:
-    """Axes of phases and frequencies of what stands still, or of loops, which have their own."""
+    """Words on axes of phases and frequencies of what stands still, or of loops, which have their own."""
     harmonic = len(grid.loops) < len(grid.values("load"))
     moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
     pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
     idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
-    return [name for name, still in idle.items() if still and name in grid.axes]
+    lost = [name for name, still in idle.items() if still and name in grid.axes]
+    return [f"{name} has no effect: what it is of does not oscillate" for name in lost]
 
 
 def sizes_of(load: Loop) -> dict[str, float]:

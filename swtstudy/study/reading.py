@@ -314,7 +314,7 @@ def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
 
 def doubts(grid: Grid, has_units: bool) -> Iterator[str]:
     """Axes that have no effect; odd units."""
-    for name in idle_axes(grid):
-        yield f"axes.{name} has no effect: what it is of does not oscillate"
+    for words in idle_axes(grid):
+        yield f"axes.{words}"
     if has_units:
         yield from doubts_of_units(grid)  # type: ignore[arg-type]

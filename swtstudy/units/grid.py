@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from swtstudy.loads.loop import Loop
 from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
 from swtstudy.points.grid import Grid
-from swtstudy.points.values import Value, amplitudes_of, as_number
+from swtstudy.points.values import Value, amplitudes_of, as_number, press_steadily
 from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants
@@ -69,8 +69,7 @@ def implied_amplitudes(
 def scaling_of(loads: Iterable[Value]) -> set[str]:
     """Names of the amplitudes that scale some of the loads that are loops; 0 times an amplitude is none."""
     names, loops = amplitudes_of(loads), [load for load in loads if isinstance(load, Loop)]
-    constant = bool(loops) and all(load.normal_ends == (0.0, 0.0) for load in loops)
-    return names - {"normal_amplitude"} if constant else names
+    return names - {"normal_amplitude"} if loops and press_steadily(loops) else names
 
 
 def labels_of(units: Units, profiles: Iterable[object], given: Collection[str]) -> Units:
