@@ -36,7 +36,7 @@ nitpick_ignore = [
     ("py:class", name)
     for name in (
         *("Grid", "FigureLayout", "Request", "Design"),
-        *("swtstudy.vocabulary.definition.Definition", "swtstudy.units.grid.PhysicalGrid"),
+        *("swtstudy.vocabulary.definition.Definition", "swtstudy.study.units.grid.PhysicalGrid"),
     )
 ]
 autodoc_member_order = "bysource"

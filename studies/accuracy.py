@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.profiles.at_rest import check_shape
+from swtstudy.solver.at_rest import check_shape
 from swtstudy.solver.points import Points, solve_points
 
 RTOLS = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)

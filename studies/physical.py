@@ -11,7 +11,7 @@ matters.
 import numpy as np
 
 import swtstudy
-from swtstudy.contacts import PhysicalContact
+from swtstudy.faces.contacts import PhysicalContact
 
 MATERIAL = swtstudy.FatigueConstants(
     young_modulus=73.1e3, strength=927.0, strength_exponent=-0.113, ductility=0.409, ductility_exponent=-0.713

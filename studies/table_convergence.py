@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
-from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solver.points import Points, solve_points
+from swtstudy.solver.table import TabulatedProfile
 from swtstudy.vocabulary.choices import FAMILIES, is_plane
 from swtstudy.vocabulary.parameters import Control
 

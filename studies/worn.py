@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import swtstudy
-from swtstudy.contacts import PhysicalContact
+from swtstudy.faces.contacts import PhysicalContact
 from swtstudy.figures.sheet import Sheet
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, styled
 

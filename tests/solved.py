@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import swtstudy
 from swtstudy import Study
-from swtstudy.solving import solve_grid
+from swtstudy.points.solve import solve_grid
 
 Array = NDArray[np.float64]
 

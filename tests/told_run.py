@@ -15,9 +15,9 @@ from typing import Any
 import stand_in
 
 from swtstudy.archive import parts
+from swtstudy.archive.run import run_several
+from swtstudy.archive.workers import LocalPool
 from swtstudy.cli import main
-from swtstudy.runner.run import run_several
-from swtstudy.runner.workers import LocalPool
 
 save_part, leave = parts.save_part, LocalPool.__exit__
 

@@ -4,8 +4,8 @@ from collections.abc import Collection
 from pathlib import Path
 
 from swtstudy import open_results
+from swtstudy.faces.site import entry, gallery_of
 from swtstudy.figures.draw import layout_of
-from swtstudy.reports.site import entry, gallery_of
 from swtstudy.study.shipped import in_groups, shipped_studies
 
 

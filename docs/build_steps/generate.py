@@ -17,7 +17,7 @@ from build_steps.profiles import draw_profiles
 from build_steps.rooms import WHOLE, rooms
 from build_steps.study_file import study_file
 from build_steps.three_mistakes import three_mistakes
-from swtstudy.reports.site import write_reports
+from swtstudy.faces.site import write_reports
 
 ROOT = Path(__file__).parent.parent.parent
 #: The study whose report is always made.

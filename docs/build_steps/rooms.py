@@ -64,20 +64,8 @@ WHOLE = House(
     "swtstudy",
     ("vocabulary",),
     (
-        *(
-            "profiles",
-            "kernel",
-            "loads",
-            "solver",
-            "points",
-            "solving",
-            "units",
-            "study",
-            "archive",
-            "results",
-            "fields",
-        ),
-        *("figures", "contacts", "runner", "paper", "reports", "accessor", "cli", "__main__", "__init__"),
+        *("kernel", "solver", "points", "study", "results", "figures", "archive", "paper", "faces", "cli"),
+        *("__main__", "__init__"),
     ),
 )
 

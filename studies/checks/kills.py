@@ -23,8 +23,8 @@ from two_thousand import same_values, study_text
 
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
+from swtstudy.archive.run import Stopped
 from swtstudy.points.chunk import Chunk
-from swtstudy.runner.run import Stopped
 
 WORKERS = 2
 
@@ -42,7 +42,7 @@ friction = {start = "0.01", stop = %s, num = %d}
 
 def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
-    from swtstudy.runner import run as run_module
+    from swtstudy.archive import run as run_module
 
     cut = run_module.chunks
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.sheet import Sheet, add_legend
 from swtstudy.figures.style import COLOURS, MARKERS, save_figure, stroke, styled
-from swtstudy.loads.load_path import LoadPath
+from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.points import Points, solve_points
 from swtstudy.vocabulary.parameters import Control
 

@@ -142,7 +142,7 @@ def main() -> None:
     files = sorted((PROJECT / "tests").rglob("test_*.py"))
     package, groups = "swtstudy", [["swtstudy"], *([str(file.relative_to(PROJECT))] for file in files)]
     if arguments.quick:
-        package, groups, arguments.size = "swtstudy/units", [["tests/units/test_real_mistakes.py"]], 1
+        package, groups, arguments.size = "swtstudy/study/units", [["tests/study/test_real_mistakes.py"]], 1
     with tempfile.TemporaryDirectory() as folder:
         covered = arguments.covered or Path(folder) / "covered"
         covered.mkdir(exist_ok=True, parents=True)

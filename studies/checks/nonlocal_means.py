@@ -29,9 +29,9 @@ from numpy.typing import NDArray
 
 from swtstudy.kernel.field import criterion_at, direction_at, largest_radius, mean_about, open_cycle
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
-from swtstudy.profiles.table import TabulatedProfile
 from swtstudy.solver.means import DOWN, GROWTH, RTOL, worst_means
 from swtstudy.solver.points import Points, arguments_of, solve_points
+from swtstudy.solver.table import TabulatedProfile
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.parameters import Control
 

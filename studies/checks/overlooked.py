@@ -27,9 +27,9 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from accuracy import SHAPES
 from nonlocal_means import worn
 
-from swtstudy.loads.load_path import LoadPath
 from swtstudy.paper.maxima import dense_maximum
-from swtstudy.profiles.at_rest import check_shape
+from swtstudy.solver.at_rest import check_shape
+from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.points import Points, Solution, solve_points
 from swtstudy.vocabulary.parameters import Control
 

@@ -10,8 +10,8 @@ from accuracy import points_at_ends, random_points
 from nonlocal_means import worn
 from overlooked import CHUNK, drawn
 
-from swtstudy.loads.load_path import LoadPath
 from swtstudy.paper.maxima import body_maximum
+from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.points import Points, solve_points
 from swtstudy.solver.quantities import quantities_of
 from swtstudy.vocabulary.parameters import Control

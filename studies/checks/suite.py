@@ -15,7 +15,7 @@ from pathlib import Path
 import xarray as xr
 
 from swtstudy import Study
-from swtstudy.runner.run import run_several
+from swtstudy.archive.run import run_several
 
 FOLDER, FIGURES = Path(__file__).parent.parent, range(3, 9)
 

@@ -1,1 +1,1 @@
-"""Archives: netCDF files with a study's results and everything needed to understand them."""
+"""Running studies, and archives: netCDF files with results and all that is needed to understand them."""

@@ -6,10 +6,9 @@ for.
 
 from __future__ import annotations
 
-import json
 import math
 import platform
-from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -18,7 +17,6 @@ from pydantic import TypeAdapter, ValidationError
 
 from swtstudy.points.chunk import Run
 from swtstudy.study.figure import VARIABLES, FigureLayout, reference, wrong_layout
-from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import literal
 from swtstudy.vocabulary.quantities import COUNTS, DISTANCE, EVERY_VARIABLE, NAMED
 from swtstudy.vocabulary.version import __version__
@@ -33,32 +31,6 @@ def read_runs(text: object) -> tuple[Run, ...]:
         if not 0.0 <= run.seconds < math.inf:
             raise ValueError(f"seconds of a run: {literal(run.seconds)}")
     return runs
-
-
-def definitions_text(definitions: Iterable[Definition]) -> str:
-    """Write the user's definitions as an attribute; see `defined_in`."""
-    return json.dumps(
-        [
-            {"parameter": each.parameter, "name": each.name, "content": each.content(), **each.notes()}
-            for each in definitions
-        ]
-    )
-
-
-def defined_in(attributes: Mapping[Hashable, Any]) -> dict[str, dict[str, Definition]]:
-    """Read the user's definitions, by parameter and name, from the attributes of a Dataset."""
-    from swtstudy.loads.load_path import LoadPath
-    from swtstudy.profiles.table import TabulatedProfile
-
-    kinds: dict[str, type[Definition]] = {each.parameter: each for each in (LoadPath, TabulatedProfile)}
-    found: dict[str, dict[str, Definition]] = {}
-    for raw in _read(list[dict[str, Any]], attributes.get("definitions", "[]")):
-        try:
-            defined = kinds[raw["parameter"]].of_content(raw["name"], raw["content"])
-        except (KeyError, TypeError, ValueError, OverflowError) as error:
-            raise ValueError(f"not a definition: {literal(raw)} ({error})") from None
-        found.setdefault(raw["parameter"], {})[raw["name"]] = defined
-    return found
 
 
 def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:

@@ -10,16 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.archive.attributes import defined_in, read_runs
+from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.recall import request_of
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside_words, point_words, validity_lines
 from swtstudy.points.values import index_at, unit_of
+from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
-from swtstudy.units.life import FatigueConstants, Scatter, ShearConstants
-from swtstudy.units.reading import read_contact
-from swtstudy.units.results import is_uncounted, measures, sequence_words
-from swtstudy.units.rows import Units
+from swtstudy.study.units.life import FatigueConstants, Scatter, ShearConstants
+from swtstudy.study.units.reading import read_contact
+from swtstudy.study.units.results import is_uncounted, measures, sequence_words
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE

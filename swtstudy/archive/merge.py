@@ -18,8 +18,8 @@ from swtstudy.points.chunk import Found, join, look_up, matching
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
+from swtstudy.study.units.reading import read_contact
 from swtstudy.study.writing import to_toml
-from swtstudy.units.reading import read_contact
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import Request

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in, read_figure, read_runs
+from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.chunk import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
@@ -17,9 +17,10 @@ from swtstudy.points.labelled import turned
 from swtstudy.points.reading import given_twice
 from swtstudy.points.rules import shapes_needed
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
-from swtstudy.units.reading import check_contacts, completed, read_contact
-from swtstudy.units.results import without_units
-from swtstudy.units.rows import MEAN_LOADS, rows, wrong_mean_load
+from swtstudy.solver.definitions import defined_in
+from swtstudy.study.units.reading import check_contacts, completed, read_contact
+from swtstudy.study.units.results import without_units
+from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, StudyError, is_rtol, literal, plain_number

@@ -207,7 +207,7 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
       swtstudy history rig.toml stresses.csv -o lives.vtu
     """
     import swtstudy
-    from swtstudy.fields.elements import ENDINGS, write_history
+    from swtstudy.faces.elements import ENDINGS, write_history
     from swtstudy.study.definition import tables_of
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")

@@ -11,7 +11,7 @@ import click
 
 from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study
-from swtstudy.units.rows import Units, rows
+from swtstudy.study.units.rows import Units, rows
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, literal, refused
 from swtstudy.vocabulary.parameter import Parameter, short
@@ -64,7 +64,7 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
       swtstudy solve --phase 0,pi/2 --profile rounded_punch --flat-radius 1/2
       swtstudy list --parameters  # what each means
     """
-    from swtstudy.solving import solve as solve_grid
+    from swtstudy.points.solve import solve as solve_grid
     from swtstudy.vocabulary.choices import REGIMES
 
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
@@ -174,9 +174,9 @@ def _of_study(
     study: str, values: dict[str, object], smoothing: float | None, body: str | None, look: dict[str, Any]
 ) -> Figure:
     """The one contact of a study, in its units if it has them, or a profile of it alone."""
-    from swtstudy.contacts import PhysicalContact
+    from swtstudy.faces.contacts import PhysicalContact
     from swtstudy.study.definition import one_of_study
-    from swtstudy.units.grid import PhysicalGrid
+    from swtstudy.study.units.grid import PhysicalGrid
 
     of_shape = _of_shape(values)
     grid = one_of_study(study, values, smoothing, of_shape)

@@ -36,7 +36,7 @@ def report(archives: tuple[str, ...], output: str | None, workers: int) -> None:
       swtstudy report results/figure3.nc -o to_send.html
       swtstudy report results/*.nc -o site/
     """
-    from swtstudy.reports.site import write_reports
+    from swtstudy.faces.site import write_reports
 
     for path, problem in write_reports(archives, output, workers):
         click.echo(problem or str(path), err=bool(problem))
@@ -149,8 +149,8 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.netcdf import save
     from swtstudy.archive.parts import keeping, kept_folder, known_points, parts_folder
     from swtstudy.archive.recall import grid_of, request_of
+    from swtstudy.archive.work import not_in
     from swtstudy.points.canonical import Distinct
-    from swtstudy.runner.work import not_in
     from swtstudy.vocabulary.variables import MISSING
 
     target = Path(output)

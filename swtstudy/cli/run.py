@@ -95,7 +95,7 @@ def run(
     for target in targets.values():
         check_writable(target)
 
-    from swtstudy.runner.run import run_several
+    from swtstudy.archive.run import run_several
 
     client = _connect(scheduler) if scheduler else None
     before = {target: _written(target) for target in targets.values()}

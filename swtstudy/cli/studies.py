@@ -115,7 +115,7 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
     """Describe a run in labels and words, with its time from a few points that are solved."""
-    from swtstudy.runner.work import assess, estimate
+    from swtstudy.archive.work import assess, estimate
 
     work = assess(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())

@@ -18,14 +18,14 @@ from matplotlib.figure import Figure
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import Style, stroke
 from swtstudy.figures.words import NO_LABELS, Labels, show_units
-from swtstudy.loads.loop import Loop
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
-from swtstudy.profiles.at_rest import AtRest
-from swtstudy.profiles.families import MEAN_LOAD
-from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.solver.at_rest import AtRest
+from swtstudy.solver.loop import Loop
+from swtstudy.solver.table import TabulatedProfile
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import family_of
+from swtstudy.vocabulary.families import MEAN_LOAD
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, nearest, refused
 from swtstudy.vocabulary.parameters import PARAMETERS, Control
 from swtstudy.vocabulary.wording import as_text, place_words
@@ -54,7 +54,7 @@ def draw_load(
     signal
         The record of the loop, whose cycles are drawn beneath.
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def draw_profile(*, style: Style | None = None, width: Width | None = None, **pa
     Parameters
     ----------
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
     **parameters
         profile, a name or a `TabulatedProfile`, and its shape parameters, as for `swtstudy.solve`.
 
@@ -181,7 +181,7 @@ def draw_shape(
     parameters
         Without units, the shape alone.
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
     labels
         Lengths and stresses of a real contact in its units.
     given

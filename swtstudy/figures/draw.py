@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in
 from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
-from swtstudy.loads.loop import Loop
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
+from swtstudy.solver.definitions import defined_in
+from swtstudy.solver.loop import Loop
 from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layout
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.mistakes import Mistake, StudyError

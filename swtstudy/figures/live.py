@@ -18,13 +18,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from swtstudy.fields.inspection import load_and_springs
 from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import save_figure, styled
 from swtstudy.figures.words import tick_in_pi
+from swtstudy.points.solve import solve
 from swtstudy.points.values import read_value
-from swtstudy.solving import solve
+from swtstudy.results.inspection import load_and_springs
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import FAMILIES, REGIMES
 from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS

@@ -19,11 +19,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from swtstudy.fields.inspection import inspect_point
 from swtstudy.figures.sheet import Sheet, Width, check_width
 from swtstudy.figures.style import DASHES, Style, stroke
 from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
+from swtstudy.results.inspection import inspect_point
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, NORMAL_STRAIN, REGIMES, SHEAR_STRESS, SWT, family_of
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -57,7 +57,7 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     Parameters
     ----------
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
     **parameters
         Names of `swtstudy.vocabulary.parameters.PARAMETERS`, a single value each; the others are as in
         Table 1.
@@ -90,7 +90,7 @@ def draw_inspection(
     dataset
         The point, as from `swtstudy.inspect_point`.
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
     labels
         Variables of a real contact in its units.
     headlines

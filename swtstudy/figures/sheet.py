@@ -24,7 +24,7 @@ from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from swtstudy.figures.style import Style, picture, stroke, styled
-from swtstudy.loads.loop import Loop
+from swtstudy.solver.loop import Loop
 from swtstudy.vocabulary.mistakes import literal, refused
 
 

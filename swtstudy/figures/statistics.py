@@ -145,7 +145,7 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
     indices
         From `swtstudy.sensitivity`.
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
 
     Returns
     -------
@@ -186,7 +186,7 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
     fitted
         From `swtstudy.fit`.
     style, width
-        As for `swtstudy.accessor.SwtAccessor.figure`.
+        As for `swtstudy.faces.accessor.SwtAccessor.figure`.
     """
     sheet = Sheet(1, 1, width, (4.6, 4.4))
     with sheet.drawn(style) as (figure, ((axes,),)):

@@ -7,8 +7,8 @@ import numpy as np
 
 from swtstudy.kernel.compiled import jit, new_record
 from swtstudy.kernel.profile import MEAN_LOAD, PROFILE, tabulate_profile
-from swtstudy.profiles.families import FORMS, power_law
 from swtstudy.vocabulary.choices import family_of, is_plane
+from swtstudy.vocabulary.families import FORMS, power_law
 
 #: No coordinate at which the profile is asked lies beyond its table by rounding.
 MARGIN = 1e-9

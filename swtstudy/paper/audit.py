@@ -17,8 +17,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.archive.attributes import defined_in, definitions_text
 from swtstudy.points.canonical import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
+from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
 from swtstudy.vocabulary.choices import REGIMES
@@ -176,7 +176,7 @@ def audit_study(
     """
     require_study(study)
     from swtstudy.archive.netcdf import save
-    from swtstudy.runner.workers import start_workers
+    from swtstudy.archive.workers import start_workers
 
     keys = drawn_rows(study.grid, points, seed).tolist()
     known, definitions = _known(Path(path), study.grid.definitions)

@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from swtstudy.archive.attributes import defined_in
 from swtstudy.paper.audit import TOLERANCE, VERDICTS, canonical_rows
 from swtstudy.points.canonical import describe_point
+from swtstudy.solver.definitions import defined_in
 from swtstudy.vocabulary.choices import REGIMES, SHARP
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import unit_words, value_words

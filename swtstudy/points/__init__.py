@@ -1,1 +1,1 @@
-"""Points by named columns: the grid that a user spans, its distinct points, and their results."""
+"""Points by named columns: the grid that a user spans, its distinct points, solving, and results."""

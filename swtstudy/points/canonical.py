@@ -117,7 +117,7 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    from swtstudy.loads.phases import fold_bulk_phase, fold_phase, without_what_stands_still
+    from swtstudy.solver.phases import fold_bulk_phase, fold_phase, without_what_stands_still
 
     table, columns = np.empty(len(places), ROW), grid.at(places, *GIVEN_COLUMNS)
     for name, numbers in zip(COLUMNS, columns, strict=False):
@@ -273,7 +273,7 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     definitions
         Definitions of the user, by code.
     """
-    from swtstudy.loads.loop import Loop
+    from swtstudy.solver.loop import Loop
     from swtstudy.solver.points import Points
 
     profile = value_of(table["profile"][0], definitions)

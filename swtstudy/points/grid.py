@@ -31,7 +31,7 @@ from swtstudy.vocabulary.quantities import Request
 if TYPE_CHECKING:
     import xarray as xr
 
-    from swtstudy.loads.loop import Loop
+    from swtstudy.solver.loop import Loop
     from swtstudy.vocabulary.arrays import IndexArray
 
 
@@ -103,7 +103,7 @@ class Grid:
     @property
     def loops(self) -> tuple[Loop, ...]:
         """Its loads that are loops."""
-        from swtstudy.loads.loop import Loop
+        from swtstudy.solver.loop import Loop
 
         return tuple(load for load in self.values("load") if isinstance(load, Loop))
 

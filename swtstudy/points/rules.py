@@ -19,7 +19,7 @@ from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
 
 if TYPE_CHECKING:
-    from swtstudy.loads.loop import Loop
+    from swtstudy.solver.loop import Loop
     from swtstudy.vocabulary.arrays import FloatArray, Shape
 
 #: Parameters that scale the columns of a loop.
@@ -225,8 +225,8 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         Says where a place of the grid is, so that each load is looked at. Without it the largest load of a
         shape counts, whose contact is the hardest to keep compact.
     """
-    from swtstudy.loads.loop import Loop
-    from swtstudy.profiles.at_rest import check_shape, compact_shapes
+    from swtstudy.solver.at_rest import check_shape, compact_shapes
+    from swtstudy.solver.loop import Loop
 
     # By how many amplitudes the normal load rises at most.
     reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
@@ -274,7 +274,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
 
 def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
     """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
-    from swtstudy.profiles.at_rest import compact_shapes, largest_depth
+    from swtstudy.solver.at_rest import compact_shapes, largest_depth
 
     if not grid.control.normal_force:
         return normal

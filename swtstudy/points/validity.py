@@ -240,7 +240,7 @@ def _above_line(dataset: xr.Dataset) -> BoolArray:
 
 def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
     """Points with lives beyond the range of their constants."""
-    beyond: dict[str, BoolArray] = {}
+    beyond: dict[str, list[str]] = {}  # their names by the words for where
     lines = []
     for name in map(str, dataset.data_vars):
         if not _is_life(dataset, name) or name.rpartition("_")[2].isdigit():  # percentiles go with their life
@@ -249,11 +249,13 @@ def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
         lives = dataset[name].transpose(*dataset.s.dims, ...).values.reshape(*dataset.s.shape, -1)
         out = _beyond(lives)
         if out.any():
-            beyond[name] = np.asarray(out.any(axis=-1))
+            where = _where(np.asarray(out.any(axis=-1)))
+            beyond.setdefault(where, []).append(name)
             ends = dict.fromkeys(numbers_words((lives[out].min(), lives[out].max()), 3))
-            found = f"{_where(beyond[name])}: {' to '.join(ends)}"
+            found = f"{where}: {' to '.join(ends)}"
             lines.append(f"{name} extrapolated{found}, while the constants are known for {_KNOWN}")
-    short = f"{', '.join(beyond)} extrapolated{_where(np.any([*beyond.values()], axis=0))} (beyond {_KNOWN})"
+    places = (f"{', '.join(names)} extrapolated{where}" for where, names in beyond.items())
+    short = f"{' and '.join(places)} (beyond {_KNOWN})"
     yield from ((short * (k == 0), line) for k, line in enumerate(lines))
 
 

@@ -1,1 +1,1 @@
-"""Evaluating results: slices, normalised curves, extrema and tables of any Dataset of this package."""
+"""Evaluating results: slices, extrema, fits and optima of any Dataset; fields and inspection of one point."""

@@ -19,12 +19,12 @@ import xarray as xr
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
 from swtstudy.points.reading import LONGEST_AXIS
+from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
-from swtstudy.solving import solve_grid
 from swtstudy.study.columns import number, read_table
 from swtstudy.study.definition import Study, study_from, tables_of
-from swtstudy.units.grid import PhysicalGrid
+from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (

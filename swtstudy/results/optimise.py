@@ -22,8 +22,8 @@ import xarray as xr
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import read_grid
+from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import NUMERIC
-from swtstudy.solving import solve_grid
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.sample import saltelli
-from swtstudy.units.results import measures
+from swtstudy.study.units.results import measures
 from swtstudy.vocabulary.mistakes import ALLOWED_SEED, Report, is_seed, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.progress import Progress

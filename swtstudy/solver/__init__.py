@@ -1,1 +1,1 @@
-"""Points in, values out: s, quantities beside it, margins, and load cycles as they are drawn."""
+"""Points in, values out: loads and profiles as users give them, s, quantities beside it, and margins."""

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.profiles.at_rest import AtRest
+from swtstudy.solver.at_rest import AtRest
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane

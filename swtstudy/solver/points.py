@@ -14,8 +14,8 @@ from swtstudy.vocabulary.arrays import FloatArray, IntArray, Shape
 from swtstudy.vocabulary.parameters import DISPLACEMENTS, PARAMETERS, Control
 
 if TYPE_CHECKING:
-    from swtstudy.loads.loop import Loop
-    from swtstudy.profiles.table import AnyProfile
+    from swtstudy.solver.loop import Loop
+    from swtstudy.solver.table import AnyProfile
 
 #: Numbers that points have unless they are given.
 _UNLESS_GIVEN = {n: row.default for n, row in PARAMETERS.items() if row.optional and row.kind == "number"}

@@ -1,1 +1,1 @@
-"""The definition of a study: a TOML file, fully validated before anything is computed."""
+"""Input of a user: a study in TOML, validated before anything is computed, measured files, and units."""

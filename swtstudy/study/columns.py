@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.units.rows import KNOWN
+from swtstudy.study.units.rows import KNOWN
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused

@@ -13,8 +13,8 @@ from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.shipped import find_study, shipped_studies
+from swtstudy.study.units.rows import ONE_OF, REST_DEPENDS_ON
 from swtstudy.study.writing import as_html, in_one_line
-from swtstudy.units.rows import ONE_OF, REST_DEPENDS_ON
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
@@ -205,7 +205,7 @@ def one_of_study(
         With every mistake; also if an axis of the study, or what it samples, has no value here.
     """
     from swtstudy.study.reading import StudyReader
-    from swtstudy.units.material import STRENGTH
+    from swtstudy.study.units.material import STRENGTH
 
     path = str(find_study(path))
     raw = tables_of(path)

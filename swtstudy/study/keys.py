@@ -15,11 +15,11 @@ from typing import Annotated, Any, ClassVar, Literal, Self, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from swtstudy.loads.smooth_path import HIGHEST_ORDER
 from swtstudy.points.reading import LONGEST_AXIS, Range
+from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.units.rows import right_place
 from swtstudy.study.writing import quoted
-from swtstudy.units.rows import right_place
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain

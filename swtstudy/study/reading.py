@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.loads.load_path import LoadPath
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.points.rules import idle_axes
 from swtstudy.points.values import read_angle
-from swtstudy.profiles.table import TabulatedProfile
+from swtstudy.solver.load_path import LoadPath
+from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import (
@@ -32,12 +32,12 @@ from swtstudy.study.keys import (
 from swtstudy.study.sample import Design, Sampled, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
+from swtstudy.study.units.grid import ContactDetails
+from swtstudy.study.units.life import Block, Scatter, wrong_rounds
+from swtstudy.study.units.material import read_given
+from swtstudy.study.units.reading import ANY, ANY_MEASURED, doubts_of_units, read_contacts
+from swtstudy.study.units.rows import OF_BODIES, read_units, rows
 from swtstudy.study.writing import to_toml
-from swtstudy.units.grid import ContactDetails
-from swtstudy.units.life import Block, Scatter, wrong_rounds
-from swtstudy.units.material import read_given
-from swtstudy.units.reading import ANY, ANY_MEASURED, doubts_of_units, read_contacts
-from swtstudy.units.rows import OF_BODIES, read_units, rows
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.files import parse_toml

@@ -21,14 +21,14 @@ from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
 from swtstudy.study.keys import DesignName, SampleTable, under
-from swtstudy.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
-from swtstudy.units.material import KEYS
+from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
+from swtstudy.study.units.material import KEYS
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
 
 if TYPE_CHECKING:
-    from swtstudy.units.grid import ContactDetails
+    from swtstudy.study.units.grid import ContactDetails
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")

@@ -10,9 +10,9 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.points.values import NUMERIC
 from swtstudy.study.keys import StudyTable
 from swtstudy.study.sample import DISTRIBUTIONS
-from swtstudy.units.material import BY_NAME, PROPERTIES
-from swtstudy.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
-from swtstudy.units.rows import UNIT_KINDS as UNITS
+from swtstudy.study.units.material import BY_NAME, PROPERTIES
+from swtstudy.study.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, kind_of
+from swtstudy.study.units.rows import UNIT_KINDS as UNITS
 from swtstudy.vocabulary.choices import families_with
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES

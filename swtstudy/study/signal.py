@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.loads.load_path import LoadPath
-from swtstudy.loads.loop import Loop, checked_name
+from swtstudy.solver.load_path import LoadPath
+from swtstudy.solver.loop import Loop, checked_name
 from swtstudy.study import cycles
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import SignalTable, with_keys

@@ -10,8 +10,8 @@ from string import Template
 
 from swtstudy.study.keys import DESIGNS
 from swtstudy.study.schema import SCHEMA_LINE
+from swtstudy.study.units.rows import Units, rows
 from swtstudy.study.writing import quoted
-from swtstudy.units.rows import Units, rows
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
 from swtstudy.vocabulary.parameter import Parameter, short

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from swtstudy.profiles.table import FEWEST, TabulatedProfile
+from swtstudy.solver.table import FEWEST, TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import TraceTable, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray

@@ -68,8 +68,8 @@ def _lines(entries: Mapping[str, Any]) -> list[str]:
 
 def _of_contacts(grid: Grid) -> tuple[list[tuple[str, Mapping[str, Any]]], dict[str, Any]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
-    from swtstudy.units.grid import PhysicalGrid
-    from swtstudy.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
+    from swtstudy.study.units.grid import PhysicalGrid
+    from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
 
     if not isinstance(grid, PhysicalGrid):
         return [], {}

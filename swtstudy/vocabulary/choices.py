@@ -1,6 +1,6 @@
 """Names to choose from: families of indenters, of revolution (eqs. 3–6) and plane, criteria, shifts, figures.
 
-Their formulas are in `swtstudy.profiles.families` and `swtstudy.kernel.criterion`.
+Their formulas are in `swtstudy.vocabulary.families` and `swtstudy.kernel.criterion`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")
 
 
 class Family(NamedTuple):
-    """One family of indenters; its form is in `swtstudy.profiles.families.FORMS`.
+    """One family of indenters; its form is in `swtstudy.vocabulary.families.FORMS`.
 
     Attributes
     ----------

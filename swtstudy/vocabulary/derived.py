@@ -1,6 +1,6 @@
 """The table of data variables that results of real contacts have besides: with units, and lives.
 
-The door out (`swtstudy.units.results`), figures and messages read it; none repeats a name.
+The door out (`swtstudy.study.units.results`), figures and messages read it; none repeats a name.
 """
 
 from __future__ import annotations

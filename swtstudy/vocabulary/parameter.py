@@ -41,7 +41,7 @@ class Parameter:
         CF units: "1", or "rad" for the phase.
     scale
         Its scale where it is a length, a force or a stress, a key of
-        `swtstudy.units.rows.SCALES`; else empty.
+        `swtstudy.study.units.rows.SCALES`; else empty.
     instead_of
         The parameter whose place it takes: one of the two is given. Else empty.
     note

@@ -40,7 +40,7 @@ _ROWS = [
 ]
 #: Dimensions of quantities beside s that the points do not have.
 QUANTITY_AXES = {row.name: row for row in _ROWS if row.part == "quantity"}
-#: Parameters of real contacts alone. The study names their units: see `swtstudy.units.rows`.
+#: Parameters of real contacts alone. The study names their units: see `swtstudy.study.units.rows`.
 CONTACT_AXES = {row.name: row for row in _ROWS if row.part == "contact"}
 PARAMETERS = {row.name: row for row in _ROWS if row.part not in ("quantity", "contact")}
 AXES: Mapping[str, Parameter] = ChainMap(PARAMETERS, QUANTITY_AXES, CONTACT_AXES)

@@ -289,7 +289,7 @@ def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
 
 @pytest.mark.parametrize(("parts", "words"), [(1, "10 s"), (2, "5.0 s"), (9, "5.0 s")])
 def test_plan_counts_only_the_workers_that_have_something_to_do(study, tmp_path, monkeypatch, parts, words):
-    monkeypatch.setattr("swtstudy.runner.work.estimate", lambda work, rtol: (10.0, 1, parts))
+    monkeypatch.setattr("swtstudy.archive.work.estimate", lambda work, rtol: (10.0, 1, parts))
     assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
 
 
@@ -379,7 +379,7 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    from swtstudy.runner import run as run_module
+    from swtstudy.archive import run as run_module
 
     def ctrl_c(*_):
         signal.raise_signal(signal.SIGINT)
@@ -549,7 +549,7 @@ def test_python_m(tmp_path):
 @pytest.fixture
 def suite(small_text, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    for module in ("study.shipped", "runner.run"):
+    for module in ("study.shipped", "archive.run"):
         monkeypatch.setattr(f"swtstudy.{module}.shipped_folder", lambda: tmp_path / "studies")
     (tmp_path / "studies").mkdir()
     for name, text in (("one", small_text.split("[figure]")[0]), ("two", small_text)):
@@ -687,7 +687,7 @@ def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
     def refuse(*_):
         raise MemoryError("Unable to allocate 4.85 GiB")
 
-    monkeypatch.setattr("swtstudy.runner.work.assess", refuse)
+    monkeypatch.setattr("swtstudy.archive.work.assess", refuse)
     result = call("plan", "figure3")
     assert result.exit_code == 2
     assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"

@@ -12,7 +12,7 @@ from oracles import profiles as oracle
 import swtstudy
 from swtstudy import draw_profile
 from swtstudy.cli import main
-from swtstudy.contacts import PhysicalContact
+from swtstudy.faces.contacts import PhysicalContact
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")

@@ -5,8 +5,8 @@ import pytest
 from folders import ROOT, STUDIES
 
 import swtstudy
-from swtstudy.fields.inspection import load_and_springs
 from swtstudy.figures.live import LiveFigure, phases
+from swtstudy.results.inspection import load_and_springs
 
 NOTEBOOK = STUDIES / "explore_live.ipynb"
 

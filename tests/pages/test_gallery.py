@@ -8,7 +8,7 @@ import pytest
 from build_steps import gallery as pages
 from folders import ROOT
 
-from swtstudy.reports.site import Entry
+from swtstudy.faces.site import Entry
 
 
 def test_a_card_leads_to_the_report_or_to_the_figure(monkeypatch: pytest.MonkeyPatch) -> None:

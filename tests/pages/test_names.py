@@ -31,7 +31,7 @@ def exists(name: str) -> bool:
     return False
 
 
-@pytest.mark.parametrize("name", ["swtstudy.units.rows.SIMILAR", "swtstudy.run", "swtstudy.points"])
+@pytest.mark.parametrize("name", ["swtstudy.study.units.rows.SIMILAR", "swtstudy.run", "swtstudy.points"])
 def test_what_exists_is_found(name: str) -> None:
     assert exists(name)
     assert not exists(f"{name}s_of_old")

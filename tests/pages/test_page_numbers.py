@@ -15,11 +15,11 @@ from solved import REGIMES
 
 from swtstudy import Study, open_results, solve
 from swtstudy.cli.run import POINTS_FAILED
+from swtstudy.faces.html import LARGEST_TABLE
 from swtstudy.kernel.circle import SAFE_POISSON_RATIO
 from swtstudy.kernel.point import NEAREST, TEARS
 from swtstudy.paper.audit import TOLERANCE
-from swtstudy.reports.html import LARGEST_TABLE
-from swtstudy.units.rows import NOTICEABLE_MISMATCH, SIMILAR
+from swtstudy.study.units.rows import NOTICEABLE_MISMATCH, SIMILAR
 
 PAGES = {
     str(page.relative_to(ROOT)): " ".join(page.read_text(encoding="utf-8").split()) for page in shown.PAGES

@@ -20,7 +20,7 @@ from solved import REGIMES
 import swtstudy
 from swtstudy import Study, open_results
 from swtstudy.archive.netcdf import save
-from swtstudy.runner.work import assess
+from swtstudy.archive.work import assess
 from swtstudy.vocabulary.variables import MISSING
 
 PYTHON = [page for page in shown.PAGES if any(b.language == "python" for b in shown.blocks_of(page))]

@@ -33,7 +33,7 @@ def audited(monkeypatch):
         return made_up_point(s_error=float(len(rows)))
 
     monkeypatch.setattr("swtstudy.paper.audit.audit_point", audit_point)
-    monkeypatch.setattr("swtstudy.runner.workers.start_workers", ThreadPoolExecutor)
+    monkeypatch.setattr("swtstudy.archive.workers.start_workers", ThreadPoolExecutor)
     return rows
 
 

@@ -12,8 +12,8 @@ from swtstudy import Study, physical, run
 from swtstudy.archive.describe import describe
 from swtstudy.cli import main
 from swtstudy.points.labelled import margins
-from swtstudy.points.validity import outside, validity_lines
-from swtstudy.solving import solve_grid
+from swtstudy.points.solve import solve_grid
+from swtstudy.points.validity import outside, outside_words, validity_lines
 
 #: Forces of a rig: constant load, so that all is in closed form.
 RIG = f"""
@@ -205,6 +205,14 @@ def test_a_life_beyond_the_constants_is_said(rig):
     assert f"cycles_volume extrapolated at 1 of 3 points: 5·10⁸, {known}" in validity_lines(volume)
     one = long.isel(tangential_force_amplitude=[1])
     assert f"cycles extrapolated: 5·10⁸, {known}" in validity_lines(one)
+
+
+def test_lives_that_are_extrapolated_have_places_of_their_own(rig):
+    lives = {"cycles": [5.0, 1e4, 1e4], "cycles_volume": [5e8, 5e8, 1e4], "cycles_line": [1e4, 6.0, 1e4]}
+    several = rig.assign({name: rig.cycles * 0.0 + np.array(values) for name, values in lives.items()})
+    known = "(beyond 100 to 10⁷)"
+    places = "cycles, cycles_line extrapolated at 1 of 3 points and cycles_volume extrapolated at 2"
+    assert f"{places} of 3 points {known}" in outside_words(several)
 
 
 def test_a_whole_grid_without_a_value_says_why():

@@ -440,7 +440,7 @@ def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest
     for axes in (upper, lower):  # one criterion has each
         assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
     # Pictures of points take seconds.
-    monkeypatch.setattr("swtstudy.reports.page.points_of", lambda *_: [])
+    monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
     told("report", archive, "-o", tmp_path / "shear.html")
     assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 

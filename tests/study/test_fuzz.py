@@ -20,7 +20,7 @@ from mutated import mutated
 from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.parts import known_points, parts_folder, read_parts, save_part
 from swtstudy.cli import main
-from swtstudy.solving import solve_grid
+from swtstudy.points.solve import solve_grid
 from swtstudy.study.definition import study_from
 from swtstudy.study.writing import to_toml
 

@@ -12,8 +12,8 @@ from swtstudy import Study, StudyError, open_results, run
 from swtstudy.archive.describe import describe
 from swtstudy.archive.merge import merge
 from swtstudy.archive.recall import grid_of
+from swtstudy.archive.run import Stopped
 from swtstudy.points.grid import Grid
-from swtstudy.runner.run import Stopped
 from swtstudy.study.keys import DESIGNS
 from swtstudy.study.sample import Design, Distribution, drawn_rows
 from swtstudy.study.template import template

@@ -13,7 +13,7 @@ import real
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, read_signal, run
 from swtstudy.study.cycles import drift, harmonics, mean_over, scatter
-from swtstudy.units.grid import mean_of_loads
+from swtstudy.study.units.grid import mean_of_loads
 
 RIG = f"rtol = 1e-3{real.RIG}"
 #: A cycle in N, N and MPa.
@@ -82,7 +82,7 @@ def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_
     (tmp_path / "rig.csv").unlink()
     again = Study.from_text(open_results(tmp_path / "absolute.nc").attrs["study"])
     assert again.grid.values("normal_force") == (200.0,)
-    from swtstudy.runner.work import assess
+    from swtstudy.archive.work import assess
 
     assert assess(again, tmp_path / "absolute.nc").todo.sum() == 0
     contact = swtstudy.physical(

@@ -1,0 +1,1 @@
+"""Faces beside the command line: real contacts in Python, methods of Datasets, histories, reports."""

@@ -1,0 +1,782 @@
+"""Real contacts in physical units: their parameters, fields, SWT and lives, and results of both bodies."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache, partial
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.points.labelled import margins, plain_values
+from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.rules import idle_axes
+from swtstudy.points.solve import dimensions_of, solve_grid, spanned
+from swtstudy.points.validity import validity_lines
+from swtstudy.solver.table import TabulatedProfile
+from swtstudy.study.units.at_rest import Contact, Moduli
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, are_measured
+from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
+from swtstudy.study.units.material import warn_of_units
+from swtstudy.study.units.reading import check_distances, completed, read_contacts
+from swtstudy.study.units.results import COMMENTS, attributes, derived, scale_of
+from swtstudy.study.units.rows import (
+    LABELS,
+    NAMES_KEY,
+    OF_BODIES,
+    ONE_OF,
+    REST_DEPENDS_ON,
+    SCALES,
+    SIMILAR,
+    SIMILAR_KEY,
+    TABLES,
+    Units,
+    checked_body,
+    rows,
+    wrong_size,
+)
+from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
+from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
+from swtstudy.vocabulary.mistakes import (
+    ALLOWED_RTOL,
+    DEFAULT_RTOL,
+    Mistake,
+    Report,
+    StudyError,
+    is_rtol,
+    literal,
+    plain_number,
+    refused,
+)
+from swtstudy.vocabulary.naming import with_parameters
+from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, Request, read_quantities
+from swtstudy.vocabulary.variables import ATTRIBUTES
+from swtstudy.vocabulary.wording import html_table, place_words, plain_words
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+    from swtstudy.figures.sheet import Width
+    from swtstudy.figures.style import Style
+    from swtstudy.figures.words import Label
+
+    #: Values with names for their dimensions keep them.
+    Values = FloatArray | xr.DataArray
+
+#: Sizes of a contact at rest.
+AT_REST = (*TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
+
+
+@lru_cache(maxsize=8)
+def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
+    """`TabulatedProfile.scaled`, whose fit takes time."""
+    return table.scaled(length, depth)
+
+
+@dataclass(frozen=True, repr=False)
+class PhysicalContact:
+    """A real contact, or contacts on the grid that sequences of values span, in any consistent set of units.
+
+    Each parameter is an attribute, None where another one is given in its place; so is what the contact is
+    at rest: ``depth`` δ0, ``normal_force``, ``contact_radius`` a, ``mean_pressure``, ``peak_pressure`` (inf
+    at the edge of a truncated paraboloid), ``length_scale`` a_H, ``slip_scale`` μ E* δ0/G*,
+    ``stress_scale`` E* δ0/a_H, ``swt_scale`` E* (δ0/a_H)², ``work_scale``, the unit of the work of friction,
+    and ``force_factor``, the force over E* δ0 a_H. For several contacts these are DataArrays over the
+    dimensions on which they depend.
+
+    Attributes
+    ----------
+    grid
+        Their parameters; the bodies, 1 and 2, are the last dimension unless one of them is asked for.
+    """
+
+    grid: PhysicalGrid
+
+    def __repr__(self) -> str:
+        several = {n: size for n, size in self.grid.sizes.items() if n != "body"}
+        words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
+        count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
+        rows = [*self._words()]
+        wide = [max(len(row[column]) for row in rows) for column in range(3)]
+        lines = (
+            f"  {kind:<{wide[0]}}  {name:<{wide[1]}}  {value:>{wide[2]}}  {meaning}".rstrip()
+            for kind, name, value, meaning in rows
+        )
+        return "\n".join((f"<PhysicalContact: {count}{words}>", *lines))
+
+    def _repr_html_(self) -> str:
+        """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
+        return f"<div><b>Real contact</b>, in any consistent set of units{html_table(self._words())}</div>"
+
+    def _words(self) -> Iterator[tuple[str, str, str, str]]:
+        """Kind, name, value and meaning of all that is known without solving."""
+        grid = self.grid
+        for name, each in self._given().items():
+            if name not in TABLES["at_rest"]:
+                yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
+        for name, meaning in TABLES["at_rest"].items():
+            found = np.unique(grid.each(attrgetter(name)))
+            ends = dict.fromkeys(found[[0, -1]].tolist())
+            yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
+        # How far the contacts are from where the model ends, as far as that is known without solving.
+        for name, values in margins(grid).items():
+            if name not in ("stick_zone", "bulk_shift") and np.isfinite(values).any():
+                largest = plain_words(float(np.nanmax(values)))
+                yield "margin", name, f"up to {largest}", ATTRIBUTES[name]["comment"]
+        single = grid.dims in ((), ("body",))
+        for name, value in (self.parameters(grid.bulk_stress_body + 1) if single else {}).items():
+            if PARAMETERS[name].scale:
+                yield "without units", name, plain_words(value), PARAMETERS[name].notation
+
+    def _given(self) -> dict[str, tuple[Any, ...]]:
+        """The values of what is given, but for what goes without saying."""
+        grid, loads = self.grid, self.grid.values("load")
+        values = {name: grid.pairs.get(name) or grid.values(name) for name in grid.rows if name != "body"}
+        unsaid = ["frequency_ratio", "phase"] if all(isinstance(load, Definition) for load in loads) else []
+        if are_measured(loads):
+            # Its amplitudes are factors of what was measured.
+            factors = [name for name in values if grid.row(name).part in ("load", "bulk")]
+            unsaid += [name for name in factors if {*values[name]} == {LOOP_AMPLITUDE}]
+        return {
+            name: each
+            for name, each in values.items()
+            if each and name not in unsaid and not all(map(grid.row(name).goes_without_saying, each))
+        }
+
+    def __getattr__(self, name: str) -> Any:
+        if name in AT_REST:
+            return self._plain(self.grid.each(attrgetter(name)))
+        if name == "grid" or name not in self.grid.rows:
+            raise AttributeError(f"a contact has no {name!r}")
+        values = self.grid.values(name)
+        if name == "bulk_stress_mean" and self.grid.values("bulk_stress_ratio"):
+            return self._plain(self.grid.mean_of_bulk(self.grid.along("bulk_stress_amplitude")))
+        if len(values) < 2:
+            return values[0] if values else None
+        if self.grid.row(name).kind == "name":
+            return self._plain(self.grid.over_dimension(name, np.array(values, object)))
+        return self._plain(self.grid.along(name))
+
+    def _plain(self, values: xr.Variable) -> Any:
+        """A number that does not vary as one of Python's, others with the values of their dimensions."""
+        import xarray as xr
+
+        labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
+        return xr.DataArray(values, labels) if labels else values.values.item()
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *AT_REST, *self.grid.rows]
+
+    @property
+    def moduli(self) -> Moduli:
+        """Elastic constants of the two bodies."""
+        return self.grid.distinct[0].moduli
+
+    @property
+    def shape(self) -> dict[str, Any]:
+        """Shape parameters of the profile, lengths but for the exponent."""
+        profiles = {name for profile in self.grid.values("profile") for name in family_of(profile).shape}
+        return {name: getattr(self, name) for name in PARAMETERS if name in profiles}
+
+    def with_parameters(self, **parameters: Any) -> PhysicalContact:
+        """The same bodies at the same R and δ0 with other non-dimensional parameters, which give its lengths.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake in the parameters.
+        """
+        if "poisson_ratio" in parameters:
+            raise refused("poisson_ratio", "a parameter", "that of the bodies, which stays")
+        rest, grid = self._one, self.grid
+        profile = parameters.get("profile", rest.profile)
+        kept = family_of(profile).shape
+        every = self.parameters(grid.bulk_stress_body + 1)
+        own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
+        replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
+        own = {name: value for name, value in own.items() if name not in replaced}
+        found, report = read_grid({**own, **parameters}, {})
+        if found is None:
+            raise StudyError(report)
+        fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
+        if "profile" not in parameters:
+            fixed["profile"] = rest.profile
+        elif isinstance(fixed["profile"], TabulatedProfile):
+            fixed["profile"] = _scaled(fixed["profile"], 1.0 / rest.length_scale, 1.0 / rest.depth)
+        contact = replace(rest, friction=fixed["friction"], profile=fixed["profile"], shape={})
+        shape = family_of(contact.profile).shape
+        # In the order of the table: a length may be measured in the one before it.
+        for name in sorted(fixed, key=[*PARAMETERS].index):
+            if PARAMETERS[name].scale:
+                fixed[name] = contact.length_of(name, fixed[name])
+            if name in shape:
+                contact = replace(contact, shape={**contact.shape, name: fixed[name]})
+        bodies = ("young_modulus", "poisson_ratio", "radius", "body")
+        fixed |= {name: value for name, value in grid.fixed.items() if name in bodies}
+        axes = {name: values for name, values in grid.axes.items() if name == "body"}
+        return PhysicalContact(completed(fixed | {"depth": rest.depth}, axes, {}, grid.about))
+
+    def swt(self, s: ArrayLike | xr.DataArray, body: int | None = None) -> Values:
+        """SWT of the bodies, in the unit of stress of the moduli, from s (eq. 19).
+
+        Parameters
+        ----------
+        s
+            From `parameters` of the body; also non-local values, or s_local of `swtstudy.swt_field`. In a
+            DataArray with the coordinate ``body``, such as `solve` gives, each value belongs to its body.
+            A DataArray over their dimensions for several contacts.
+        body
+            1 or 2, the body that has this s. Needed where the bodies differ and s does not say it.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if it is not said which body has this s, or s is negative or no number.
+        """
+        return self._swt_of(s, self.moduli.alike, body)[0]
+
+    def cycles(
+        self,
+        constants: FatigueConstants | Sequence[FatigueConstants],
+        s: ArrayLike | xr.DataArray,
+        body: int | None = None,
+        counted: xr.Dataset | None = None,
+    ) -> Values:
+        """Rounds of the load to the initiation of a crack; mind the caveat of `FatigueConstants.cycles`.
+
+        Parameters
+        ----------
+        constants
+            Constants of both bodies, or a pair for bodies of different materials.
+        s, body
+            As for `swt`: ``contact.cycles((steel, cast_iron), contact.solve().s)`` has a life of each body.
+        counted
+            Results with counted and counted_number, as of `solve` with constants, with which s is a
+            DataArray; unless it is given a round counts as one strain cycle.
+
+        Returns
+        -------
+        numpy.ndarray or xarray.DataArray
+            As s is, of the same shape.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, as of `swt`, or if the constants are none.
+        """
+        if constants is None:
+            raise refused("constants", "None", "a FatigueConstants, or a pair of them, one for each body")
+        report = Report()
+        both = _of_both("constants", constants, report, FatigueConstants)
+        report.refuse()
+        swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
+        if counted is None:
+            one, two = (each.cycles(np.asarray(swt)) for each in both)
+        else:
+            one, two = (np.asarray(each.rounds(swt, *(counted[name] for name in COUNTED))) for each in both)
+        lives = np.where(bodies == 1, two, one)
+        if not hasattr(swt, "dims"):
+            return lives
+        words = attributes(DERIVED[LIFE], self.grid.labels)
+        words |= {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
+        return swt.copy(data=lives).rename("cycles").drop_attrs(deep=False).assign_attrs(words)
+
+    def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
+        """SWT from s, and the index of the body of each value, 0 or 1, broadcastable to the values' shape.
+
+        Raises
+        ------
+        StudyError
+            If no s of the contacts is of SWT; if ``body`` and the coordinate ``body`` name it both, or
+            neither and the bodies are not ``alike``; if s is negative or no number.
+        """
+        import xarray as xr
+
+        names = [str(each) for each in self.grid.values("criterion")]
+        if SWT not in names:
+            allowed = f"{SWT}; of others solve() has the values in units"
+            raise refused("criterion", ", ".join(names), allowed)
+        bodies: IndexArray
+        if isinstance(s, xr.DataArray) and "body" in s.coords:
+            if body is not None:
+                raise refused("body", literal(body), "nothing, since s has the coordinate body")
+            if not np.isin(s.body, LABELS).all():
+                found = f"the coordinate {literal(s.body.values.tolist())}"
+                raise refused("body", found, "1 and 2")
+            bodies = (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+        elif body is None and not alike:
+            allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
+            raise refused("body", "nothing", allowed)
+        else:
+            bodies = np.array(0 if body is None else checked_body(body) - 1)
+        with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
+            of_body = (
+                not_negative("s", s) * np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])[bodies]
+            )
+            if not isinstance(s, xr.DataArray):
+                return of_body * self.swt_scale, bodies
+            swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)
+        words = attributes(DERIVED["SWT"], self.grid.labels)
+        return swt.rename("SWT").drop_attrs(deep=False).assign_attrs(words), bodies
+
+    def solve(
+        self,
+        rtol: float = DEFAULT_RTOL,
+        *,
+        quantities: Sequence[str] = (),
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+        blocks: Mapping[str, float] | None = None,
+    ) -> xr.Dataset:
+        """s, SWT and, with constants, cycles of both bodies.
+
+        Parameters
+        ----------
+        rtol
+            Relative accuracy asked of s.
+        quantities
+            Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
+        critical_distance
+            One or several lengths, for nonlocal values.
+        constants
+            Constants of both bodies, or a pair for bodies of different materials: for cycles.
+        yield_strength
+            Strength of both bodies, or a pair: for von_mises and yield_ratio.
+        blocks
+            Rounds of each load, by its name, in a sequence of blocks that repeats: for Miner's sum.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of a study with units. Its dimensions are the sequences, in the order given, and ``body``, 1
+            and 2, unless the contact is given for one body.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        grid, asked = self._with_request(
+            rtol, critical_distance, constants, yield_strength, quantities, blocks
+        )
+        for words in idle_axes(grid):
+            warnings.warn(words, stacklevel=2)
+        return solve_grid(grid, float(rtol), asked)
+
+    def _with_request(
+        self, rtol: Any, distance: Any, constants: Any, strength: Any, names: Any = (), blocks: Any = None
+    ) -> tuple[PhysicalGrid, Request]:
+        """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
+        report, grid = Report(), self.grid
+        fixed, axes = spanned({} if distance is None else {DISTANCE: distance}, report)
+        if not is_rtol(rtol):
+            report("rtol", literal(rtol), ALLOWED_RTOL)
+        distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
+        names = read_quantities(names, "quantities", report)
+        materials = _of_both("constants", constants, report, FatigueConstants)
+        strengths = _of_both("yield_strength", strength, report) or grid.yield_strengths
+        grid = replace(grid, materials=materials, yield_strengths=strengths)
+        with report:
+            grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
+        if constants is not None and (alone := without_life(grid.values("criterion"))):
+            report("constants", f"constants with the criterion {alone} alone", "none: it has no life")
+        if blocks and constants is None and not grid.has_lives:
+            report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
+        check_distances(grid, distances[0], report)
+        report.refuse()
+        warn_of_units(grid, self.moduli.young)
+        return grid, grid.request(names, *distances)
+
+    def optimise(
+        self,
+        over: Mapping[str, tuple[object, object]],
+        minimise: str = "SWT",
+        *,
+        rtol: float = DEFAULT_RTOL,
+        seed: int = 0,
+        critical_distance: object = None,
+        constants: FatigueConstants | Sequence[FatigueConstants] | None = None,
+        yield_strength: float | Sequence[float] | None = None,
+    ) -> xr.Dataset:
+        """The load, or contact, with the least SWT or the longest life, and the other extreme.
+
+        Parameters
+        ----------
+        over
+            Ranges by name, ``(low, high)``, in your units, of parameters that are numbers; the others are
+            the values of this contact.
+        minimise
+            A data variable of `solve`: "SWT", "SWT_volume", "cycles_volume", "yield_ratio" … Of a life the
+            best is the longest. The worse of both bodies, and of both directions, counts.
+        rtol, seed
+            As for `swtstudy.optimise`.
+        critical_distance, constants, yield_strength
+            As for `solve`.
+
+        Returns
+        -------
+        xarray.Dataset
+            As of `swtstudy.optimise`, in your units.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with every mistake.
+        """
+        from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
+
+        self._one  # noqa: B018 – one contact only, or an error
+        grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
+        made = (each.name for each in derived(grid, asked) if each.of)
+        known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
+        if minimise not in known and (lacks := lacking(minimise, grid, grid.values("criterion"), asked)):
+            raise refused("minimise", literal(minimise), f"with {' and '.join(lacks)}")
+        report, numbers = Report(), [name for name, row in grid.rows.items() if row.kind == "number"]
+        corners: PhysicalGrid | None = None
+        with report:
+            ranges, wrong = read_ranges(over, [name for name in numbers if name not in (DISTANCE, "body")])
+            wrong.refuse()
+            replaced = {*ranges}.union(*(pair for pair in ONE_OF if {*pair} & {*ranges}))
+            given = {**grid.fixed, **{name: [*two] for name, two in grid.pairs.items()}}
+            fixed = {name: value for name, value in given.items() if name not in replaced}
+            bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
+            corners, found = read_contacts(
+                fixed,
+                {**ranges, **bodies},
+                grid.about,
+                lambda name: f"over.{name}" if name in ranges else name,
+            )
+            found.refuse()
+        check_asked(report, minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
+        if asked.is_axis:
+            report(DISTANCE, "several", "one: what is made least is one value")
+        report.refuse()
+        assert corners is not None
+        return optimum_in(Box.of(corners, over), minimise, float(rtol), int(seed), asked)
+
+    @cached_property
+    def _one(self) -> Contact:
+        """The contact at rest; a StudyError if there are several."""
+        several = [name for name in self.grid.dims if name != "body"]
+        if several:
+            raise refused(", ".join(several), "several contacts", "one: a single value of each")
+        return self.grid.at_rest.values.item()
+
+    def parameters(self, body: int | str = 1) -> dict[str, Any]:
+        """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
+
+        Parameters
+        ----------
+        body
+            1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
+            the tractions do not depend on these, and the stress beneath them on the body's alone.
+        """
+        contact, grid = self._one, self._grid_of(self._body(body))
+        control, shape = grid.control, family_of(contact.profile).shape
+        names = ("frequency_ratio", "load", "criterion", SHIFT)
+        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
+        own["profile"] = contact.pure_profile
+        for column, values in grid.numbers.items():
+            if PARAMETERS[column].part != "shape" or column in shape:
+                own[control.given_for(column)] = float(values.squeeze())
+        # The scale of a loop is 1 unless it is given.
+        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
+        if is_plane(contact.profile):
+            # In the plane it is always a force, also where the normal load rests along a loop.
+            needed = (*needed, "normal_force_amplitude")
+            own.setdefault("normal_force_amplitude", own.pop("normal_amplitude", 0.0))
+        if own["criterion"] == SWT:
+            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
+        else:
+            needed = (*needed, "normal_sensitivity")
+        return {
+            name: own[name]
+            for name, row in PARAMETERS.items()
+            if name in own and (name in needed or not row.goes_without_saying(own[name]))
+        }
+
+    def _grid_of(self, body: int) -> PhysicalGrid:
+        """The grid of one body."""
+        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
+        return replace(self.grid, fixed=fixed, axes={**self.grid.axes, "body": (float(body),)})
+
+    def _body(self, body: int | str) -> int:
+        """The label of a body, 1 or 2, from that or its name."""
+        return checked_body(body, names=self.grid.body_names)
+
+    def _scales(self, body: int | str) -> dict[str, tuple[float, str, str]]:
+        """By name of a variable its scale in one body of one contact, its symbol, the label of its unit."""
+        contact, index, labels = self._one, self._body(body) - 1, self.grid.labels
+        row = CRITERIA[str(self.grid.values("criterion")[0])]
+        measured = TABLES["measured"].items()
+        found = {name: (getattr(contact, scale), symbol, kind) for name, (scale, kind, symbol) in measured}
+        strain = contact.depth / contact.length_scale * contact.moduli.swt_share(index)
+        found["normal_strain"] = strain, r"\varepsilon_n", "1"
+        found["s_local"] = scale_of(row.scale)(contact, index), row.sign, row.unit
+        return {name: (scale, symbol, labels.words(kind)) for name, (scale, symbol, kind) in found.items()}
+
+    def _with_units(self, dataset: xr.Dataset, body: int | str) -> xr.Dataset:
+        """Results of one body of one contact in lengths, forces and stresses."""
+        dataset, scales = dataset.copy(), {}
+        for name, (scale, symbol, unit) in self._scales(body).items():
+            if name in dataset.variables:
+                words = str(dataset[name].attrs.get("long_name", name))
+                words = words.partition(", in units of")[0].partition(" over E*")[0]
+                scales[name] = scale, {"long_name": words, "symbol": symbol, "units": unit}
+        for name, row in self.grid.rows.items():
+            by = PARAMETERS[name].scale if name in PARAMETERS else ""
+            if by and name in dataset.coords:
+                unit = self.grid.labels.words(SCALES[by].kind)
+                scales[name] = SCALES[by].of(self._one), {"symbol": row.symbol, "units": unit}
+        for name, (scale, own) in scales.items():
+            attributes = {**dataset[name].attrs, **own}
+            dataset[name] = dataset[name].variable * scale
+            dataset[name].attrs = attributes
+        return dataset
+
+    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
+        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
+        body, words = self._body(body), {}
+        for name, values in {"profile": self.grid.values("profile"), **self._given()}.items():
+            row = self.grid.row(name)
+            of_other = row.part == "bulk" and body != self.grid.bulk_stress_body + 1
+            if not of_other and (name in REST_DEPENDS_ON or not at_rest):
+                value: Any = values[body - 1 if name in self.grid.pairs else 0]
+                value = str(value) if row.kind == "name" else value
+                words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
+        if self.grid.body_names and not at_rest:
+            words["body"] = self.grid.body_names[body - 1]
+        grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
+        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, grid.request(())))
+        return ",  ".join(words.values()), validity
+
+    @contextmanager
+    def _in_equilibrium(self, body: int | str) -> Iterator[None]:
+        """Say in the units of the contact that it has no equilibrium, if that is why a cycle is refused."""
+        try:
+            yield
+        except StudyError as error:
+            lost = [line for line in self._headlines(body)[1] if line.startswith("no equilibrium")]
+            if not lost:
+                raise
+            raise StudyError(replace(mistake, found=lost[0]) for mistake in error.mistakes) from None
+
+    def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
+        """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
+        from swtstudy.results.stress import stress_field
+
+        return self._field(partial(stress_field, time=time), body, x=x, y=y, z=z)
+
+    def swt_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1) -> xr.Dataset:
+        """`swtstudy.swt_field` of one contact: at lengths, SWT in the unit of stress, in one body.
+
+        By a criterion of shear FS, a strain, or findley_stress.
+        """
+        from swtstudy.results.stress import swt_field
+
+        found = self._field(swt_field, body, x=x, y=y, z=z)
+        return found.rename(s_local=CRITERIA[str(self.grid.values("criterion")[0])].name)
+
+    def _field(self, field: Callable[..., xr.Dataset], body: int | str, **places: Any) -> xr.Dataset:
+        """A field at places that are lengths, with units."""
+        from swtstudy.results.one_point import read_places
+
+        length, parameters = self._one.length_scale, self.parameters(body)
+        read_places(**places, allowed="finite positions, which are lengths")  # as they are given
+        in_a_h = {
+            name: v / length if hasattr(v, "dims") else np.divide(v, length) for name, v in places.items()
+        }
+        with self._in_equilibrium(body):
+            found = field(**in_a_h, **parameters)
+        return self._with_units(found, body)
+
+    def inspect_point(self, body: int | str = 1) -> xr.Dataset:
+        """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.results.inspection import inspect_point
+
+        with self._in_equilibrium(body):
+            return self._with_units(inspect_point(**self.parameters(body)), body)
+
+    def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
+        from swtstudy.figures.point import draw_inspection
+        from swtstudy.results.inspection import inspect_point
+
+        labels, headlines = self._labels(body), self._headlines(body)
+        with self._in_equilibrium(body):
+            return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+
+    def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
+        """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
+        from swtstudy.figures.definitions import draw_shape
+
+        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
+        given, _ = self._headlines(1, at_rest=True)
+        return draw_shape(shape, style, width, self._labels(1), given)
+
+    def _labels(self, body: int | str) -> dict[str, Label]:
+        """By name of a variable what its numbers are in the units of one body of the contact."""
+        from swtstudy.figures.words import Label
+
+        found = {name: Label(*each) for name, each in self._scales(body).items()}
+        if self.grid.values("criterion")[0] != SWT:
+            found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
+        return found
+
+
+def _of_both(name: str, given: Any, report: Report, kind: type[Any] | None = None) -> tuple[Any, ...]:
+    """Constants of a kind, or else a stress, of each body: from one for both, or from a pair.
+
+    Nothing, if that is not given or wrong; mistakes are added.
+    """
+    if given is None:
+        return ()
+    pair = tuple(given) if dimensions_of(given) == 1 and len(given) == 2 else (given, given)
+    allowed = f"a {kind.__name__ if kind else 'positive stress'}, or a pair of them, one for each body"
+    if kind is None:
+        wrong = [each for stress in pair for each in wrong_size(name, stress, allowed)]
+        pair = tuple(map(plain_number, pair))
+    else:
+        sound = all(isinstance(one, kind) for one in pair)
+        wrong = [] if sound else [Mistake(name, literal(given), allowed)]
+    report += dict.fromkeys(wrong)
+    return () if wrong else pair
+
+
+def contact_of(dataset: xr.Dataset) -> PhysicalContact:
+    """The contacts of results.
+
+    Raises
+    ------
+    StudyError
+        If they have no units, or what a contact needs has been dropped.
+    """
+    from swtstudy.archive.recall import grid_of
+
+    grid = grid_of(dataset)
+    if not isinstance(grid, PhysicalGrid):
+        raise refused("units", "results without units", "those of a study with [units]")
+    return PhysicalContact(grid)
+
+
+#: Keywords that ask for something; all others describe contacts.
+_ASKED = ("rtol", "quantities", DISTANCE, "constants")
+
+
+@with_parameters(row for name, row in rows(Units()).items() if name != DISTANCE)
+def physical(
+    *,
+    similar: Any = SIMILAR,
+    bulk_stress_body: Any = 1,
+    bodies: Any = None,
+    yield_strength: Any = None,
+    findley_limit: Any = None,
+    shear_constants: Any = None,
+    **parameters: Any,
+) -> PhysicalContact:
+    """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
+
+    Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
+    sequence of values; the result then covers every combination of the values.
+
+    Parameters
+    ----------
+    similar
+        Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
+    bulk_stress_body
+        1 or 2: the body that carries the bulk stress; the other one has none.
+    bodies
+        Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
+    yield_strength
+        A stress, of both bodies or a pair: the criterion "fatemi_socie" measures σ_n in it.
+    findley_limit
+        A stress, of both bodies or a pair: with the criterion "findley" results have findley_usage, the
+        Findley stress divided by this limit.
+    shear_constants
+        `swtstudy.ShearConstants` of both bodies, or a pair: for FS_cycles by the criterion "fatemi_socie".
+        By default they are estimated from the tensile constants of ``solve``.
+    **parameters
+        The names below. young_modulus and poisson_ratio are one value for two equal bodies, or a pair; these,
+        radius, and either depth or normal_force must be given. The power law is f = rⁿ/(n Rⁿ⁻¹), with the
+        slope 1 at r = R. There is no radius for a profile that is a `TabulatedProfile`: its radii and heights
+        are lengths, the heights belong to both bodies together. With contact_length the loads of a plane
+        contact are forces, without it forces per length. Plane contacts take only forces, with a constant
+        normal load by default. bulk_stress_ratio replaces bulk_stress_mean.
+        Parameters with a scale are lengths:
+        tangential_amplitude uA of the relative displacement of the bodies far from the contact, which must be
+        given as must be friction μ; normal_amplitude δA of the indentation depth, 0 unless given; instead of
+        them the forces tangential_force_amplitude QA and normal_force_amplitude FA; and flat_radius b,
+        waviness_amplitude h and wavelength λ of profiles that have them. bulk_stress_amplitude and
+        bulk_stress_mean are stresses, 0 unless given, but the amplitude is 1 for a loop with a bulk stress:
+        its column then has stresses. Angles, numbers, frequency_ratio, profile and exponent
+        are as for `swtstudy.solve`.
+
+    Returns
+    -------
+    PhysicalContact
+        Its ``solve`` gives the Dataset of a study with units, of both bodies.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake; also if the bodies are not similar.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> contact = swtstudy.physical(
+    ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=200.0,
+    ...     friction=0.5, tangential_amplitude=0.002,
+    ... )
+    >>> round(contact.peak_pressure), round(contact.contact_radius, 3)
+    (296, 0.568)
+    >>> contacts = swtstudy.physical(
+    ...     young_modulus=73.1e3, poisson_ratio=0.33, radius=50.0, normal_force=[100.0, 200.0],
+    ...     friction=0.5, tangential_amplitude=0.002,
+    ... )
+    >>> repr(contacts).splitlines()[0]
+    '<PhysicalContact: 2 normal_force>'
+    >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
+    [0.52, 0.58]
+    """
+    report, wrong, about = Report(), Report(), ContactDetails()
+    unsaid = {name for name in (*CONTACT_AXES, *OF_BODIES) if parameters.get(name) is None}
+    parameters = {name: value for name, value in parameters.items() if name not in unsaid}
+    for name in _ASKED:
+        if name in parameters:
+            report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
+    own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *OF_BODIES)}
+    fixed, axes = spanned(own, wrong)
+    for name in (name for name in OF_BODIES if name in parameters):
+        value = parameters[name]
+        fixed[name] = list(value) if dimensions_of(value) == 1 else value
+    properties: dict[str, Any] = {
+        "yield_strengths": _of_both("yield_strength", yield_strength, report),
+        "findley_limits": _of_both("findley_limit", findley_limit, report),
+        "shear_materials": _of_both("shear_constants", shear_constants, report, ShearConstants),
+    }
+    with report:
+        carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
+        about = ContactDetails(bulk_stress_body=carrier, **properties)
+    if "body" not in parameters:
+        axes = {**axes, "body": LABELS}
+    named = {} if bodies is None else {NAMES_KEY: bodies}
+    grid, found = read_contacts({**fixed, **named, SIMILAR_KEY: similar}, axes, about)
+    if grid is None or report or wrong:
+        raise StudyError([*report, *wrong, *found])
+    return PhysicalContact(grid)

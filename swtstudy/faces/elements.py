@@ -1,0 +1,259 @@
+"""Stress histories of finite elements: from a table of a user to criteria, critical planes and lives."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from swtstudy.points.values import read_exact
+from swtstudy.results.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
+from swtstudy.study.columns import UserTable, read_table
+from swtstudy.study.definition import tables_of
+from swtstudy.study.keys import FileTable, with_keys
+from swtstudy.study.units.grid import ContactDetails
+from swtstudy.study.units.material import read_given, two_of
+from swtstudy.study.units.rows import OF_BODIES
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.choices import SWT
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
+
+#: The stress components in our order, and in Abaqus' order.
+OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
+#: Places of our components in the order of Abaqus.
+_PLACES = [0, 1, 2, 5, 4, 3]
+ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
+#: Components of plane elements, in the order of each.
+IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
+STEP, ID, POSITION = "step", "id", ("x", "y", "z")
+#: How the files end that results at points are written to.
+ENDINGS = (".csv", ".vtu", ".nc")
+
+
+@with_keys(FileTable)
+def read_history(path: str | PathLike[str], *, order: str | None = None, **form: Any) -> xr.Dataset:
+    """Stress histories at points, from a table with a row for each point and step.
+
+    Parameters
+    ----------
+    path
+        The file: columns ``step``, six components, and ``id`` or ``x``, ``y``, ``z`` or both, in any order.
+    order
+        "swtstudy" for xx, yy, zz, yz, xz, xy or "abaqus" for S11, S22, S33, S12, S13, S23. Found from the
+        headers unless given; with other headers the last six columns are taken in that order.
+    columns, separator, decimal, encoding, scale, skip_rows, units_row, sheet
+        As of `swtstudy.read_signal`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``stress`` over point, step and component, in our order, and the coordinates of the points.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with what is wrong, and where in the file.
+    """
+    given = FileTable.of(form)
+    if order not in (None, *ORDERS):
+        raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
+    table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)
+    stress = _components(table, order)
+    positions = [name for name in POSITION if table.has(name)]
+    place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
+    names = table.texts(ID) if table.has(ID) else list(map(str, map(tuple, place.tolist())))
+    rank, labels = pd.factorize(np.array(names))  # points in the order of the file
+    counts = np.bincount(rank)
+    if counts.min() != counts.max():
+        found = f"{counts.min()} steps at the point {labels[counts.argmin()]}, {counts.max()} at others"
+        raise refused("", found, "as many steps at each point", str(path))
+    steps = table.numbers([STEP])[:, 0]
+    rows = np.lexsort([steps, rank]).reshape(len(counts), -1)
+    for point, k in np.argwhere(np.diff(steps[rows]) == 0.0)[:1]:
+        where = f" at the point {labels[point]}" * (len(labels) > 1)
+        allowed = f"each step once at a point; {ID}, or {', '.join(POSITION)}, of each point"
+        raise refused("", f"step {steps[rows[point, k]]:g} in several rows{where}", allowed, table.source)
+    coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
+    if table.has(ID):
+        coords[ID] = "point", labels
+    variables = {"stress": (("point", STEP, "component"), stress[rows])}
+    return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
+
+
+def _components(table: UserTable, order: str | None) -> FloatArray:
+    """The stress components in our order, shape (rows, 6)."""
+    has = {own: [name for name in names if table.has(name)] for own, names in ORDERS.items()}
+    found = next((own for own, names in ORDERS.items() if has[own] in ([*names], IN_PLANE[own])), None)
+    if found is None and order is None:
+        every = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
+        allowed = f"columns {every}; of plane elements without the two across; "
+        allowed += "with other headers an order of the last six columns (--order abaqus or swtstudy)"
+        raise refused(f"line {table.line}", ", ".join(table.headers), allowed, table.source)
+    if found is not None and order not in (None, found):
+        allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
+        raise refused("order", literal(order), allowed, table.source)
+    if found is None:
+        values, found = table.numbers(table.headers[-len(OURS) :]), order
+    else:
+        names, own = ORDERS[str(found)], has[str(found)]
+        given = table.numbers(own)
+        values = np.zeros((len(given), len(names)))
+        values[:, [names.index(name) for name in own]] = given
+        if lacking := [name for name in names if name not in own]:
+            warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
+    return values[:, _PLACES] if found == "abaqus" else values
+
+
+def evaluate_history(
+    history: xr.Dataset | str | PathLike[str], study: str | PathLike[str], body: int = 1
+) -> xr.Dataset:
+    """Criteria, critical planes and lives of stress histories, one load cycle each.
+
+    Parameters
+    ----------
+    history
+        From `read_history`, or the path of its table.
+    study
+        A study file with [units], and young_modulus and poisson_ratio among its fixed values. Constants in
+        [material] give lives; normal_sensitivity gives the criteria of shear.
+    body
+        The body whose properties count, 1 or 2.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over point: ``SWT``, ``FS`` and ``findley_stress`` as far as their properties are given, each with the
+        unit normal of its plane (``SWT_normal`` and so on); ``cycles`` and ``FS_cycles``, load cycles to a
+        crack by the cycles that rainflow closes on that plane; ``findley_usage``.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with every mistake.
+    """
+    details, own = _properties(study, body)
+    given = history if isinstance(history, xr.Dataset) else read_history(history)
+    young, poisson = own["young_modulus"], own["poisson_ratio"]
+    stress = given["stress"].transpose("point", STEP, "component").values
+    unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
+    gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
+
+    def add(name: str, value: FloatArray, normal: FloatArray, words: Any = None) -> None:
+        found[name], found[f"{name}_normal"] = ("point", value, words), (("point", "axis"), normal)
+
+    def add_lives(name: str, constants: Any, of: str, criterion: str, **parameters: float) -> None:
+        counted = cycle_shares(stress, found[f"{of}_normal"].values, criterion, poisson, **parameters)
+        one, pairs = np.zeros((1, 1)), zip(found[of].values, counted, strict=True)
+        lives = [float(constants.rounds(value, one + shares, one + 1.0)) for value, shares in pairs]
+        found[name] = "point", np.array(lives)
+
+    add("SWT", *swt_of_history(stress, poisson, young, gamma), unit)
+    if details.materials:
+        add_lives("cycles", details.materials[body - 1], "SWT", SWT, walker_exponent=gamma)
+    if sensitivity is None:
+        return found
+    value, normal = criterion_of_history(stress, FINDLEY, sensitivity)
+    found["findley_stress"], found["findley_normal"] = ("point", value, unit), (("point", "axis"), normal)
+    if details.findley_limits:
+        found["findley_usage"] = found.findley_stress / details.findley_limits[body - 1]
+    if details.yield_strengths:
+        kappa = sensitivity / details.yield_strengths[body - 1]
+        value, normal = criterion_of_history(stress, FATEMI_SOCIE, kappa)
+        add("FS", value * (2.0 + 2.0 * poisson) / young, normal)
+        if torsion := details.constants(FATEMI_SOCIE, (poisson, poisson)):
+            add_lives("FS_cycles", torsion[body - 1], "FS", FATEMI_SOCIE, normal_sensitivity=kappa)
+    return found
+
+
+def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:
+    """The materials of a study file, and the plain numbers among its fixed values, of one body."""
+    raw, source = tables_of(study), str(study)
+    report = Report(source)
+    fixed: Mapping[str, Any] = raw["fixed"] if isinstance(raw.get("fixed"), dict) else {}
+    labels, material = (raw[key] if isinstance(raw.get(key), dict) else None for key in ("units", "material"))
+    details = ContactDetails()
+    if labels is None:
+        report("units", "nothing", "a table with length, force and stress")
+    else:
+        details, _ = read_given(labels, material, fixed, Path(study).parent, report)
+    if body not in (1, 2):
+        raise refused("body", literal(body), "1 or 2")
+    own: dict[str, float] = {}
+    for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
+        value = two_of(fixed.get(name))[body - 1]
+        try:
+            own |= {} if value is None else {name: float(read_exact(value))}
+        except ValueError as error:
+            report(f"fixed.{name}", f"{literal(value)} ({error})", "a number, or one for each body")
+        if value is None and name in OF_BODIES:
+            report(f"fixed.{name}", "nothing", "a number, or one for each body")
+    report.refuse()
+    return details, own
+
+
+def cycle_shares(
+    stress: FloatArray, normals: FloatArray, criterion: str, poisson_ratio: float, **parameters: float
+) -> list[FloatArray]:
+    """Values of the cycles that rainflow closes on the plane of each point, over the largest one.
+
+    Parameters
+    ----------
+    stress
+        Shape (n, T, 6), one load cycle at each point.
+    normals
+        Shape (n, 3), of the planes; NaN where there is none.
+    criterion, poisson_ratio, **parameters
+        As of `swtstudy.kernel.criterion.ask`. The shear stress counts along the longest chord of its path.
+    """
+    from swtstudy.kernel.compiled import new_record
+    from swtstudy.kernel.count import count_cycles
+    from swtstudy.kernel.criterion import ask
+    from swtstudy.kernel.cycles import COUNTING
+    from swtstudy.kernel.field import curves_on_plane
+
+    memory, own, found = new_record(COUNTING), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
+    memory["points"] = count = stress.shape[1]
+    for history, normal in zip(stress, normals, strict=True):
+        tension, *curves = curves_on_plane(history, normal, poisson_ratio, criterion == SWT)
+        swing = curves[0]
+        if criterion != SWT:
+            shear = np.stack(curves, axis=1)
+            squares = np.square(shear[:, None] - shear[None]).sum(axis=-1)
+            one, other = np.unravel_index(squares.argmax(), squares.shape)
+            swing = shear @ (shear[one] - shear[other]) / max(float(np.sqrt(squares.max())), TINY)
+        memory["swing"][:count], memory["stress"][:count] = swing, tension
+        count_cycles(memory, own)
+        values = memory["value"][: memory["cycles"]]
+        sound = np.isfinite(normal).all() and values.size and values.max() > 0.0
+        found.append(values / values.max() if sound else np.ones(1))
+    return found
+
+
+def write_history(found: xr.Dataset, path: Path) -> None:
+    """Write results at points: a .vtu file for ParaView (by meshio), a CSV table, or netCDF (`ENDINGS`)."""
+    if path.suffix == ".nc":
+        from swtstudy.archive.netcdf import save
+
+        save(found, path)
+        return
+    columns = {str(name): each.values for name, each in found.variables.items() if each.dims == ("point",)}
+    for name, each in found.data_vars.items():
+        for k in range(each.sizes.get("axis", 0)):
+            columns[f"{name}_{POSITION[k]}"] = each.values[:, k]
+    if path.suffix != ".vtu":
+        pd.DataFrame(columns).to_csv(path, index=False)
+        return
+    try:
+        import meshio
+    except ImportError:
+        allowed = "pip install meshio, which writes it; or a .csv file"
+        raise refused("output", str(path), allowed) from None
+    places = np.stack([columns.get(name, np.zeros(found.sizes["point"])) for name in POSITION], axis=1)
+    fields = {str(name): each.values for name, each in found.data_vars.items()}
+    meshio.Mesh(places, [("vertex", np.arange(len(places))[:, None])], fields).write(path)

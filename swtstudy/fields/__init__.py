@@ -1,1 +1,0 @@
-"""Labelled fields of one parameter point: stress, swt and slip over position and time."""

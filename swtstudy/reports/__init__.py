@@ -1,1 +1,0 @@
-"""Archives as pages: one HTML file each, which needs nothing else."""

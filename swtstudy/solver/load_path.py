@@ -1,0 +1,254 @@
+"""Closed loops that rigs run, as their users define them: polygons, or sums of harmonics."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from swtstudy.kernel.loops import without_collinear
+from swtstudy.solver.loop import FINITE, LARGEST, FloatArray, Loop, checked_mean, checked_name, mean_of
+from swtstudy.solver.smooth_path import SmoothPath, sampled
+from swtstudy.vocabulary.definition import read_numbers
+from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, refused
+from swtstudy.vocabulary.parameters import MANY_TURNS
+
+#: Most vertices of a loop: a value with so many takes some 6 s.
+MOST_VERTICES = 2000
+#: Sides of a loop that cost as much as one oscillation: 100 take as long as 8 to 16 of them, 200 as 32.
+SIDES_PER_OSCILLATION = 12
+
+
+class LoadPath(Loop):
+    """A closed loop of the normal and the tangential load and a bulk stress, run through again and again.
+
+    Its sides are straight. Nothing depends on the speed, nor on the vertex at which it starts; the
+    tangential load starts from zero at the first normal load. A loop run backwards is another loop.
+
+    A polygon of k points in place of a smooth cycle changes s: in the tested cycles by less than 3/k
+    (results/loads.md). `LoadPath.sampled` and `LoadPath.harmonic_sum` have no such error.
+
+    Parameters
+    ----------
+    name
+        For people, files and figures.
+    vertices
+        Shape (k, 2), k ≥ 2: c_n and c_t, –; or (k, 3), with c_b. The normal load is 1 + its amplitude times
+        c_n, the tangential one its amplitude times c_t, of whatever is prescribed; the bulk stress is its
+        mean plus its amplitude times c_b, 0 without that column. Vertices on the line between their
+        neighbours in all columns are left out.
+    mean_normal
+        The mean normal load from which the first column is the deviation, in its unit: then a real contact
+        needs no normal force. `LoadPath.absolute` subtracts this mean.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with the mistakes in the name or the vertices.
+
+    Examples
+    --------
+    >>> import swtstudy
+    >>> square = swtstudy.LoadPath("square", [[0, 0.5], [0.5, 0.5], [0.5, -0.5], [0, -0.5]])
+    >>> swtstudy.solve(load=square).s.round(4).item()
+    0.1276
+    """
+
+    def __init__(self, name: str, vertices: ArrayLike, mean_normal: float | None = None) -> None:
+        self.name = checked_name(name)
+        self.mean_normal = checked_mean(mean_normal, self.name)
+        #: Shape (k, 2), or (k, 3) unless c_b is 0, from the vertex that is the first in lexicographic order.
+        self.vertices = _canonical(_checked(vertices, self.name), self.name)
+
+    @classmethod
+    def absolute(cls, name: str, loads: ArrayLike) -> LoadPath:
+        """A loop of loads as they are measured: the mean of the normal one is taken off.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        loads
+            As ``vertices``, with the normal load itself instead of its deviation.
+        """
+        found = _checked(loads, checked_name(name))
+        mean = float(found[:, 0].mean())
+        return cls(name, found - np.eye(1, found.shape[1]) * mean, mean)
+
+    @classmethod
+    def trapezoid(
+        cls,
+        name: str,
+        *,
+        normal: tuple[float, float] = (0.0, 1.0),
+        tangential: tuple[float, float] = (-1.0, 1.0),
+        bulk: tuple[float, float] = (0.0, 0.0),
+    ) -> LoadPath:
+        """Normal load on, tangential load up, down, normal load off: a rectangle of both loads.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        normal, tangential
+            Least and largest c_n and c_t.
+        bulk
+            c_b where c_t is least and largest: the bulk stress goes with the tangential load.
+        """
+        (low, high), back, forth = normal, *zip(tangential, bulk, strict=True)
+        return cls(name, [[low, *back], [high, *back], [high, *forth], [low, *forth]])
+
+    @classmethod
+    def triangle(
+        cls, name: str, *, normal: float = 0.0, tangential: float = 1.0, bulk: float = 0.0
+    ) -> LoadPath:
+        """Both loads and the bulk stress to and fro in proportion, in straight lines.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        normal, tangential, bulk
+            c_n, c_t and c_b at one end; the other end is opposite.
+        """
+        return cls(name, [[normal, tangential, bulk], [-normal, -tangential, -bulk]])
+
+    def content(self) -> dict[str, Any]:
+        return {"vertices": self.vertices.tolist()} | mean_of(self)
+
+    @staticmethod
+    def harmonic_sum(
+        name: str,
+        normal: Sequence[tuple[int, float, float]],
+        tangential: Sequence[tuple[int, float, float]],
+        bulk: Sequence[tuple[int, float, float]] = (),
+        *,
+        mean_normal: float | None = None,
+    ) -> SmoothPath:
+        """Major and minor cycles: sums of harmonics, which are solved without sampling.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        normal, tangential, bulk
+            Order (0 to 64), amplitude and phase (rad) of each harmonic of c_n, c_t and c_b, which are
+            Σ amplitude · sin(order · φ + phase) over a period 2π of φ.
+        mean_normal
+            As of a `LoadPath`.
+
+        Raises
+        ------
+        StudyError
+            A ValueError with what is wrong with them.
+        """
+        path = SmoothPath(name, normal, tangential, bulk, mean_normal=mean_normal)
+        for column, rows in path.harmonics.items():
+            largest = max((phase for *_, phase in rows), key=abs, default=0.0)
+            if abs(largest) > MANY_TURNS:
+                words = f'for degrees np.radians({largest:g}), in a study "{largest:g} deg"'
+                warnings.warn(
+                    f"{column} of {name}: a phase of {largest:g} is in radians; {words}", stacklevel=2
+                )
+        return path
+
+    @staticmethod
+    def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) -> SmoothPath:
+        """A smooth loop from a function, as the harmonic sum that it is.
+
+        Parameters
+        ----------
+        name
+            Its name.
+        course
+            From φ in [0, 2π), shape (k,), to c_n and c_t there, or c_n, c_t and c_b, each of shape (k,) or a
+            single number.
+
+        Raises
+        ------
+        StudyError
+            A ValueError, if harmonics up to the order 64 do not suffice: then vertices are the way.
+        """
+        return sampled(name, course)
+
+    @classmethod
+    def of_content(cls, name: str, content: Mapping[str, Any]) -> Loop:
+        if "vertices" in content:
+            return cls(name, content["vertices"], content.get("mean_normal"))
+        return SmoothPath.of_content(name, content)
+
+    def thinned(self, most: int) -> LoadPath:
+        """A loop of every second, third … of its vertices: of no more than so many."""
+        return LoadPath(self.name, self.vertices[:: -(-len(self.vertices) // most)], self.mean_normal)
+
+    @cached_property
+    def cost(self) -> int:
+        return 1 + len(self.vertices) // SIDES_PER_OSCILLATION
+
+    @property
+    def normal_ends(self) -> tuple[float, float]:
+        return float(self.vertices[:, 0].min()), float(self.vertices[:, 0].max())
+
+    @property
+    def tangential_ends(self) -> tuple[float, float]:
+        return float(self.vertices[:, 1].min()), float(self.vertices[:, 1].max())
+
+    @property
+    def bulk_ends(self) -> tuple[float, float] | None:
+        if self.vertices.shape[1] < 3:
+            return None
+        return float(self.vertices[:, 2].min()), float(self.vertices[:, 2].max())
+
+    def course(self) -> FloatArray:
+        return np.concatenate([self.vertices, self.vertices[:1]])
+
+
+def _checked(vertices: ArrayLike, name: str) -> FloatArray:
+    key = f"vertices of {name}"
+    try:
+        found = read_numbers(key, vertices, "a list of pairs of numbers, or of triples with the bulk stress")
+    except StudyError as error:
+        raise StudyError([_of_another_length(vertices, key) or error.mistakes[0]]) from None
+    if found.ndim != 2 or found.shape[1] not in (2, 3):
+        allowed = "pairs of numbers, shape (k, 2), or triples with the bulk stress, (k, 3)"
+        raise refused(key, f"an array of shape {found.shape}", allowed)
+    wrong = np.flatnonzero(~(np.abs(found) <= LARGEST).all(axis=1))
+    if wrong.size:
+        row = int(wrong[0])
+        found_words = literal(found[row].tolist())
+        raise refused(f"{key}, number {row + 1}", found_words, FINITE)
+    return found
+
+
+def _of_another_length(vertices: object, key: str) -> Mistake | None:
+    """The first vertex that has not as many numbers as the one before."""
+    if not isinstance(vertices, Sequence) or not all(isinstance(each, Sequence) for each in vertices):
+        return None
+    for number, (before, each) in enumerate(itertools.pairwise(vertices), start=2):
+        if {len(before), len(each)} == {2, 3}:
+            allowed = f"{len(before)} numbers, as before: the third one is the bulk stress"
+            return Mistake(f"{key}, number {number}", literal(each), allowed)
+    return None
+
+
+def _canonical(vertices: FloatArray, name: str) -> FloatArray:
+    """Without vertices on the line between their neighbours, and from the least vertex on."""
+    if vertices.shape[1] == 3 and not vertices[:, 2].any():
+        vertices = vertices[:, :2]
+    lean = without_collinear(vertices) + 0.0
+    if len(lean) < 2:
+        raise refused(f"vertices of {name}", "a single point", "2 distinct points at least")
+    if len(lean) > MOST_VERTICES:
+        found = f"{len(lean)} vertices that are not on a line between their neighbours"
+        allowed = (
+            f"at most {MOST_VERTICES}; of more a smooth loop is the harmonic sum (LoadPath.harmonic_sum; "
+        )
+        allowed += "harmonics of a signal), and several cycles are folded (recorded_cycles)"
+        raise refused(f"vertices of {name}", found, allowed)
+    first = np.lexsort(lean.T[::-1])[0]
+    return np.roll(lean, -first, axis=0)

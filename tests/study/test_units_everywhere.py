@@ -1,0 +1,300 @@
+"""Units beyond studies: extrema, optima, the field and the inspection of a contact; names of its bodies."""
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+from matplotlib.figure import Figure
+from real import ALUMINIUM, UNITS
+
+import swtstudy
+from swtstudy import Study, StudyError, physical
+from swtstudy.archive.describe import describe
+from swtstudy.archive.recall import grid_of
+from swtstudy.cli import main
+from swtstudy.faces.contacts import PhysicalContact
+from swtstudy.study.definition import one_of_study
+from swtstudy.study.writing import to_toml
+
+#: The tests look at what is drawn, not at its layout.
+pytestmark = pytest.mark.usefixtures("unwrapped")
+
+RIG = {
+    "young_modulus": 73.1e3,
+    "poisson_ratio": 0.33,
+    "radius": 50.0,
+    "friction": 0.5,
+    "normal_force": 200.0,
+    "tangential_force_amplitude": 60.0,
+}
+
+
+@pytest.fixture(scope="module")
+def rig():
+    return physical(**RIG)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    several = {**RIG, "tangential_force_amplitude": [30.0, 60.0], "normal_force": [150.0, 200.0]}
+    return physical(**several).solve(1e-2, constants=ALUMINIUM)
+
+
+def test_extrema_of_any_quantity(solved):
+    found = solved.swt.extrema("tangential_force_amplitude", "cycles")
+    assert (found.at_maximum == 30.0).all()
+    np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
+    assert "cycles" in found.minimum.attrs["long_name"]
+    assert solved.swt.extrema("normal_force", "SWT").maximum.attrs["units"] == "unit of stress"
+    with pytest.raises(StudyError, match="whose values are flags"):
+        solved.swt.extrema("normal_force", "regime")
+    with pytest.raises(ValueError, match="not a dimension of SWT"):
+        solved.swt.extrema("phase", "SWT")
+    with pytest.raises(ValueError, match="not a quantity"):
+        solved.swt.extrema("normal_force", "SWOT")
+
+
+def test_the_stress_field_is_in_lengths_and_stresses(rig):
+    """Hertz's pressure, in MPa, at places in mm."""
+    a, p0 = rig.contact_radius, rig.peak_pressure
+    x = np.array([0.0, 0.5 * a])
+    with pytest.raises(StudyError, match=r"z: found -0.1; allowed: depths z ≥ 0"):
+        rig.stress_field(x, 0.0, -0.1)
+    with pytest.raises(StudyError, match="x: found 'a'; allowed: finite positions, which are lengths"):
+        rig.swt_field("a", 0.0, 0.0)
+    field = rig.stress_field(x, 0.0, 0.0, time=0.0)
+    np.testing.assert_allclose(field.x, x, rtol=1e-12)
+    np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
+    assert float(field.contact_radius) == pytest.approx(a)
+    assert field.sigma_zz.attrs["units"] == "unit of stress"
+    assert "E*" not in field.sigma_zz.attrs["long_name"]
+
+
+def test_the_swt_field_has_the_largest_swt_where_it_is(rig):
+    solved = rig.solve(1e-4)
+    place = float(solved.critical_position.sel(body=2))
+    found = rig.swt_field(place, 0.0, 0.0, body=2).SWT
+    assert float(found) == pytest.approx(float(solved.SWT.sel(body=2)), rel=1e-3)
+
+
+def test_a_point_of_a_study_is_a_contact(solved):
+    point = solved.sel(tangential_force_amplitude=60.0, normal_force=200.0)
+    contact = point.swt.contact()
+    assert contact.grid.fixed["normal_force"] == 200.0
+    assert contact.parameters() == physical(**RIG).parameters()
+    with pytest.raises(StudyError, match="results without units"):
+        swtstudy.solve(rtol=1e-2).swt.contact()
+
+
+def test_an_inspected_contact_is_in_forces_and_stresses(rig):
+    point = rig.inspect_point()
+    assert float(point.tangential_force.max()) == pytest.approx(60.0, rel=1e-3)
+    np.testing.assert_allclose(point.normal_force, 200.0, rtol=1e-6)
+    assert float(point.s_local.max()) == pytest.approx(float(rig.solve(1e-4).SWT[0]), rel=0.02)
+    # SWT from the cycle on the critical plane: a strain of this body, of two equal ones.
+    swing = float(point.normal_strain.max() - point.normal_strain.min()) / 2.0
+    assert float(point.normal_stress.max()) * swing == pytest.approx(float(rig.solve(1e-4).SWT[0]), rel=1e-3)
+    assert float(point.tangential_force_amplitude) == pytest.approx(60.0)
+
+
+@pytest.mark.slow
+def test_the_best_contact_in_units(rig):
+    """SWT rises with the tangential force, and life falls: ends of the range, in newtons."""
+    over = {"tangential_force_amplitude": (40, "80")}
+    found = rig.optimise(over, rtol=1e-2)
+    assert found.tangential_force_amplitude.values.tolist() == [40.0, 80.0]
+    expected = [
+        float(physical(**{**RIG, "tangential_force_amplitude": q}).solve(1e-2).SWT[0]) for q in (40, 80)
+    ]
+    np.testing.assert_allclose(found.SWT.sel(body=1), expected, rtol=1e-2)
+    assert found.attrs["minimise"] == "SWT"
+    assert float(found.nearby_value.sel(case="best")[0].sel(step=0.05, method="nearest")) == pytest.approx(
+        42.0
+    )
+
+
+@pytest.mark.slow
+def test_the_best_life_is_the_longest(rig):
+    lives = rig.optimise({"tangential_force_amplitude": (40, 80)}, "cycles", rtol=1e-2, constants=ALUMINIUM)
+    assert lives.tangential_force_amplitude.values.tolist() == [40.0, 80.0]
+    assert (lives.cycles.sel(case="best") > lives.cycles.sel(case="worst")).all()
+
+
+def test_wrong_optima_are_named(rig):
+    with pytest.raises(StudyError, match="minimise: found 'cycles'"):
+        rig.optimise({"phase": (0, 1)}, "cycles")
+    with pytest.raises(StudyError, match=r"over.phasee: found not a parameter that is a number"):
+        rig.optimise({"phasee": (0, 1)})
+    with pytest.raises(StudyError, match=r"over.radius\[0\]: found -1"):
+        rig.optimise({"radius": (-1, 1)})
+    with pytest.raises(StudyError, match=r"over.radius: found \(60, 40\); allowed: the lower end first"):
+        rig.optimise({"radius": (60, 40)})
+    with pytest.raises(StudyError, match="critical_distance: found several"):
+        rig.optimise({"radius": (40, 60)}, critical_distance=[0.1, 0.2])
+    with pytest.raises(StudyError, match="several contacts"):
+        physical(**{**RIG, "radius": [40.0, 50.0]}).optimise({"phase": (0, 1)})
+
+
+STUDY = f"""
+title = "A pad on a test piece"
+rtol = 1e-2
+{UNITS}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force = 200
+normal_force_amplitude = 10
+tangential_force_amplitude = 60
+bulk_stress_amplitude = 30
+bodies = ["test piece", "pad"]
+[axes]
+phase = ["0 deg", "90 deg"]
+[figure]
+x = "phase"
+hue = "body"
+y = "SWT"
+"""
+
+
+def test_bodies_have_names(tmp_path):
+    found = swtstudy.run(Study.from_text(STUDY), tmp_path / "pad.nc", workers=1)
+    assert found.body.values.tolist() == [1, 2]
+    assert found.body.attrs["flag_meanings"] == "test_piece pad"
+    assert "  axis           body: test piece, pad" in describe(found)
+    figure = found.swt.figure()
+    legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
+    assert [text.get_text() for text in legends[0].get_texts()] == ["test piece", "pad"]
+    assert grid_of(found).body_names == ("test piece", "pad")
+    lines = found.assign(radius_ratio=found.radius_ratio + 0.2 * (found.body == 2)).swt.validity()
+    assert any(line.startswith("contact too large") and line.endswith("body = pad") for line in lines)
+    assert found.swt.to_table().body.tolist() == ["test_piece", "pad"] * 2
+    first = found.swt.slice(body="test piece")
+    assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
+    with pytest.raises(StudyError, match=r"body: found 'rod' .*; allowed: test piece, pad"):
+        found.swt.slice(body="rod")
+    with pytest.raises(
+        StudyError, match=r"fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'"
+    ):
+        Study.from_text(STUDY.replace("bodies =", 'body = "rod"\nbodies ='))
+    # Alone by its name; written and read again.
+    one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
+    assert one.grid.fixed["body"] == 2.0
+    again = Study.from_text(to_toml("t", 1e-2, one.grid, None))
+    assert (again.grid.body_names, again.grid.fixed["body"]) == (("test piece", "pad"), 2.0)
+
+
+@pytest.mark.parametrize("bodies", ['["pad"]', '"pad"', '["pad", "pad"]', '["pad", 2]', '["", "pad"]'])
+def test_wrong_names_are_refused(bodies):
+    with pytest.raises(StudyError, match=r"fixed.bodies: found .*; allowed: two names"):
+        Study.from_text(STUDY.replace('["test piece", "pad"]', bodies))
+    with pytest.raises(StudyError, match="unknown parameter"):
+        Study.from_text('title = "t"\n[fixed]\nbodies = ["a", "b"]')
+
+
+def test_names_in_python():
+    contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"))
+    assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
+
+
+def shown_numbers(axis):
+    """What the ticks of an axis stand for, over where they are."""
+    words = [label.get_text().replace("−", "-") for label in axis.get_ticklabels()]
+    return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
+
+
+def test_all_panels_of_a_contact_have_its_units(rig):
+    figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
+    panels = {each.get_title("left")[5:].replace("\n", " "): each for each in figure.axes}
+    at = f"on the critical plane at $x$ = {float(point.shown_x):.4g} unit of length"
+    plane = next(each for each in figure.axes if "load plane" in each.get_title("left"))
+    assert plane.get_xlabel() == "$F_x$ (unit of force)"
+    # Where 50 is written there are 50 of the 100 that friction bears.
+    numbers, places = shown_numbers(plane.xaxis)
+    np.testing.assert_allclose(places, numbers / 100.0)
+    assert 50.0 in numbers
+    (strain,) = [each for each in figure.axes if each.get_ylabel() == r"$\varepsilon_n$"]
+    assert at in panels
+    # Where 0.002 is written there is a strain of 0.002: that of the line drawn.
+    numbers, places = shown_numbers(strain.yaxis)
+    (drawn,) = [line for line in strain.lines if line.get_label() == r"$\varepsilon_n$"]
+    scale = point.normal_strain.values / np.where(drawn.get_ydata(), drawn.get_ydata(), np.nan)
+    np.testing.assert_allclose(numbers, places * np.nanmedian(scale), atol=1e-12)
+    forces = panels[r"forces over the cycle, dotted: $\pm\mu F_N$"]
+    assert forces.get_ylabel() == "force (unit of force)"
+    normal, tangential, *bounds = (line.get_ydata() for line in forces.lines[:4])
+    np.testing.assert_allclose(normal, 200.0)
+    assert tangential.max() == pytest.approx(60.0, rel=1e-3)
+    np.testing.assert_allclose(bounds, [[100.0] * len(normal), [-100.0] * len(normal)])
+    # The area of the loop, as a polygon.
+    u, force = point.displacement.values, point.tangential_force.values
+    area = 0.5 * abs(np.sum(u[:-1] * np.diff(force) - force[:-1] * np.diff(u)))
+    (words,) = [title for title in panels if title.startswith("fretting loop, dissipation ")]
+    assert float(words.split()[3]) == pytest.approx(area, rel=2e-2)
+    assert words.endswith(" unit of work")
+
+
+def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path):
+    file = tmp_path / "pad.toml"
+    strength = "[material]\nyield_strength = 150\n[fixed]"
+    file.write_text(STUDY.replace("[fixed]", strength), encoding="utf-8")
+    contact = PhysicalContact(one_of_study(str(file), {"phase": "90 deg"}))
+    words = contact.inspect(body=1).get_suptitle().replace("\n", " ")
+    for given in ("$F_0$ = 200 N", "$R$ = 50 mm", r"$Q_A$ = 60 N", r"$\sigma_{B,A}$ = 30 MPa"):
+        assert given in words
+    assert "a_H" not in words
+    assert "beyond first yield: largest von Mises stress over the yield strength up to" in words
+    assert "sigma" not in contact._headlines(2)[0]  # the other body carries no bulk stress
+
+
+def test_the_command_shows_a_study(tmp_path, monkeypatch):
+    file = tmp_path / "pad.toml"
+    file.write_text(STUDY, encoding="utf-8")
+    picture = tmp_path / "pad.png"
+    given = ["show", str(file), "-o", str(picture)]
+    done = CliRunner().invoke(main, given)
+    assert done.exit_code == 2
+    assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
+    shown = {}
+
+    def inspect(contact, body, style, width):
+        shown.update(contact.parameters(body), body=body)
+        return Figure()
+
+    monkeypatch.setattr(PhysicalContact, "inspect", inspect)
+    done = CliRunner().invoke(
+        main, [*given, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2"]
+    )
+    assert done.exit_code == 0, done.stderr
+    assert picture.exists()
+    assert (shown["phase"], shown["body"]) == (np.pi / 2, 2)
+    assert "tangential_amplitude" in shown
+    assert CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "pad"]).exit_code == 0
+    assert shown["body"] == "pad"
+    done = CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "rod"])
+    assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
+    done = CliRunner().invoke(main, ["show", "plane_contacts", "--profile", "paraboloid", "--body", "1"])
+    assert "body: found '1'; allowed: no body in a study without units" in done.stderr
+
+
+def test_titles_leave_out_the_factors_of_a_measured_load():
+    """F_A = 1 N was said of forces of 60 N, and ψ and ω2/ω1 of a loop that has neither."""
+    load = swtstudy.LoadPath("rig", [[60.0, 200.0], [-60.0, 190.0]], mean_normal=200.0)
+    given = {name: value for name, value in RIG.items() if not name.endswith(("amplitude", "normal_force"))}
+    words = physical(**given, load=load)._headlines(1)[0]
+    assert "$F_0$ = 200" in words
+    assert "rig" in words
+    assert not any(symbol in words for symbol in ("F_A", "Q_A", "omega", "psi"))
+    twice = physical(**given, load=load, tangential_force_amplitude=2.0, normal_force_amplitude=1.0)
+    assert "$Q_A$ = 2" in twice._headlines(1)[0]
+    loop = swtstudy.LoadPath("loop", [[1.0, 0.0], [-1.0, 0.0]])
+    factors = {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0}
+    words = physical(**given, normal_force=200.0, load=loop, **factors)._headlines(1)[0]
+    assert "$Q_A$ = 1" in words
+    assert "psi" not in words
+    with pytest.raises(StudyError, match=r"normal_amplitude: .* in lengths; or .*, 1 if it is in forces"):
+        physical(**given, normal_force=200.0, load=loop, tangential_force_amplitude=1.0)
+
+
+def test_titles_name_the_body():
+    named = physical(**RIG, bulk_stress_amplitude=10.0, bodies=["pad", "specimen"])
+    assert [named._headlines(body)[0].rpartition(",  ")[2] for body in (1, 2)] == ["pad", "specimen"]

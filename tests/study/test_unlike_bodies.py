@@ -1,0 +1,58 @@
+"""Bodies that differ elastically: what counts is Dundurs' β over the friction."""
+
+from __future__ import annotations
+
+import warnings
+
+import pytest
+from real import CONTACT
+
+import swtstudy
+from swtstudy import Study, StudyError
+from swtstudy.study.units.at_rest import Moduli
+
+#: Steel on aluminium, and 52100 steel on Ti-6Al-4V: Young's moduli and Poisson ratios.
+PAIRS = {
+    "aluminium": {"young_modulus": (210e3, 71e3), "poisson_ratio": (0.3, 0.33)},
+    "titanium": {"young_modulus": (210e3, 113.8e3), "poisson_ratio": (0.29, 0.31)},
+}
+LOADS = {"radius": 50.0, "normal_force": 200.0, "tangential_force_amplitude": 40.0}
+
+
+@pytest.mark.parametrize("friction", [0.5, 0.8])
+@pytest.mark.parametrize("name", PAIRS)
+def test_usual_pairs_are_warned_of_with_their_number(name: str, friction: float) -> None:
+    beta = Moduli(**{key.partition("_")[0]: pair for key, pair in PAIRS[name].items()}).mismatch
+    words = f"Dundurs' β = {beta:.3g} is {abs(beta) / friction:.2g} times the friction {friction:g}"
+    with pytest.warns(UserWarning, match=words.replace(".", r"\.")):
+        contact = swtstudy.physical(**PAIRS[name], **LOADS, friction=friction)
+    assert (contact.solve(1e-2).SWT > 0.0).all()
+
+
+def test_low_friction_is_refused_and_similar_accepts_it() -> None:
+    given = PAIRS["aluminium"] | LOADS
+    with pytest.raises(
+        StudyError, match=r"0\.38 times the friction 0\.3; allowed: .*similar = 0\.39 accepts"
+    ):
+        swtstudy.physical(**given, friction=[0.3, 0.6])
+    with pytest.warns(UserWarning, match="0.38 times the friction 0.3"):
+        swtstudy.physical(**given, friction=[0.3, 0.6], similar=0.39)
+
+
+def test_like_bodies_and_no_friction_go_without_a_word() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        swtstudy.physical(**LOADS, young_modulus=210e3, poisson_ratio=0.3, friction=0.3)
+        swtstudy.physical(**PAIRS["aluminium"], radius=50.0, normal_force=200.0, friction=0.0,
+                          tangential_amplitude=0.0)  # fmt: skip
+
+
+def test_a_study_is_told() -> None:
+    loads = "normal_force = 200\ntangential_force_amplitude = 40\n"
+    text = f"{CONTACT}{loads}".replace("73.1e3", "[210e3, 71e3]").replace("0.33", "[0.3, 0.33]")
+    with pytest.warns(UserWarning, match="0.23 times the friction 0.5"):
+        Study.from_text(text)
+    with pytest.raises(
+        StudyError, match=r"fixed\.young_modulus, fixed\.poisson_ratio: found bodies that are not"
+    ):
+        Study.from_text(text.replace("friction = 0.5", "friction = 0.2"))
