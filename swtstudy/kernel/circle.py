@@ -37,6 +37,10 @@ from swtstudy.kernel.profile import place_of
 SAFE_POISSON_RATIO = 0.35
 #: Relative height that counts as higher than the line: more than either search leaves.
 HIGHER = 1e-4
+#: Circles between the least and the largest contact radius, and climbs from the highest one.
+BETWEEN, CLIMBS = 4, 3
+#: First step of a climb over the largest contact, and the last one over the root of the tolerance.
+STEP, NARROWEST = 0.05, 0.25
 MAX_ARCS = 400
 #: Arcs at first, over half a turn.
 ARCS = np.int64(8)
@@ -47,7 +51,7 @@ FIRST = np.int64(2 * COARSEST)
 CIRCLE = np.dtype(
     [
         *fields("f8", "x place largest"),  # radius, its place s, and place of the largest contact
-        ("best", "f8"),  # h
+        *fields("f8", "best angle"),  # h, and the angle at which it is
         *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over φ
         *fields("f8", "swing highest tension"),  # bounds of A and T, and of T at the last angle
         # At both ends of arcs: φ, h or more where it does not matter, bound of T.
@@ -93,7 +97,8 @@ def value_at(D, body, angle, floor):
         h = lift(Q, largest_at(body, *place, *own)[0])
         C.overflow = max(C.overflow, overflow)  # of all places together
     D.tension, D.swing = G.most[0], max(D.swing, G.most[1])
-    D.best = max(D.best, h)
+    if h > D.best:
+        D.best, D.angle = h, angle
     return max(h, floor)
 
 
@@ -137,16 +142,25 @@ def first_arcs(D, body):
 
 
 @jit
-def search_circle(D, body, place, known):
-    """Largest value on the circle at a place s, if it is above what is known; else that."""
+def open_circle(D, body, place):
+    """Sample the cycle on the circle at a place s; False on the axis, which has no circle."""
     S, B, H, W, G, C, R, P, K, L, Q = body
     D.place, D.x = place, sqrt(P.flat_radius * P.flat_radius + place * abs(place))
     if not D.x > 0.0:
-        return known
+        return False
     begin_circle(D, H, C, R, P, K, L, Q)
+    G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
+    return True
+
+
+@jit
+def search_circle(D, body, place, known):
+    """Largest value on the circle at a place s, if it is above what is known; else that."""
+    Q = body[10]
+    if not open_circle(D, body, place):
+        return known
     D.swing, D.highest = 0.0, 0.0
     D.best = least = lift(Q, known)
-    G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
     m = first_arcs(D, body)
     for i in range(m):
         square = (D.ends[i, 1] - D.ends[i, 0]) * (D.ends[i, 1] - D.ends[i, 0])
@@ -203,19 +217,40 @@ def may_be_anywhere(L, Q):
 
 
 @jit
-def surface_value(D, body, found):
-    """Largest value on the circle through the point's maximum; s itself if that is not exceeded.
+def climb_radius(D, body, place):
+    """From a place s to a higher one at the angle of the best value, by steps that are halved.
 
-    NaN where the maximum is at the singular edge of a face: next to it the pressure has no bound. Where a
-    bulk stress leaves no tension on the line, or s is that of the bulk stress, it is the circle of the
-    largest contact radius. With a bulk stress the circle of the smallest contact radius counts, too: outside
-    of the contact the radial tension of the pressure is largest there, and at its sides the bulk stress does
-    not press on it.
+    A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
+    """
+    Q, step, angle = body[10], STEP * D.largest, D.angle
+    while step > NARROWEST * sqrt(Q.line) * D.largest:
+        before = D.best
+        for side in (1.0, -1.0):
+            new = place + side * step
+            if abs(new) >= INNERMOST * D.largest and open_circle(D, body, new):
+                value_at(D, body, angle, FAR * before)
+                if D.best > before:
+                    place = new
+                    break
+        if D.best == before:
+            step *= 0.5
+    return place
+
+
+@jit
+def surface_value(D, body, found):
+    """Largest value on the surface off the line; s itself if that is not exceeded.
+
+    The circle through the point's maximum is searched. Under a bulk stress, and of criteria of shear, whose
+    maxima may be anywhere, circles between the least and the largest contact radius count, too: outside of
+    the contact the radial tension of the pressure is largest at the least one, and at its sides the bulk
+    stress does not press on it. From the highest circle a climb leads to the maximum over the radius.
+    NaN where the point's maximum is at the singular edge of a face: next to it the pressure has no bound.
     """
     S, B, H, W, G, C, R, P, K, L, Q = body
-    s, known, place = found.s, (1.0 + HIGHER) * found.s, found.place
+    s, known, anywhere = found.s, (1.0 + HIGHER) * found.s, may_be_anywhere(L, Q)
     at_infinity = np.isnan(found.critical_x)
-    nowhere = (s <= found.s_error or at_infinity) and may_be_anywhere(L, Q)
+    nowhere = (s <= found.s_error or at_infinity) and anywhere
     if at_infinity and not nowhere:
         return s
     if not nowhere and beside_singular_edge(P, found.critical_x, NEAREST):
@@ -223,16 +258,28 @@ def surface_value(D, body, found):
     solve_cycle(C, L)
     C.shift = found.shift
     lay_out(R, C, P, L, found.growth)
-    D.largest = place_of(P, C.largest)
-    if nowhere:
-        place = D.largest
-    top = search_circle(D, body, place, known)
-    if has_bulk(L) and not P.singular:
-        place = place_of(P, max(C.smallest, 0.0))
-        if P.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
-            place = max(place, INNERMOST * D.largest)
-        top = search_circle(D, body, place, top)
-    return top if top > known else s
+    D.largest, lowest = place_of(P, C.largest), place_of(P, max(C.smallest, 0.0))
+    if P.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
+        lowest = max(lowest, INNERMOST * D.largest)
+    top = known if nowhere else search_circle(D, body, found.place, known)
+    best, angle = found.place, D.angle
+    for k in range(1 if P.singular else 0, BETWEEN + 1 if anywhere else 0):
+        place = lowest + (D.largest - lowest) * k / BETWEEN
+        value = search_circle(D, body, place, top)
+        if value > top:
+            top, best, angle = value, place, D.angle
+    if top <= known:
+        return s
+    for _ in range(0 if P.singular else CLIMBS):
+        D.best, D.angle = lift(Q, top), angle
+        place = climb_radius(D, body, best)
+        value = search_circle(D, body, place, value_of(Q, D.best))
+        done = value <= top * (1.0 + Q.line)
+        top = max(top, value)
+        if done:
+            break
+        best, angle = place, D.angle
+    return top
 
 
 @jit

@@ -26,10 +26,10 @@ NODES, FINE = 5, 8
 #: Highest powers that tell what a cell lacks: an even and an odd one, one of which a kink in its middle has.
 TOP = 2
 #: Most cells, and values on half an arc.
-MAX_CELLS, MAX_ALONG = 1009, 4
+MAX_CELLS, MAX_ALONG = 1009, 8
 #: Radius of the sphere over the centre's distance from the axis up to which so many values, from one on, are
-#: enough on half an arc.
-REACH = np.array([0.35, 0.8, 1.0])
+#: enough on half an arc; a larger sphere holds whole circles, on which the criterion has several peaks.
+REACH = np.array([0.35, 0.8, 1.0, 1.2, 1.2, 1.5, 1.5])
 #: Cells at first in u and w, the square of that on a line: of means that are told, and of rough ones.
 FIRST, ROUGHLY = np.array([2, 1])
 #: Kinds of mean: over a half sphere, at one place, along a line.
@@ -49,7 +49,7 @@ SINGLE, AVERAGED, OF_VALUE, OF_POINT = 0.03, 0.3, 1e-4, 1e-3
 #: claimed on lines, over the largest value there.
 FLOOR, OF_LARGEST = 0.02, 2e-5
 #: Most values at places.
-MOST_VALUES = 3000
+MOST_VALUES = 8000
 
 
 def _nodes():

@@ -43,12 +43,16 @@ from swtstudy.vocabulary.parameters import DIRECTIONS
 KINDS = {"volume": SPHERE, "point": POINT, "line": LINE}
 #: Data variables of a kind: the mean, its error, and the place that it is about.
 VARIABLES = {kind: (f"s_{kind}", f"s_{kind}_error", f"{kind}_x") for kind in KINDS}
-#: Relative accuracy of means, of means while their place is looked for, and of single values in a column;
-#: tolerance of what grew in stick.
-RTOL, ROUGH, CLOSE, OF_COLUMNS, GROWTH = 1e-3, 3e-2, 1e-2, 1e-2, 1e-5
-#: A parabola has found a place if it foretells the mean there so closely, relative; means on the way that
-#: differ by less than the second number may be equal; most means on the way.
-FORETOLD, TOLD_APART, MOST_STEPS = 1e-3, 2e-3, 12
+#: Relative accuracy of means, of means at first, and of single values in a column; what a place that is found
+#: may miss; tolerance of what grew in stick.
+RTOL, ROUGH, OF_COLUMNS, OF_PLACE, GROWTH = 1e-3, 3e-2, 1e-2, 1e-3, 1e-5
+#: Relative accuracy of means on the way to their largest one: values at a depth and along lines have kinks.
+CLOSE = {"volume": 1e-2, "point": 2e-3, "line": 2e-3}
+#: A parabola has found a place if it foretells the mean there so closely, over the accuracy of means on the
+#: way; those that differ by less than the second number, over it, may be equal; most means on the way.
+FORETOLD, TOLD_APART, MOST_STEPS = 0.1, 0.2, 12
+#: Places are one if they are nearer than such a share of the width of a climb.
+SAME = 1e-3
 #: Columns of at least this share of the highest are looked at, and means at these of this share of the
 #: largest one are climbed from: they lie within ℓ/4 of their maxima.
 WORTH_A_LOOK, WORTH_A_CLIMB = 0.7, 0.94
@@ -58,23 +62,42 @@ JUMP, LOOKS, HALVINGS = 0.05, 17, 20
 #: Straight down, to the right and down.
 DOWN = (0.0, 1.0)
 #: Gauss's nodes t of a column, at depths 2ℓt², and their weights in the mean over the depths.
-_NODE, _WEIGHT = gauss_legendre(3)
+_NODE, _WEIGHT = gauss_legendre(7)
 NODE, OF_LINE = 0.5 + 0.5 * _NODE, 0.5 * (1.0 + _NODE) * _WEIGHT
-#: Most columns within the contact; over s, a limit below which all of them are looked at.
-MOST_COLUMNS, LOWEST = 400, 0.02
+#: Columns are looked at so many ℓ beside the contact.
+FARTHEST = 8.0
+#: Most columns within the contact, their largest distance over the largest contact radius; over s, a limit
+#: below which all of them are looked at.
+MOST_COLUMNS, NARROW, LOWEST = 400, 0.1, 0.02
 #: A mean about a place, and its error.
 Mean = Callable[[float], tuple[float, float]]
 
 
-def _of_disc() -> FloatArray:
-    """Weights of a column's values in the mean over the half disc of radius ℓ, if they do not depend on x."""
-    t = (np.arange(200) + 0.5) / 200.0 * np.sqrt(0.5)
-    share = 4.0 * t * np.sqrt(1.0 - 4.0 * t**4)  # of depths 2ℓt² ≤ ℓ
-    series = np.linalg.inv(np.vander(NODE, increasing=True))
-    return (share / share.sum()) @ np.vander(t, 3, increasing=True) @ series
+def _in_series(t: FloatArray) -> FloatArray:
+    """Weights of a column's values in its value at t, by the polynomial through them, (..., len(NODE))."""
+    series = np.linalg.inv(np.polynomial.legendre.legvander(_NODE, len(NODE) - 1))
+    return np.polynomial.legendre.legvander(2.0 * t - 1.0, len(NODE) - 1) @ series
 
 
-OF_DISC, OF_POINT = _of_disc(), np.array([0.0, 1.0, 0.0])
+#: Distances of columns from the middle of a ball, over ℓ.
+OFFSET = np.linspace(0.0, 1.0, 33)
+
+
+def _of_ball(power: float) -> FloatArray:
+    """Weights of the values of a column in the mean over a half ball, by the column's offset, over ℓ.
+
+    The weight of a place is its distance from the surface of the ball: to the power 1 that is a half sphere
+    with a field that does not depend on y, to the power 0 a half disc.
+    """
+    share, of_share = gauss_legendre(24)
+    deepest = np.sqrt(0.5 * np.sqrt(1.0 - OFFSET**2))[:, None]  # at the surface of the ball
+    t = deepest * (0.5 + 0.5 * share)
+    inside = np.maximum(1.0 - OFFSET[:, None] ** 2 - 4.0 * t**4, 0.0) ** (0.5 * power)
+    weights = np.einsum("oi,oij->oj", deepest * of_share * t * inside, _in_series(t))
+    return weights / (2.0 * np.trapezoid(weights.sum(axis=1), OFFSET))
+
+
+OF_SPHERE, OF_DISC, OF_POINT = _of_ball(1.0), _of_ball(0.0), (NODE == 0.5).astype(float)
 
 
 def worst_means(points: Points, solution: Solution, distance: FloatArray) -> dict[str, FloatArray]:
@@ -116,7 +139,8 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> dic
     for mean, error, _ in VARIABLES.values():
         # The points come last, so that their values are repeated along the other dimensions.
         found[mean].T[..., rows] = solution.s[rows]
-        found[error].T[..., rows] = solution.s_error[rows]
+        # Beside a line without tension there may be some.
+        found[error].T[..., rows] = np.fmax(solution.s_error, solution.s_surface - solution.s)[rows]
     return found
 
 
@@ -129,45 +153,59 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
 
     least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
     x, columns = _columns(opened, critical, s, distance, least)
-    beside = sum(np.interp(x + side, x, columns @ OF_DISC) for side in (-0.5 * distance, 0.5 * distance))
-    # At ℓ/2 from its middle a sphere has 3/4 of the section there.
-    volume = (columns @ OF_DISC + 0.75 * beside) / 2.5
+    spacing, of_ball = _spacing(opened, distance), OF_DISC if opened.profile["plane"] else OF_SPHERE
+    volume = _ball_means(x / distance, columns, of_ball, spacing / distance)
     estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
     far, near, found = far_field_of(opened), _spacing(opened, 0.0), {}
     for kind, estimate in estimates.items():
         rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
+        step = 0.5 * spacing if kind == "line" else 0.25 * distance
         if min(abs(start - critical) for start in starts) > 0.5 * distance:
             starts.append(critical)
         for way in range(1 if kind == "volume" else len(DIRECTIONS)):
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
-            close = partial(mean, kind, way, most, CLOSE, FIRST)
-            place, known = _climb_all(rough, close, starts, 0.25 * distance, near)
+            close = partial(mean, kind, way, most, CLOSE[kind], FIRST)
+            place, known = _climb_all(rough, close, starts, step, near, CLOSE[kind])
             if way == 1:
                 places = [place, *_beside_jumps(opened, place, 0.5 * distance)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
             value, error = mean(kind, way, known, RTOL, FIRST, place)
-            rows.append((far, 0.0, np.nan) if far > value else (value, error + FORETOLD * value, place))
+            rows.append((far, 0.0, np.nan) if far > value else (value, error + OF_PLACE * value, place))
         found[kind] = np.array(rows)
     return found
+
+
+def _ball_means(x: FloatArray, columns: FloatArray, of_ball: FloatArray, spacing: float) -> FloatArray:
+    """Estimates of the means over half balls about the columns, lengths over ℓ: sums over their columns."""
+    gaps = np.minimum(np.diff(x), spacing)
+    widths = 0.5 * (np.append(gaps, spacing) + np.insert(gaps, 0, spacing))
+    offset = np.abs(x[:, None] - x)
+    parts = (np.interp(offset, OFFSET, own, right=0.0) for own in of_ball.T)
+    return sum(part @ (widths * values) for part, values in zip(parts, columns.T, strict=True))
 
 
 def _columns(
     opened: Opened, critical: float, s: float, distance: float, limit: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Columns where the surface exceeds a limit: their x, ascending, and values at `NODE`, (n, 3)."""
+    """Columns where the surface exceeds a limit: their x, ascending, and values at `NODE`, (n, len(NODE))."""
     place, value = surface_above(opened, max(limit, LOWEST * s), s)
     high = (value[:-1] > limit) | (value[1:] > limit) | (limit < LOWEST * s)
     end = largest_radius(opened) + distance
     left, right = (np.clip(each[high], -end, end) for each in (place[:-1] - distance, place[1:] + distance))
     step = _spacing(opened, distance)
     near = [np.arange(np.floor(a / step), np.ceil(b / step) + 1) for a, b in zip(left, right, strict=True)]
+    # Peaks of the surface may be narrower than the distance of columns.
+    peaks = place[1:-1][(value[1:-1] >= np.maximum(value[:-2], value[2:])) & (value[1:-1] > limit)]
     outside = place[(value > limit) & (np.abs(place) > end)]
-    x = np.unique(np.concatenate([*(step * each for each in near), outside, [critical]]))
+    # At a depth beneath which all is pressed, tension is far to the side.
+    beyond = largest_radius(opened) + distance * np.geomspace(1.0, FARTHEST, 8)
+    own = [step * each for each in near]
+    x = np.unique(np.concatenate([*own, outside, peaks, beyond, -beyond, [critical]]))
     if opened.load["mirrored"]:
         x = x[x >= -distance]
     columns = _columns_at(opened, x, distance, limit)
     while True:  # columns beside the highest ones, until these are as near as the distance asks for
-        tops = {k for weights in (OF_DISC, OF_LINE, OF_POINT) for k in _tops(columns @ weights)}
+        tops = {k for weights in (OF_LINE, OF_POINT) for k in _tops(columns @ weights)}
         wide = [k for k in range(len(x) - 1) if x[k + 1] - x[k] > distance and tops & {k, k + 1}]
         if not wide:
             return x, columns
@@ -179,11 +217,12 @@ def _columns(
 
 def _spacing(opened: Opened, distance: float) -> float:
     """Distance of columns from one another at first."""
-    return max(0.5 * distance, 2.0 * (largest_radius(opened) + distance) / MOST_COLUMNS)
+    radius = largest_radius(opened)
+    return max(min(0.5 * distance, NARROW * radius), 2.0 * (radius + distance) / MOST_COLUMNS)
 
 
 def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) -> FloatArray:
-    """Values at `NODE` beneath places of the line, (n, 3); below the limit they may be low."""
+    """Values at `NODE` beneath places of the line, (n, len(NODE)); below the limit they may be low."""
     at = np.zeros((len(x), len(NODE), 3))
     at[..., 0], at[..., 2] = x[:, None], 2.0 * distance * NODE**2
     return criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)
@@ -199,7 +238,7 @@ def _tops(estimate: FloatArray) -> list[int]:
 
 
 def _climb_all(
-    rough: Mean, close: Mean, starts: list[float], step: float, near: float
+    rough: Mean, close: Mean, starts: list[float], step: float, near: float, accuracy: float
 ) -> tuple[float, float]:
     """The place of the largest mean that is reached from places, and the mean: roughly the highest first.
 
@@ -209,7 +248,7 @@ def _climb_all(
     for value, x in sorted(((rough(x)[0] if len(starts) > 1 else 1.0, x) for x in starts), reverse=True):
         if value < largest * (1.0 if abs(x - best) < near else WORTH_A_CLIMB):
             continue
-        place, value = _climb(close, x, step)
+        place, value = _climb(close, x, step, accuracy)
         if value > largest:
             best, largest = place, value
     return best, largest
@@ -241,7 +280,7 @@ def _turned(one: tuple[float, float], other: tuple[float, float]) -> bool:
     return abs(one[0] * other[1] - one[1] * other[0]) > JUMP
 
 
-def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
+def _climb(mean: Mean, x: float, step: float, accuracy: float) -> tuple[float, float]:
     """From a place to a maximum by parabolas through three places, until one foretells the mean there.
 
     The outer two are the next ones whose means are lower than the highest by more than these miss, or that
@@ -250,7 +289,9 @@ def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
     at, of, foretold, far = [x], [mean(x)[0]], np.inf, 3.0 * step
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
-        is_outer = (np.array(of) < (1.0 - TOLD_APART) * of[k]) | (np.abs(np.array(at) - at[k]) >= far)
+        is_outer = (np.array(of) < (1.0 - TOLD_APART * accuracy) * of[k]) | (
+            np.abs(np.array(at) - at[k]) >= far
+        )
         outer = np.flatnonzero(is_outer)
         before, after = outer[outer < k], outer[outer > k]
         if before.size and after.size:
@@ -260,11 +301,13 @@ def _climb(mean: Mean, x: float, step: float) -> tuple[float, float]:
             right = before.size > 0 or (after.size == 0 and 2 * k >= len(at) - 1)
             new, foretold = (at[-1] + step if right else at[0] - step), np.inf
             step *= 2.0 if len(at) > 2 else 1.0
+        if np.abs(np.array(at) - new).min() < SAME * far:  # means of such places differ by what they miss
+            break
         value = mean(new)[0]
         j = int(np.searchsorted(at, new))
         at.insert(j, new)
         of.insert(j, value)
-        if abs(value - foretold) <= FORETOLD * value:
+        if abs(value - foretold) <= FORETOLD * accuracy * value:
             break
     k = int(np.argmax(of))
     return at[k], of[k]

@@ -217,3 +217,70 @@ def test_beside_the_singular_edge_of_a_face_the_circle_has_no_bound():
     assert found.swt.validity() == (
         "critical point at the singular edge of the face: off the line y = 0 swt may have no bound there",
     )
+
+
+#: Highest on a circle between those of the least and the largest contact radius, or beside that of s: what a
+#: dense search of the surface by `swtstudy.swt_field` has, confirmed by tests/oracles/circle.py.
+BETWEEN_CIRCLES = {
+    "a compressive bulk stress": (
+        {
+            "poisson_ratio": 0.40733219922801944,
+            "friction": 0.08754683876406814,
+            "profile": "rounded_punch",
+            "flat_radius": 1.3370989577190642,
+            "phase": 4.526449224803094,
+            "frequency_ratio": "1/2",
+            "normal_force_amplitude": 0.5676274974756472,
+            "tangential_force_amplitude": 0.19057321310153524,
+            "bulk_stress_amplitude": 0.025462564697210376,
+            "bulk_stress_mean": -0.08794579295473688,
+            "bulk_stress_phase": 5.568612644399586,
+            "walker_exponent": 0.5256303366271905,
+        },
+        1.28363e-3,
+    ),
+    "the same at a low ν": (
+        {
+            "poisson_ratio": 0.2748378535260868,
+            "friction": 0.3552906083113567,
+            "phase": 3.707635810002869,
+            "normal_force_amplitude": 0.47451159599711656,
+            "tangential_force_amplitude": 0.03624178913360803,
+            "bulk_stress_mean": -0.15453053791167254,
+            "bulk_stress_amplitude": 0.011934184832296092,
+            "bulk_stress_phase": 4.132403792521639,
+        },
+        0.0105349,
+    ),
+    "shear": (
+        {
+            "poisson_ratio": 0.02591782625833705,
+            "friction": 0.6027707058703032,
+            "profile": "rounded_punch",
+            "flat_radius": 1.9781085174126507,
+            "phase": 0.7459202463932626,
+            "normal_amplitude": 0.7098622889175545,
+            "tangential_amplitude": 0.4076855922967507,
+            "criterion": "fatemi_socie",
+            "normal_sensitivity": 0.8284780578019395,
+        },
+        0.20059,
+    ),
+    "no bulk stress": (
+        {
+            "poisson_ratio": 0.5,
+            "friction": 1.5763012527988831,
+            "phase": 2.128901457600617,
+            "normal_force_amplitude": 0.3216852075987185,
+            "tangential_force_amplitude": 0.24091095730600143,
+            "walker_exponent": 0.7982557662700376,
+        },
+        0.600495,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BETWEEN_CIRCLES)
+def test_the_highest_circle_is_found(name):
+    given, right = BETWEEN_CIRCLES[name]
+    assert float(swtstudy.solve(**given).s_surface) == pytest.approx(right, rel=2e-4)

@@ -165,3 +165,111 @@ def test_with_units_places_are_lengths() -> None:
     scale = found.critical_position / found.critical_x
     assert_allclose(found.volume_position, found.volume_x * scale)
     assert found.point_position.dims == found.s_point.dims
+
+
+#: Where the largest mean is on the other side than s, or far from it: parameters, ℓ, the kind, and the mean
+#: by dense quadrature of `swtstudy.swt_field` at the best of many places.
+OTHER_SIDE = {
+    "waves": (
+        {
+            "poisson_ratio": 0.2711632507420737,
+            "friction": 1.8123768074564504,
+            "phase": 4.440129350060274,
+            "profile": "wavy_paraboloid",
+            "waviness_amplitude": 0.03,
+            "wavelength": 8.245725125264961,
+            "normal_force_amplitude": 0.4091980362444771,
+            "tangential_force_amplitude": 0.4099344484944497,
+        },
+        5.061843947214405,
+        "line",
+        0.0063753,
+    ),
+    "a face": (
+        {
+            "poisson_ratio": 0.4290054069106033,
+            "friction": 0.2510905565853494,
+            "phase": 2.188729636405885,
+            "frequency_ratio": "1/2",
+            "profile": "rounded_punch",
+            "flat_radius": 2.7499617721211624,
+            "normal_amplitude": 0.41618232486968004,
+            "tangential_amplitude": 1.0642785805551385,
+            "bulk_stress_amplitude": 0.001643950460093716,
+            "bulk_stress_mean": 0.04246563813836979,
+        },
+        0.7135493172308853,
+        "volume",
+        4.6154e-3,
+    ),
+    "a depth": (
+        {
+            "poisson_ratio": 0.08791883657191985,
+            "friction": 0.10000040713551234,
+            "phase": 0.38069330322667455,
+            "frequency_ratio": "2",
+            "normal_force_amplitude": 0.0,
+            "tangential_force_amplitude": 0.93292755565194,
+        },
+        1.2780682490318287,
+        "point",
+        5.0296e-5,
+    ),
+    "narrow peaks of a cylinder": (
+        {
+            "poisson_ratio": 0.3686354697424958,
+            "friction": 0.1260765339221826,
+            "phase": 1.339304538495359,
+            "frequency_ratio": "2",
+            "profile": "power_law_cylinder",
+            "exponent": 2.7088163387060913,
+            "normal_force_amplitude": 0.1531586644420875,
+            "tangential_force_amplitude": 0.28047464948789,
+            "walker_exponent": 0.3734164121908062,
+        },
+        0.19482310877100084,
+        "line",
+        5.650e-5,
+    ),
+    "far to the side": (
+        {
+            "poisson_ratio": 0.05666541044868523,
+            "friction": 0.17952337369047577,
+            "phase": 3.563095155126401,
+            "profile": "cylinder",
+            "normal_force_amplitude": 0.5880613246492014,
+            "tangential_force_amplitude": 0.3829723136736593,
+        },
+        2.013980672659584,
+        "point",
+        7.712e-6,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", OTHER_SIDE)
+def test_the_largest_mean_on_the_other_side_is_found(name):
+    given, distance, kind, right = OTHER_SIDE[name]
+    found = swtstudy.solve(**given, critical_distance=distance)
+    value, error = (found[f"s_{kind}{ending}"].values.ravel()[0] for ending in ("", "_error"))
+    assert value + error >= right
+
+
+def test_a_mean_over_a_large_half_sphere_is_within_its_error():
+    """Spheres that hold whole circles of the contact; by rings about the axis, 1 % at most of it unknown."""
+    given = {
+        "poisson_ratio": 0.23127316673926523,
+        "friction": 1.2388217703347266,
+        "phase": 2.86342614466779,
+        "frequency_ratio": "1/2",
+        "profile": "wavy_paraboloid",
+        "waviness_amplitude": 0.03,
+        "wavelength": 5.687980565892781,
+        "normal_force_amplitude": 0.5726911372126302,
+        "tangential_force_amplitude": 0.2740099241718394,
+        "bulk_stress_amplitude": 0.023352350085960663,
+        "bulk_stress_mean": 0.07748685781334842,
+    }
+    found = swtstudy.solve(**given, critical_distance=1.379874836510213)
+    assert float(found.s_volume + found.s_volume_error) >= 0.01343
+    assert float(found.s_volume - found.s_volume_error) <= 0.01356
