@@ -42,7 +42,7 @@ TOGETHER = (
 #: Tests of these files compile nothing, or next to nothing: one process runs them while another compiles.
 READING = (
     *("test_study.py", "test_schema.py", "test_rig_files.py", "test_tables_of_users.py"),
-    *("test_expression.py", "test_mistakes_report.py", "test_attributes.py"),
+    *("test_expression.py", "test_mistakes_report.py"),
 )
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
