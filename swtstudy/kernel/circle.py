@@ -40,7 +40,7 @@ HIGHER = 1e-4
 #: Circles between the least and the largest contact radius, and climbs from the highest one.
 BETWEEN, CLIMBS = 4, 3
 #: First step of a climb over the largest contact, and the last one over the root of the tolerance.
-STEP, NARROWEST = 0.05, 0.25
+STEP, NARROWEST = 0.05, 0.02
 MAX_ARCS = 400
 #: Arcs at first, over half a turn.
 ARCS = np.int64(8)
