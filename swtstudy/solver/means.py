@@ -94,7 +94,8 @@ def _of_ball(power: float) -> FloatArray:
     t = deepest * (0.5 + 0.5 * share)
     inside = np.maximum(1.0 - OFFSET[:, None] ** 2 - 4.0 * t**4, 0.0) ** (0.5 * power)
     weights = np.einsum("oi,oij->oj", deepest * of_share * t * inside, _in_series(t))
-    return weights / (2.0 * np.trapezoid(weights.sum(axis=1), OFFSET))
+    whole = weights.sum(axis=1)  # 0 at the last offset: by the trapezium rule half of the first value counts
+    return weights / (2.0 * OFFSET[1] * (whole.sum() - 0.5 * whole[0]))
 
 
 OF_SPHERE, OF_DISC, OF_POINT = _of_ball(1.0), _of_ball(0.0), (NODE == 0.5).astype(float)
