@@ -263,8 +263,9 @@ def surface_value(D, body, found):
         lowest = max(lowest, INNERMOST * D.largest)
     top = known if nowhere else search_circle(D, body, found.place, known)
     best, angle = found.place, D.angle
-    for k in range(1 if P.singular else 0, BETWEEN + 1 if anywhere else 0):
-        place = lowest + (D.largest - lowest) * k / BETWEEN
+    steps = BETWEEN if D.largest > lowest else 1  # one circle where the radius does not change
+    for k in range(1 if P.singular or steps == 1 else 0, steps + 1 if anywhere else 0):
+        place = lowest + (D.largest - lowest) * k / steps
         value = search_circle(D, body, place, top)
         if value > top:
             top, best, angle = value, place, D.angle
