@@ -2,7 +2,7 @@
 
 ``python studies/checks/criteria.py``, from the project folder, writes results/criteria.md: by profile and
 criterion, how far s is below what the loops find, and above. ``--points 2`` takes fewer of each, ``--quick``
-one.
+one of two profiles.
 """
 
 from __future__ import annotations
@@ -109,8 +109,8 @@ def shortfalls(profile: str, criterion: str, count: int, seed: int) -> Iterator[
         yield 1.0 - found.s[k] / value, found.s_error[k] / value
 
 
-def lines(count: int) -> Iterator[str]:
-    """The report."""
+def lines(profiles: list[str], count: int) -> Iterator[str]:
+    """The report of so many points of each profile and criterion."""
     yield "# Criteria of shear against plain loops"
     yield ""
     yield (
@@ -121,7 +121,7 @@ def lines(count: int) -> Iterator[str]:
     yield ""
     yield "| profile | criterion | points | lower than the loops by more than s_error | lowest | highest |"
     yield "|---|---|---|---|---|---|"
-    for number, profile in enumerate([*PROFILES[0], *PROFILES[1]]):
+    for number, profile in enumerate(profiles):
         for criterion in SENSITIVITIES:
             rows = np.array([*shortfalls(profile, criterion, count, SEED + number)]).reshape(-1, 2)
             low, error = rows.T
@@ -136,8 +136,11 @@ def main() -> None:
     arguments.add_argument("--points", type=int, default=17, help="points of each profile and criterion")
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
+    count, profiles = given.points, [*PROFILES[0], *PROFILES[1]]
+    if given.quick:
+        count, profiles = 1, [own[0] for own in PROFILES]
     with np.errstate(all="ignore"):
-        text = "\n".join(lines(1 if given.quick else given.points)) + "\n"
+        text = "\n".join(lines(profiles, count)) + "\n"
     (given.results / "criteria.md").write_text(text, encoding="utf-8")
     print(text)
 

@@ -222,7 +222,7 @@ def times(scene: tuple[str, dict[str, float], float, tuple[int, int]], count: in
     return f"| {name} | {' | '.join(cells)} | {claimed:.1e} |"
 
 
-def sweep(file: Path, count: int) -> FloatArray:
+def sweep(file: Path, profiles: list[str], count: int) -> FloatArray:
     """Ratios at so many points of each profile, (profiles, count, 4, 5); points in the file are done."""
     done: dict[tuple[str, int], FloatArray] = {}
     if file.exists():
@@ -231,13 +231,13 @@ def sweep(file: Path, count: int) -> FloatArray:
                 done[row[0], int(row[1])] = np.array(row[2:], float).reshape(4, -1)
     with open(file, "a", encoding="utf-8", newline="") as text:
         rows = csv.writer(text)
-        for profile in SHAPES:
+        for profile in profiles:
             for k, case in enumerate(islice(random_points(profile), count)):
                 if (profile, k) not in done:
                     done[profile, k] = ratios(*case)
                     rows.writerow([profile, k, *(f"{v:.6g}" for v in done[profile, k].ravel())])
                     text.flush()
-    return np.array([[done[profile, k] for k in range(count)] for profile in SHAPES])
+    return np.array([[done[profile, k] for k in range(count)] for profile in profiles])
 
 
 def limits(profile: str, sizes: FloatArray) -> str:
@@ -253,11 +253,13 @@ def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--points", type=int, default=128, help="random points of each profile")
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
-    arguments.add_argument("--quick", action="store_true", help="one point of each, to see that it runs")
+    arguments.add_argument("--quick", action="store_true", help="a point of one profile, to see that it runs")
     given = arguments.parse_args()
-    count = 1 if given.quick else given.points
+    count, profiles, scenes = given.points, [*SHAPES], SCENES
+    if given.quick:
+        count, profiles, scenes = 1, profiles[:1], scenes[:1]
     given.results.mkdir(exist_ok=True)
-    found = sweep(given.results / "nonlocal_means.csv", count)
+    found = sweep(given.results / "nonlocal_means.csv", profiles, count)
     lines = [
         "# Nonlocal means",
         "",
@@ -265,7 +267,7 @@ def main() -> None:
     ]
     lines[-1] += "ℓ = 0.1 a_H or eleven distances up to that, and the largest relative error claimed."
     lines += ["", "| scene | one distance | eleven | error claimed |", "|---|---|---|---|"]
-    lines += [times(scene, 1 if given.quick else len(PHASES)) for scene in SCENES]
+    lines += [times(scene, 1 if given.quick else len(PHASES)) for scene in scenes]
     value, claimed, off, higher = np.moveaxis(found, 2, 0)
     within = (off <= claimed).all(axis=-1)
     lines += ["", f"At {within.sum()} of {within.size} random points all means are within their claimed "]
@@ -275,7 +277,7 @@ def main() -> None:
     lines[-1] += f"the line, known to {OF_PLACES:g}, exceeds the largest one."
     lines += ["", "| profile | mean | median off | largest | median claimed | off over claimed | elsewhere |"]
     lines += ["|---|---|---|---|---|---|---|"]
-    for row, profile in enumerate(SHAPES):
+    for row, profile in enumerate(profiles):
         for k, name in enumerate(MEANS):
             size = np.maximum(value[row, :, k], 1e-300)
             share, own = off[row, :, k] / size, claimed[row, :, k] / size
@@ -290,7 +292,7 @@ def main() -> None:
     )
     lines[-1] += "another."
     lines += ["", "| profile | " + " | ".join(f"{v:.0e}" for v in sizes) + " |", "|---|---|---|---|---|"]
-    lines += [limits(profile, sizes) for profile in SHAPES]
+    lines += [limits(profile, sizes) for profile in profiles]
     (given.results / "nonlocal_means.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
     print("\n".join(lines))
 

@@ -21,6 +21,7 @@ from matplotlib.legend import Legend
 from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
+from matplotlib.ticker import ScalarFormatter
 from numpy.typing import NDArray
 
 from swtstudy.figures.style import Style, picture, stroke, styled
@@ -139,6 +140,9 @@ class Sheet:
             cell = (self.rows * lines, across, (row * lines + line) * across + column + 1)
             one = figure.add_subplot(*cell, sharex=first[share_x], sharey=first[share_y])
             lowest = row == self.rows - 1 and index + across >= self.count
+            for axis, other in ((one.xaxis, first[share_x]), (one.yaxis, first[share_y])):
+                if other is None:
+                    axis.set_major_formatter(PlainNumbers())
             one.tick_params(labelleft=column == 0 or share_y == "none")
             one.tick_params(labelbottom=lowest or share_x != "all")
             panels[row, index] = one
@@ -152,6 +156,19 @@ class Sheet:
     def lowest(self, panels: NDArray[Any]) -> list[Axes]:
         """The panels with nothing beneath them."""
         return list(panels[-1, max(self.count - self.across, 0) :])
+
+
+class PlainNumbers(ScalarFormatter):
+    """Numbers of ticks as plain text: matplotlib parses each formula, which takes longer.
+
+    The power of ten at the end of an axis is a formula.
+    """
+
+    def set_locs(self, locs: Any) -> None:
+        """Ticks at these places."""
+        self.set_useMathText(False)
+        super().set_locs(locs)
+        self.set_useMathText(True)
 
 
 def check_width(width: object) -> None:

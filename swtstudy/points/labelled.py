@@ -199,9 +199,11 @@ def margins(
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
     found = {name: values[points.index] for name, values in found.items()}
-    names_of = "curvature", "face", "slip_scale", "body_share"
-    curvature, face, slip, share = grid.at(np.arange(grid.size), *names_of)
-    radius, shift = found["contact_radius"], found["bulk_shift"] * np.abs(share)
+    names_of = "curvature", "face", "slip_scale", "body_share", "bulk_stress_amplitude"
+    curvature, face, slip, share, pull = grid.at(np.arange(grid.size), *names_of)
+    # The stick zone is both bodies', whichever of them carries the bulk stress.
+    shift = np.where(pull == 0.0, 0.0, found["unit_shift"] * pull * np.abs(share))
+    radius = found["contact_radius"]
     width = radius - found["stick_radius"]  # of the slip zone
     with np.errstate(divide="ignore", invalid="ignore"):
         told: dict[str, NDArray] = {

@@ -47,24 +47,24 @@ def margins_of(points: Points) -> Margins:
         1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
         displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus that limit if the depth is
         constant; 0 without gross slip, NaN where the bodies part or the tangential force is prescribed.
-        ``moved``: 1 where the bulk stress moves the stick zone in s, else 0. ``bulk_shift``: by how much the
-        bulk strain would move it, in a_H, however large that is.
+        ``moved``: 1 where the bulk stress moves the stick zone in s, else 0. ``unit_shift``: by how much the
+        strain of a bulk stress of amplitude 1 E* δ0/a_H would move it, in a_H, however large that is.
     """
     # Compiled: whoever only reads a study does without.
     from swtstudy.kernel.batch import margins_batch
 
     found = margins_batch(**arguments_of(points))
-    return {name: found[name].astype(float) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}
+    return {name: found[name].astype(float) for name in _COMPILED} | {"unit_shift": unit_shift(points)}
 
 
 def foreseen(points: Points) -> Margins:
     """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
-    found = {name: np.full(len(points), np.nan) for name in _COMPILED} | {"bulk_shift": bulk_shift(points)}
+    found = {name: np.full(len(points), np.nan) for name in _COMPILED} | {"unit_shift": unit_shift(points)}
     for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
         alike = np.flatnonzero((points.p == p) & (points.q == q))
         parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
         for rows in np.array_split(alike, parts):
-            for name, values in _seen(points[rows], found["bulk_shift"][rows]).items():
+            for name, values in _seen(points[rows], found["unit_shift"][rows]).items():
                 found[name][rows] = values
     return found
 
@@ -102,7 +102,7 @@ def _largest(values: FloatArray, smooth: bool) -> FloatArray:
     return np.asarray((values + rise).max(axis=1))
 
 
-def _seen(points: Points, shift: FloatArray) -> Margins:
+def _seen(points: Points, unit_shift: FloatArray) -> Margins:
     """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
     normal, tangential, bulk, smooth = _motion(points)
     follows = _follows(points, normal, tangential, bulk)
@@ -122,7 +122,8 @@ def _seen(points: Points, shift: FloatArray) -> Margins:
     radius = _radii(AtRest(points.profile, points.shape), ends, control.tangential_force and not plane)
     found = {"contact_radius": radius[:, 1], "stick_radius": np.where(stick >= 0.0, radius[:, 0], np.nan)}
     width = (radius[:, 1] - found["stick_radius"]) * (1.0 + ROUNDING)
-    found["moved"] = follows & (shift * np.abs(points.bulk_strain_share) <= width)
+    shift = unit_shift * points.bulk_stress_amplitude * np.abs(points.bulk_strain_share)
+    found["moved"] = follows & (shift <= width)
     if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
         return found | {"slide": slide}
@@ -163,17 +164,17 @@ def _other_coordinate(point: Points, largest: float) -> tuple[FloatArray, FloatA
     return (force, depth) if point.control.normal_force else (depth, force)
 
 
-def bulk_shift(points: Points) -> FloatArray:
-    """e/a_H of n points, shape (n,), however large: about the width of the slip zone it is but an estimate.
+def unit_shift(points: Points) -> FloatArray:
+    """e/B_A of n points in a_H, shape (n,): beyond the width of the slip zone e is but an estimate.
 
-    NaN without friction, and under a bulk stress that moves for other profiles than the paraboloid and the
-    cylinder.
+    NaN without friction, and for other profiles than the paraboloid and the cylinder; 0 for a loop without
+    bulk stress.
     """
-    ν, μ, amplitude = points.poisson_ratio, points.friction, points.bulk_stress_amplitude
+    ν, μ, amplitude = points.poisson_ratio, points.friction, 1.0
     if points.path is not None:
-        amplitude = amplitude * 0.5 * np.ptp(points.path.bulk_ends or (0.0, 0.0))
-    if points.profile not in (PLAIN, PLAIN_STRIP):
-        return np.where((amplitude == 0.0) & (μ > 0.0), 0.0, np.nan)
+        amplitude = 0.5 * np.ptp(points.path.bulk_ends or (0.0, 0.0))
     stiffness = 4.0 if points.profile == PLAIN_STRIP else (1.0 + ν) * (4.0 - 3.0 * ν)
+    if points.profile not in (PLAIN, PLAIN_STRIP) and amplitude > 0.0:
+        stiffness = np.nan
     shift = np.full(len(points), np.nan)
     return np.divide(2.0 * amplitude, μ * stiffness, out=shift, where=μ > 0.0)

@@ -53,7 +53,7 @@ def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: fl
         normal_force_amplitude=np.multiply(RESTING, 200.0),
         frequency_ratio=ratio,
         phase=0.7,
-        bulk_stress_amplitude=bulk,
+        bulk_stress_mean=bulk,
     )
     asked = {"quantities": ["dissipation"], "constants": ALUMINIUM}
     found = contact.solve(1e-2, **asked)

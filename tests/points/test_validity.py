@@ -352,12 +352,21 @@ def test_a_force_that_is_too_large_is_told_in_its_own_unit():
 @pytest.mark.filterwarnings("ignore:Dundurs")
 @pytest.mark.parametrize("profile", ["paraboloid", "cylinder"])
 @pytest.mark.parametrize(("young", "poisson"), [((70e3, 200e3), (0.45, 0.45)), ((200e3, 70e3), (0.44, 0.45))])
-def test_a_softer_specimen_shifts_the_stick_zone_further(profile, young, poisson):
-    """The strain of the bulk stress over that of both surfaces by the shifted traction, in closed form."""
+@pytest.mark.parametrize("moving", [0.0, 40.0])
+def test_a_softer_specimen_shifts_the_stick_zone_further(profile, young, poisson, moving):
+    """The strain of the bulk stress over that of both surfaces by the shifted traction, in closed form.
+
+    Both bodies have the stick zone, also where s leaves the shift out.
+    """
     given = {"radius": 50.0, "normal_force": 200.0, "friction": 0.5, "similar": 0.2}
     moduli = {"young_modulus": young, "poisson_ratio": poisson}
     contact = physical(
-        **given, **moduli, tangential_force_amplitude=60.0, bulk_stress_amplitude=10.0, profile=profile
+        **given,
+        **moduli,
+        normal_force_amplitude=moving,
+        tangential_force_amplitude=60.0,
+        bulk_stress_amplitude=10.0,
+        profile=profile,
     )
     found = contact.solve(rtol=1e-2)
     compliances = [(1.0 - ν**2) / e for e, ν in zip(young, poisson, strict=True)]
