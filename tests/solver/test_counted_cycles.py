@@ -27,7 +27,7 @@ def lives(**given):
     """Rounds of real contacts by counted cycles, and as if each had one."""
     found = swtstudy.physical(**{**CONTACT, **given}).solve(rtol=1e-3, constants=ALUMINIUM)
     found = found.isel(body=0)
-    return found.cycles.values.ravel(), ALUMINIUM.cycles(found.SWT).ravel()
+    return found.cycles.values.ravel(), ALUMINIUM.cycles(found.SWT).values.ravel()
 
 
 def test_equal_cycles_do_so_many_times_the_damage_of_one() -> None:

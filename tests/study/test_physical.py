@@ -469,6 +469,17 @@ def test_lives_of_arrays_and_limits():
         STEEL.swt([1.0, np.nan, -2.0])
 
 
+def test_lives_of_labelled_values_are_labelled():
+    swt = xr.DataArray(
+        [[1.0, 2.0]], {"phase": [0.5], "friction": [0.3, 0.6]}, name="SWT", attrs={"units": "MPa"}
+    )
+    lives = STEEL.cycles(swt)
+    assert lives.coords.identical(swt.coords)
+    assert lives.dims == swt.dims
+    assert (lives.name, lives.attrs) == ("cycles", {})
+    assert lives.values.tolist() == STEEL.cycles(swt.values).tolist()
+
+
 @pytest.mark.parametrize("swt", [5e-324, 1e-300, 1e-60, 1e60, 1e300, np.inf])
 def test_lives_at_any_swt(swt):
     """One term alone rules far out: elastic at long lives, (σf′²/E) (2N)^(2b), plastic at short ones."""

@@ -95,15 +95,16 @@ class LifeCurve(NamedTuple):
                 found = np.where(known.any(axis=(-2, -1)), 1.0 / damage.sum(axis=-1).max(axis=-1), found)
         return found.reshape((*of_draws, *value.shape))
 
-    def rounds(self, name: str, value: Any, counted: Any, number: Any) -> Any:
-        """See `FatigueConstants.rounds`: at a value that has a name."""
+    def rounds(self, name: str, value: Any, *counted: Any) -> Any:
+        """See `FatigueConstants.rounds` and, of nothing counted, `cycles`: at a value that has a name."""
         import xarray as xr
 
         if not isinstance(value, xr.DataArray):
-            return self.lives(not_negative(name, value), (np.asarray(counted), np.asarray(number)))
+            return self.lives(not_negative(name, value), [np.asarray(each) for each in counted])
         dims = (*value.dims, *COUNTED_SIZES)
-        both = [each.broadcast_like(value).transpose(*dims).values for each in (counted, number)]
-        return value.copy(data=self.lives(not_negative(name, value.values), both))
+        both = [each.broadcast_like(value).transpose(*dims).values for each in counted]
+        lives = self.lives(not_negative(name, value.values), both)
+        return value.copy(data=lives).rename("cycles").drop_attrs(deep=False)
 
 
 class _Constants:
@@ -151,7 +152,7 @@ class FatigueConstants(_Constants):
         """SWT that a specimen stands for N cycles: (σf′²/E) (2N)^(2b) + σf′ εf′ (2N)^(b+c)."""
         return self.curve.at(cycles)
 
-    def cycles(self, swt: ArrayLike) -> FloatArray:
+    def cycles(self, swt: Any) -> Any:
         """Strain cycles N to the initiation of a crack at a given SWT.
 
         A round of a load may have several: `rounds` counts these.
@@ -169,8 +170,8 @@ class FatigueConstants(_Constants):
 
         Returns
         -------
-        numpy.ndarray
-            Cycles, of the shape of ``swt``; inf where that is 0, NaN where it is NaN or masked.
+        numpy.ndarray or xarray.DataArray
+            Cycles, as ``swt`` is and of its shape; inf where that is 0, NaN where it is NaN or masked.
 
         Raises
         ------
@@ -183,7 +184,7 @@ class FatigueConstants(_Constants):
         >>> float(steel.cycles(steel.swt(1e5)).round())
         100000.0
         """
-        return self.curve.life(not_negative("swt", swt))
+        return self.curve.rounds("swt", swt)
 
     def rounds(self, swt: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack: 1/Σ 1/N(SWT_i) over the strain cycles of a round.
@@ -256,7 +257,7 @@ class ShearConstants(_Constants):
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
         return self.curve.at(cycles)
 
-    def cycles(self, parameter: ArrayLike) -> FloatArray:
+    def cycles(self, parameter: Any) -> Any:
         """Cycles N to the initiation of a crack at a given Fatemi–Socie parameter, a strain.
 
         Parameters
@@ -266,8 +267,8 @@ class ShearConstants(_Constants):
 
         Returns
         -------
-        numpy.ndarray
-            Cycles, of the shape of ``parameter``; inf where that is 0, NaN where it is NaN or masked.
+        numpy.ndarray or xarray.DataArray
+            Cycles, as ``parameter`` is and of its shape; inf where that is 0, NaN where it is NaN or masked.
 
         Raises
         ------
@@ -280,7 +281,7 @@ class ShearConstants(_Constants):
         >>> float(steel.cycles(steel.parameter(1e5)).round())
         100000.0
         """
-        return self.curve.life(not_negative("parameter", parameter))
+        return self.curve.rounds("parameter", parameter)
 
     def rounds(self, parameter: Any, counted: Any, counted_number: Any) -> Any:
         """Rounds of the load to the initiation of a crack, as `FatigueConstants.rounds`."""
