@@ -18,7 +18,7 @@ from swtstudy.archive import parts
 from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.work import Work, assess
-from swtstudy.archive.workers import WorkerError, Workers, workers_of
+from swtstudy.archive.workers import WorkerError, Workers, without_signals, workers_of
 from swtstudy.points.chunk import Arrays, Found, Run, Solver, chunks, put, stacked
 from swtstudy.study.definition import Study, read_studies, require_study
 from swtstudy.study.shipped import shipped_folder
@@ -217,8 +217,9 @@ def run_several(
             for study, path in studies:
                 job = Job(study, path, retry_failed)
                 held.callback(job.close)
-                writing = before and (before, background.submit(before.finish, draw_and_finish))
-                before = None
+                with without_signals():
+                    writing = before and (before, background.submit(before.finish, draw_and_finish))
+                    before = None
                 try:
                     job.compute(pool, solver)
                 finally:

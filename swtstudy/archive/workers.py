@@ -38,6 +38,8 @@ THREADS = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THR
 CHECK_SECONDS = 5.0
 #: Tasks in flight per worker: with two, no worker waits for the parent, and few are lost with a worker.
 IN_FLIGHT = 2
+#: Signals that stop a run.
+_STOPS = (signal.SIGINT, signal.SIGTERM)
 #: Seconds after which the main thread looks for signals, where waiting does not end with them.
 _LOOK = 1.0
 
@@ -56,6 +58,29 @@ def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
     if client is not None:
         return ClusterPool(client)
     return LocalPool(count) if processes else Workers(count)
+
+
+@contextmanager
+def without_signals() -> Iterator[None]:
+    """What signals raise is raised at the end of the block.
+
+    In the midst of a submission it would leave a lock of the executor closed, and the process, which waits
+    for that lock at its end, would never end.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    raising = {each: handler for each in _STOPS if callable(handler := signal.getsignal(each))}
+    for each in raising:
+        signal.signal(each, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        for each, handler in raising.items():
+            signal.signal(each, handler)
+        for number in came[:1]:
+            signal.raise_signal(number)
 
 
 class _Task:
@@ -150,9 +175,10 @@ class Workers:
         done: SimpleQueue[Future[Any]] = SimpleQueue()
         while True:
             for chunk in islice(waiting, max(0, IN_FLIGHT * self.size - len(in_flight))):
-                future = self.submit(solve_chunk, chunk, rtol, solver)
-                in_flight[future] = chunk
-                future.add_done_callback(done.put)
+                with without_signals():
+                    future = self.submit(solve_chunk, chunk, rtol, solver)
+                    in_flight[future] = chunk
+                    future.add_done_callback(done.put)
             if not in_flight:
                 return []
             try:

@@ -6,6 +6,7 @@ import shutil
 import signal
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from functools import partial
 
@@ -296,6 +297,22 @@ def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
     assert process.returncode == 130
     assert children
     gone(children)
+
+
+def test_ctrl_c_in_the_midst_of_a_submission_comes_after_it(line, tmp_path, monkeypatch):
+    """It would leave a lock of the executor closed, for which the process waits when it ends."""
+    submit, submitted = ThreadPoolExecutor.submit, []
+
+    def interrupted(*arguments):
+        submitted.append(False)
+        signal.raise_signal(signal.SIGINT)
+        submitted[-1] = True
+        return submit(*arguments)
+
+    monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
+    with pytest.raises(Stopped, match="0 of 400 distinct points"):
+        run(line, tmp_path / "line.nc", solver=stand_in.smooth, workers=1)
+    assert submitted == [True]
 
 
 @pytest.mark.parametrize(
