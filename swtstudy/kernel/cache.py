@@ -83,7 +83,7 @@ class _Telling(Listener):
     def on_start(self, event):
         if not self.begun:
             if sys.stderr is not None and sys.stderr.isatty():
-                print("compiling the solver, once, about half a minute", file=sys.stderr, flush=True)
+                print("compiling the solver, once, for up to a minute", file=sys.stderr, flush=True)
             if FOLDER:
                 remove_unused(Path(FOLDER))
         self.begun = True

@@ -1,9 +1,19 @@
-"""The stress cycle at one position of the surface line, at instants from which it can be interpolated."""
+"""The stress cycle at one position of the surface line, at instants from which it can be interpolated.
 
-from math import pi, sqrt
+Next to a tip sharper than a paraboloid, G = ξⁿ with n < 2, the stress is linear in x^m, m = n - 1. There the
+density n ξ^m has
+
+    T1(x) = t x^m,   B(x) = B(0) - κ x^m,   κ = n √π Γ(1 - m/2)/(m Γ((1 - m)/2)),
+
+t = n √π Γ(1 + m/2)/Γ((3 + m)/2), in the plane n √π Γ((1 + m)/2)/Γ(1 + m/2). So T1 and B at the innermost
+tabulated x give B(0). At the centre itself T1 and T3 are 0, and V is B/2; between, all are linear in x^m.
+"""
+
+from math import gamma, pi, sqrt
 
 import numpy as np
 
+from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK
 from swtstudy.kernel.load import bulk_at
@@ -18,6 +28,8 @@ HISTORY = np.dtype(
     [
         *OF_PARTS,
         ("plane", "i8"),
+        # Next to a sharp tip: κ/t, and the share of x^m that the tabulated x has more than the place; else 0.
+        *fields("f8", "turn rest"),
         # Pressure, (1-2ν) P/(2πx²) with P the load within x, and B, in σ_xx on both sides.
         *fields("f8", "p within bulk", (MAX_INSTANTS,)),
         *fields("f8", "xx yy q", (MAX_INSTANTS,)),  # of the tangential load, at +x
@@ -34,6 +46,20 @@ def functionals(P, K, s, H):
         t1, t3, b, v = strip_hertz(s, abs(x)) if P.plane else hertz(s, abs(x))
         return (t1, t3, b, v) if x >= 0.0 else (-t1, -t3, b, v)
     return running(K, FIRST, s, H.X, H.all_outside)
+
+
+@jit
+def is_sharp(P):
+    """True for ξⁿ with 1 < n < 2, a tip sharper than a paraboloid."""
+    return 0.0 < P.exponent < 2.0
+
+
+@jit
+def turn_at_centre(P):
+    """κ/t of a sharp tip."""
+    m, half = P.exponent - 1.0, 0.5 if P.plane else 1.0
+    of_t = gamma(half + 0.5 * m) / gamma(half + 0.5 + 0.5 * m)
+    return gamma(1.0 - 0.5 * m) / (m * gamma(0.5 - 0.5 * m) * of_t)
 
 
 @jit
@@ -87,6 +113,7 @@ def stress(H, m, C, P, K, k, edge, front, sign, Q):
         H.p[m], H.within[m], H.xx[m], H.yy[m], H.q[m] = 0.0, 0.0, 0.0, 0.0, 0.0
         return
     n1, n3, nb, nv = functionals(P, K, edge, H)
+    rise = H.turn * n1  # of B, up to the centre
     o1, o3, ob = push * n1, push * n3, push * nb  # ∫ o′ beyond the front
     if i != NONE:
         o1 += H.up_to_start[i, 0]
@@ -106,14 +133,16 @@ def stress(H, m, C, P, K, k, edge, front, sign, Q):
             o1 += jump * n1
             o3 += jump * n3
             ob += jump * f_b
+    ob += H.rest * H.turn * o1
+    o1, o3 = (1.0 - H.rest) * o1, (1.0 - H.rest) * o3
     nu, friction = Q.poisson_ratio, sign * Q.friction / pi
-    H.p[m], H.q[m] = nb / pi, friction * ob
+    H.p[m], H.q[m] = (nb + H.rest * rise) / pi, friction * ob
     if P.plane:
         H.within[m], H.xx[m], H.yy[m] = 0.0, -friction * o1, -friction * nu * o1
         return
     if H.all_outside == 0:
         nv += force_at(P, min(edge, H.X)) / (H.x * H.x)
-    H.within[m] = (1.0 - 2.0 * nu) / pi * nv
+    H.within[m] = (1.0 - 2.0 * nu) / pi * ((1.0 - H.rest) * nv + H.rest * 0.5 * (nb + rise))
     H.xx[m] = -friction * ((1.0 + nu) * o1 - nu * o3)
     H.yy[m] = -friction * nu * o3
 
@@ -137,6 +166,10 @@ def write_stress(H, C, P, L, K, Q):
 @jit
 def begin_history(H, C, R, P, K, place, largest, side):
     """Prepare a history at place s of the line, still without an instant; parameters as of `sample_cycle`."""
+    H.turn, H.rest, innermost = 0.0, 0.0, INNERMOST * largest
+    if is_sharp(P) and place < innermost:
+        H.turn, H.rest = turn_at_centre(P), 1.0 - (place / innermost) ** (P.exponent - 1.0)
+        place = innermost
     x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
     begin_parts(H, C, P, place, x, 0.0, largest, side * C.shift)
     H.plane = P.plane

@@ -16,11 +16,12 @@ from math import cos, pi, sqrt
 
 import numpy as np
 
+from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.at_place import ASKED, MAX_SEEN, evaluate
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.cusps import GROUPS, cusps, ends_group
-from swtstudy.kernel.history import FIRST
+from swtstudy.kernel.history import FIRST, is_sharp
 from swtstudy.kernel.planes import above
 from swtstudy.kernel.profile import place_of
 
@@ -53,6 +54,8 @@ SEARCH = np.dtype(
         *fields("f8", "bound rise", (MAX_INTERVALS,)),
     ]
 )
+#: Places next to a sharp tip at first.
+TIP = np.int64(8)
 #: Bound of K w² of a piece of the line at first, in its values or their range; of twice the third difference
 #: later on: that may change the second difference by four times as much.
 TRUST = 8.0
@@ -221,6 +224,27 @@ def begin_search(S, point):
 
 
 @jit
+def search_tip(S, point):
+    """Search next to a sharp tip, where the stress is linear in x^m: evenly spaced, then uphill.
+
+    A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
+    """
+    P, Q = point[4], point[7]
+    power, best, at, step = 1.0 / (P.exponent - 1.0), -1.0, 0.0, 1.0 / TIP
+    for j in range(TIP):
+        evaluate(S, point, INNERMOST * S.largest * (j * step) ** power, ASKED, ASKED)
+        if max(S.value[0], S.value[1]) > best:
+            best, at = max(S.value[0], S.value[1]), j * step
+    while best >= Q.near * S.best and step > 0.1 * sqrt(Q.line):
+        step *= 0.5
+        for other in (at - step, at + step):
+            if 0.0 <= other < 1.0:
+                evaluate(S, point, INNERMOST * S.largest * other**power, ASKED, ASKED)
+                if max(S.value[0], S.value[1]) > best:
+                    best, at = max(S.value[0], S.value[1]), other
+
+
+@jit
 def search_line(S, point):
     """Find the largest swt on the line; returns by how much a higher one may be hidden.
 
@@ -231,8 +255,10 @@ def search_line(S, point):
     point
         Records of HISTORY, WORK, CYCLE, GROWTH, PROFILE, TABLE, LOAD and ASK.
     """
-    L, Q = point[6], point[7]
+    P, L, Q = point[4], point[6], point[7]
     begin_search(S, point)
+    if is_sharp(P):
+        search_tip(S, point)
     while True:
         k, limit = highest_bound(S), S.best * (1.0 + Q.line)
         if S.bound[k] <= limit:

@@ -4,7 +4,7 @@ from math import nan, sqrt
 
 import numpy as np
 
-from swtstudy.kernel import INNERMOST, NEAREST
+from swtstudy.kernel import NEAREST
 from swtstudy.kernel.circle import beside_singular_edge, needs_circle
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import CYCLE, solve_cycle
@@ -127,15 +127,6 @@ def rounding_share(C, P, Q, place, tension):
 
 
 @jit
-def towards_centre(C, P, place):
-    """Share by which a value may still rise from next to the centre: as the pressure of ξⁿ, like x^(n-1)."""
-    innermost = INNERMOST * place_of(P, C.largest)
-    if P.exponent == 0.0 or P.exponent >= 2.0 or abs(place) > 2.0 * innermost:
-        return 0.0
-    return innermost ** (P.exponent - 1.0)
-
-
-@jit
 def solve_point(C, R, S, H, W, K, P, L, Q, out):
     """From the load cycle to s at one point.
 
@@ -170,12 +161,12 @@ def solve_point(C, R, S, H, W, K, P, L, Q, out):
     out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
     out.s, out.place = S.best, S.place
     rounding = coarse / share + rounding_share(C, P, Q, S.place, S.tension) if S.best > 0.0 else 0.0
-    out.s_error = gap + (Q.time + rounding + P.left_out + towards_centre(C, P, S.place)) * S.best
+    out.s_error = gap + (Q.time + rounding + P.left_out) * S.best
     if S.best == 0.0:  # tension within rounding is taken for none
         out.s_error += NOISE * C.largest
     else:
         b = P.flat_radius
-        out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place))
+        out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place)) + 0.0  # no -0 at the centre
         out.critical_angle = degrees(S.angle)
     if has_bulk(L):
         far, angle = far_field(Q, L.bulk_range[1], L.bulk_range[0], P.plane)

@@ -19,7 +19,7 @@ from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_
 #: Strain–life constants are known for lives between these.
 KNOWN_LIVES = 1e2, 1e7
 _KNOWN = " to ".join(numbers_words(KNOWN_LIVES, 3))
-#: Positions nearer to a sharp tip than this, in a_H, are the innermost ones, or next to them.
+#: Positions nearer to a sharp tip than this, in a_H, are at the tip.
 BESIDE_TIP = 10.0 * INNERMOST
 #: By how much s of a cylinder and, approximately, of a sphere is too low with the stick zone in place, by
 #: `bulk_shift_ratio`: at constant P, Q = 0.2 μP, ν = 0.3 and a bulk stress in phase without mean; less at
@@ -157,8 +157,7 @@ def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
     infinite = computed & (state == REGIMES.index("not_finite"))
     yield infinite, "s is not finite", ": swt grows without bound towards an edge"
     at_tip = (_values(dataset, "exponent") < 2.0) & (np.abs(_values(dataset, "critical_x")) < BESIDE_TIP)
-    nearer = f": s leaves out what is nearer to it than {INNERMOST:g} of the contact radius"
-    yield at_tip, "swt rises up to the tip", nearer
+    yield at_tip, "swt is largest at the tip", ": s depends on how a real tip is rounded"
     out = _above_line(dataset)
     with np.errstate(divide="ignore", invalid="ignore"):
         factor = np.where(out, surface / s, 0.0)

@@ -104,7 +104,7 @@ def test_compiled_code_is_kept_where_one_can_write_and_a_terminal_is_told(
         folder.chmod(0o555)
     before = sorted(copy.rglob("*"))
     misses, folder, heard = on_a_terminal(tmp_path, environment)
-    assert (misses, heard) == (1, "compiling the solver, once, about half a minute\r\n")
+    assert (misses, heard) == (1, "compiling the solver, once, for up to a minute\r\n")
     assert Path(folder).is_relative_to(tmp_path / ("temporary" if home == "none" else "home"))
     assert on_a_terminal(tmp_path, environment) == (0, folder, "")
     assert sorted(copy.rglob("*")) == before

@@ -71,3 +71,25 @@ def test_stress_beneath_is_a_sum_of_point_loads(n: float) -> None:
     found = [float(field[f"sigma_{name}"][0]) for name in names]
     normal, tangential = sum_of_point_loads(lambda ξ: n * ξ**n, 1.0, 0.0, place, ν)
     np.testing.assert_allclose(found, normal + μ * tangential, rtol=0.0, atol=1e-6)
+
+
+@pytest.mark.parametrize("n", [1.001, 1.01, 1.3, 1.5])
+@pytest.mark.parametrize("profile", ["power_law", "power_law_cylinder"])
+def test_s_of_a_sharp_tip_holds_the_pressure_there(profile: str, n: float) -> None:
+    """n/(n - 1)/π, in the plane n/(n - 1)/4, with tractions of ± μ times that; a strip has more beside it."""
+    ν, μ, plane = 0.2, 10.0, profile == "power_law_cylinder"
+    kind, amplitude = ("force_amplitude", 1.0 - 1e-12) if plane else ("amplitude", 3.0)
+    given = {f"normal_{kind}": 0.0, f"tangential_{kind}": amplitude, "poisson_ratio": ν, "friction": μ}
+    found = swtstudy.solve(profile=profile, exponent=n, **given)
+    stick = 1e-12 ** ((n - 1.0) / n) if plane else 0.0
+    p = n / (n - 1.0) * (0.25 if plane else 1.0 / np.pi)
+    q, xx = μ * p * (1.0 - stick), -p if plane else -(0.5 + ν) * p
+    angle = np.linspace(0.0, np.pi, 20_001)
+    shear = q * np.abs(np.sin(2.0 * angle))
+    tension = xx * np.sin(angle) ** 2 - p * np.cos(angle) ** 2 + shear
+    at_tip = (tension * shear / (1.0 - ν)).max()
+    assert found.s + found.s_error >= at_tip
+    assert found.s_error <= 1e-4 * found.s
+    if not plane:
+        assert found.critical_x == 0.0
+        assert float(found.s) == pytest.approx(at_tip, rel=1e-6)
