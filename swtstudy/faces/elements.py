@@ -19,7 +19,7 @@ from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.material import read_given, two_of
-from swtstudy.study.units.rows import OF_BODIES
+from swtstudy.study.units.rows import KNOWN, OF_BODIES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
@@ -32,6 +32,8 @@ ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
 #: Components of plane elements, in the order of each.
 IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
+_EVERY = (*OURS, *OF_ABAQUS)
+_ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
 ENDINGS = (".csv", ".vtu", ".nc")
 
@@ -82,8 +84,22 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
     if table.has(ID):
         coords[ID] = "point", labels
-    variables = {"stress": (("point", STEP, "component"), stress[rows])}
+    else:
+        _doubt_positions(place[rows[:, 0]], rows.shape[1], table.source)
+    unit = "" if given.scale else next((table.unit(c, "stress")[0] for c in _EVERY if table.has(c)), "")
+    words = {"units": unit} if unit else {}
+    variables = {"stress": (("point", STEP, "component"), stress[rows], words)}
     return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
+
+
+def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
+    """Warn where coordinates, shape (points, 3), may tell rows of one point apart."""
+    if steps == 1:
+        warnings.warn(f"{source}: one step at each point, which is no load cycle: {_ONE_ID}", stacklevel=4)
+    elif len(np.unique(np.round(place / max(np.abs(place).max(initial=0.0), 1e-300), 6), axis=0)) < len(
+        place
+    ):
+        warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
 def _components(table: UserTable, order: str | None) -> FloatArray:
@@ -140,8 +156,8 @@ def evaluate_history(
     details, own = _properties(study, body)
     given = history if isinstance(history, xr.Dataset) else read_history(history)
     young, poisson = own["young_modulus"], own["poisson_ratio"]
-    stress = given["stress"].transpose("point", STEP, "component").values
-    unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component")
+    stress = _in_our_order(given, details.units.stress)
+    unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component", errors="ignore")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 
     def add(name: str, value: FloatArray, normal: FloatArray, words: Any = None) -> None:
@@ -169,6 +185,25 @@ def evaluate_history(
         if torsion := details.constants(FATEMI_SOCIE, (poisson, poisson)):
             add_lives("FS_cycles", torsion[body - 1], "FS", FATEMI_SOCIE, normal_sensitivity=kappa)
     return found
+
+
+def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
+    """The stress of a history, shape (points, steps, 6), in a unit of stress."""
+    stress, order = history["stress"], [*OURS]
+    if (own := stress.attrs.get("units", unit)) != unit and own in KNOWN["stress"]:
+        factor = KNOWN["stress"][own] / KNOWN["stress"].get(unit, np.nan)
+        allowed = f"stresses in {unit}, the unit of the study, such as by scale = {{ xx = {factor:g}, … }}"
+        raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
+    if "component" in stress.coords:
+        labels = stress["component"].values.tolist()
+        order = next(([*each] for each in ORDERS.values() if {*each} == {*labels}), [])
+        if not order:
+            raise refused(
+                "component", ", ".join(map(str, labels)), " or ".join(map(", ".join, ORDERS.values()))
+            )
+        stress = stress.sel(component=order)
+    values = stress.transpose("point", STEP, "component").values
+    return np.asarray(values[..., _PLACES] if order == [*OF_ABAQUS] else values)
 
 
 def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:

@@ -261,13 +261,22 @@ def _force_ratio(grid: PhysicalGrid) -> float:
     return float(ratios.max())
 
 
-def _half_widths(tests: _Tests, x: FloatArray, confidence: float, freedom: int) -> FloatArray:
-    """Half widths of the intervals of the logarithms, from the curvature of the likelihood."""
+def _half_widths(tests: _Tests, best: FloatArray, confidence: float, cracked: int) -> FloatArray:
+    """Half widths of the intervals of the logarithms, from the curvature of the likelihood at its maximum.
+
+    Variances are those of the sample's scatter. Where the curvature has no inverse the tests do not determine
+    the values, and the half widths are infinite.
+    """
     from scipy.stats import t
 
-    f, steps = tests.misfit, STEP * np.eye(len(x))
-    rows = [[f(x + a + b) - f(x + a - b) - f(x - a + b) + f(x - a - b) for b in steps] for a in steps]
-    variance = np.maximum(np.diag(np.linalg.pinv(np.array(rows) / (4.0 * STEP**2)))[:-1], 0.0)
+    f, steps = tests.misfit, STEP * np.eye(len(best))
+    rows = [
+        [f(best + a + b) - f(best + a - b) - f(best - a + b) + f(best - a - b) for b in steps] for a in steps
+    ]
+    curvature, freedom = np.array(rows) / (4.0 * STEP**2), cracked - len(best) + 1
+    if np.linalg.eigvalsh(curvature)[0] <= 0.0:
+        return np.full(len(best) - 1, np.inf)
+    variance = np.diag(np.linalg.inv(curvature))[:-1] * (cracked / freedom)
     return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(variance))
 
 
@@ -291,9 +300,8 @@ def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
     """The fit as a Dataset; the scatter comes from the likelihood and is lower than the sample's."""
     residuals, runout, grid = tests.residuals(best[:-1]), tests.runout, tests.grid
     cracked = int((~runout).sum())
-    freedom = cracked - len(best) + 1
-    best = best + np.append(np.zeros(len(best) - 1), 0.5 * math.log(cracked / freedom))
-    spread = _half_widths(tests, best, confidence, freedom)
+    spread = _half_widths(tests, best, confidence, cracked)
+    best = best + np.append(np.zeros(len(best) - 1), 0.5 * math.log(cracked / (cracked - len(best) + 1)))
     found: dict[str, Any] = {}
     for name, value, half in zip((DISTANCE, "friction"), best, spread, strict=False):
         row = grid.row(name)

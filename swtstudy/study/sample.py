@@ -210,6 +210,11 @@ class SampleReader:
             points = self._points_of_file(self.folder / table.file)
             if points is None:
                 return {}, None, scatter
+            for name in SCATTERED.keys() & points:
+                allowed = (
+                    "columns of parameters; constants that scatter are in sample.ranges or sample.points"
+                )
+                self.report("sample.file", f"the column {name}, a constant", allowed)
         every = table.ranges if forms[0] == "design" else points or {}
         own = {name: each for name, each in every.items() if name not in SCATTERED}
         if not own and (table.covariance or every):

@@ -184,3 +184,44 @@ def test_the_command_names_files_of_another_kind(tmp_path: Path) -> None:
     assert (
         "stresses.csv: found a table of values (CSV); allowed: a study" in call("history", file, own).output
     )
+
+
+def of_a_point(folder: Path, units: str = "") -> Path:
+    """A cycle of one point, with a row of units."""
+    write(
+        folder / "own.csv", np.random.default_rng(1).normal(size=(1, 5, 6)) * 100.0, "step,xx,yy,zz,yz,xz,xy"
+    )
+    head, *rows = (folder / "own.csv").read_text().splitlines()
+    (folder / "own.csv").write_text("\n".join([head, *[units] * bool(units), *rows]))
+    return folder / "own.csv"
+
+
+def test_components_go_by_their_names(tmp_path: Path) -> None:
+    history, rig = read_history(of_a_point(tmp_path)), study(tmp_path)
+    right = float(evaluate_history(history, rig).SWT[0])
+    assert float(evaluate_history(history.sortby("component"), rig).SWT[0]) == right
+    abaqus = history.isel(component=[0, 1, 2, 5, 4, 3])
+    abaqus["component"] = ["S11", "S22", "S33", "S12", "S13", "S23"]
+    assert float(evaluate_history(abaqus.isel(component=[5, 1, 2, 4, 3, 0]), rig).SWT[0]) == right
+    assert float(evaluate_history(history.drop_vars("component"), rig).SWT[0]) == right
+    with pytest.raises(StudyError, match=r"component: found xx, .*; allowed: xx, yy, zz, yz, xz, xy or S11"):
+        evaluate_history(history.isel(component=[0, 1, 2]), rig)
+
+
+@pytest.mark.filterwarnings("ignore:.*read as units")
+def test_stresses_in_another_unit_than_the_study_are_refused(tmp_path: Path) -> None:
+    in_pascal = of_a_point(tmp_path, "-,Pa,Pa,Pa,Pa,Pa,Pa")
+    with pytest.raises(StudyError, match=r"own.csv: stress: found a unit of Pa; allowed: stresses in MPa"):
+        evaluate_history(in_pascal, study(tmp_path))
+    scaled = read_history(in_pascal, scale=dict.fromkeys(("xx", "yy", "zz", "yz", "xz", "xy"), 1e-6))
+    assert float(evaluate_history(scaled, study(tmp_path)).SWT[0]) > 0.0
+    assert read_history(of_a_point(tmp_path, "-,MPa,MPa,MPa,MPa,MPa,MPa")).stress.attrs == {"units": "MPa"}
+
+
+@pytest.mark.parametrize(("shift", "words"), [(1e-3, "one step at each point"), (1e-12, "a millionth apart")])
+def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float, words: str) -> None:
+    count = 4 if shift > 1e-6 else 2
+    rows = [f"{1.0 + shift * (step % count)!r},0,0,{step},{step},0,0,0,0,0" for step in range(4)]
+    (tmp_path / "moves.csv").write_text("\n".join(["x,y,z,step,xx,yy,zz,yz,xz,xy", *rows]))
+    with pytest.warns(UserWarning, match=f"{words}.*a column id keeps the steps of a point together"):
+        read_history(tmp_path / "moves.csv")

@@ -176,6 +176,17 @@ def likelihood(law, distance, scatter, bounds, runout):
     return np.where(runout, norm.logsf(np.log10(bounds), predicted, scatter), cracked).sum()
 
 
+def test_a_friction_that_the_tests_do_not_determine_has_no_narrow_interval(rig, monkeypatch):
+    forces = np.linspace(30.0, 80.0, 6)
+    law = Law(forces, friction=0.0)
+    monkeypatch.setattr(fitting, "_lives", law)
+    noise = np.random.default_rng(3).normal(scale=0.2, size=6)
+    lives = 10.0 ** (law(None, "", np.array([0.05]), None)[:, 0] + noise)
+    found = swtstudy.fit(rig[0], {"tangential_force_amplitude": forces, "life": lives}, friction=True)
+    assert found.friction_low < 0.01 * found.friction
+    assert found.friction_high > 100.0 * found.friction
+
+
 @pytest.mark.usefixtures("unwrapped")
 def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     """The largest likelihood by brute force; leaving them out, or taking them for cracks, is too short."""

@@ -447,6 +447,7 @@ def test_a_parameter_is_given_once(text, words):
         ("phase,phase\n1,2\n", "the column phase twice .*line 1"),
         ("phase,friction\n1,0.1\n2\n3,4,5\n", r"sample.file: found 3 cells under 2 columns .*line 4"),
         ("phase,frictoin\n1,0.1\n", "sample.file.frictoin: .*did you mean friction"),
+        ("phase,strength\n1,900\n", "sample.file: found the column strength, a constant"),
         ("phase,friction\n1,0.1\n1,x\n", r"sample.file.friction: found 'x' .* at \[1\]"),
         (b"\xff\xfe\x00", "sample.file: found"),
     ],
