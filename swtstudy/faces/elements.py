@@ -157,7 +157,8 @@ def evaluate_history(
     given = history if isinstance(history, xr.Dataset) else read_history(history)
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = _in_our_order(given, details.units.stress)
-    unit, found = {"units": details.units.stress}, given.drop_vars("stress").drop_dims("component", errors="ignore")
+    unit = {"units": details.units.stress}
+    found = given.drop_vars("stress").drop_dims("component", errors="ignore")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 
     def add(name: str, value: FloatArray, normal: FloatArray, words: Any = None) -> None:

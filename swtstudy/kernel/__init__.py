@@ -6,7 +6,7 @@ position of the surface line, `planes` the critical plane there, `line` the larg
 `point` puts the steps together.
 """
 
-#: No tabulated position of the line is nearer to the centre, or to the edge of a face, as a share of the contact.
+#: No tabulated position is nearer to the centre, or to the edge of a face, as a share of the contact.
 INNERMOST = 1e-5
 #: A place this near to the singular edge of a face, as a share of it, is at the edge.
 NEAREST = 1e-9
