@@ -91,8 +91,9 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     b = float(cycle.profile.flat_radius)
     special = np.abs([left, right, permanent, least, largest, float(solved.critical_x), 1.001 * b, 0.999 * b])
     radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), special[np.isfinite(special)])
-    # None where the pressure is infinite.
-    radius = radius[(radius > 1e-6) & (np.abs(radius - b) > 1e-6)]
+    # None where the pressure is infinite; the centre where a sharp tip has its maximum there.
+    at_tip = (radius == 0.0) & (float(solved.critical_x) == 0.0)
+    radius = radius[at_tip | ((radius > 1e-6) & (np.abs(radius - b) > 1e-6))]
     values, double_angles = cycle.along(radius)
     if float(solved.s) == 0.0:  # what is there is rounding
         values = np.zeros_like(values)

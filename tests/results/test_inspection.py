@@ -36,6 +36,13 @@ def test_the_stress_cycle_makes_s(parameters):
     assert (abs(point.force) <= point.compression + 1e-12).all()
 
 
+def test_the_curve_of_a_sharp_tip_goes_up_to_the_tip():
+    tip = {"profile": "power_law", "exponent": 1.3, "friction": 3.0, "tangential_amplitude": 2.0}
+    point = swtstudy.inspect_point(**tip)
+    assert float(point.shown_x) == 0.0
+    assert float(point.s_local.max()) == pytest.approx(float(point.s), rel=1e-4)
+
+
 @pytest.mark.quick(3)
 @pytest.mark.parametrize("parameters", SCENES.values(), ids=SCENES)
 def test_curves_are_those_of_the_stress_field(parameters):
