@@ -62,7 +62,7 @@ def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
 
 @contextmanager
 def without_signals() -> Iterator[None]:
-    """What signals raise is raised at the end of the block.
+    """Signals that arrive in the block are handled at its end.
 
     In the midst of a submission it would leave a lock of the executor closed, and the process, which waits
     for that lock at its end, would never end.
