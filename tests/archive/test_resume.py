@@ -310,9 +310,8 @@ def test_ctrl_c_in_the_midst_of_a_submission_comes_after_it(line, tmp_path, monk
         return submit(*arguments)
 
     monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
-    signal.signal(
-        signal.SIGINT, signal.default_int_handler
-    )  # ignored by what a shell starts in the background
+    # A shell that starts the tests in the background has it ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     with pytest.raises(Stopped, match="0 of 400 distinct points"):
         run(line, tmp_path / "line.nc", solver=stand_in.smooth, workers=1)
     assert submitted == [True]
