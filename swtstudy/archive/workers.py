@@ -64,8 +64,8 @@ def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
 def without_signals() -> Iterator[None]:
     """Signals that arrive in the block are handled at its end.
 
-    In the midst of a submission it would leave a lock of the executor closed, and the process, which waits
-    for that lock at its end, would never end.
+    A handler that raises in the midst of a submission leaves a lock of the executor closed. The process waits
+    for that lock when it ends, so it would never end.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
