@@ -284,16 +284,14 @@ class PhysicalContact:
         both = _of_both("constants", constants, report, FatigueConstants)
         report.refuse()
         swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
-        if counted is None:
-            one, two = (each.cycles(np.asarray(swt)) for each in both)
-        else:
-            one, two = (np.asarray(each.rounds(swt, *(counted[name] for name in COUNTED))) for each in both)
+        shares = [] if counted is None else [counted[name] for name in COUNTED]
+        one, two = (each.curve.rounds("swt", swt, *shares) for each in both)
         lives = np.where(bodies == 1, two, one)
         if not hasattr(swt, "dims"):
             return lives
         words = attributes(DERIVED[LIFE], self.grid.labels)
         words |= {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
-        return swt.copy(data=lives).rename("cycles").drop_attrs(deep=False).assign_attrs(words)
+        return one.copy(data=lives).assign_attrs(words)
 
     def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
         """SWT from s, and the index of the body of each value, 0 or 1, broadcastable to the values' shape.

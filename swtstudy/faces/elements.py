@@ -96,9 +96,9 @@ def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
     """Warn where coordinates, shape (points, 3), may tell rows of one point apart."""
     if steps == 1:
         warnings.warn(f"{source}: one step at each point, which is no load cycle: {_ONE_ID}", stacklevel=4)
-    elif len(np.unique(np.round(place / max(np.abs(place).max(initial=0.0), 1e-300), 6), axis=0)) < len(
-        place
-    ):
+        return
+    largest = max(np.abs(place).max(initial=0.0), 1e-300)
+    if len(np.unique(np.round(place / largest, 6), axis=0)) < len(place):
         warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
@@ -190,21 +190,20 @@ def evaluate_history(
 
 def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
     """The stress of a history, shape (points, steps, 6), in a unit of stress."""
-    stress, order = history["stress"], [*OURS]
+    stress = history["stress"]
     if (own := stress.attrs.get("units", unit)) != unit and own in KNOWN["stress"]:
         factor = KNOWN["stress"][own] / KNOWN["stress"].get(unit, np.nan)
         allowed = f"stresses in {unit}, the unit of the study, such as by scale = {{ xx = {factor:g}, … }}"
         raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
     if "component" in stress.coords:
         labels = stress["component"].values.tolist()
-        order = next(([*each] for each in ORDERS.values() if {*each} == {*labels}), [])
-        if not order:
-            raise refused(
-                "component", ", ".join(map(str, labels)), " or ".join(map(", ".join, ORDERS.values()))
-            )
-        stress = stress.sel(component=order)
-    values = stress.transpose("point", STEP, "component").values
-    return np.asarray(values[..., _PLACES] if order == [*OF_ABAQUS] else values)
+        ours = [*OURS], [OF_ABAQUS[place] for place in _PLACES]
+        names = next((each for each in ours if {*each} == {*labels}), None)
+        if names is None:
+            allowed = " or ".join(map(", ".join, ORDERS.values()))
+            raise refused("component", ", ".join(map(str, labels)), allowed)
+        stress = stress.sel(component=names)
+    return np.asarray(stress.transpose("point", STEP, "component").values)
 
 
 def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:
