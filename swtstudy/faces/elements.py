@@ -19,7 +19,7 @@ from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.material import read_given, two_of
-from swtstudy.study.units.rows import KNOWN, OF_BODIES
+from swtstudy.study.units.rows import OF_BODIES, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
@@ -191,8 +191,8 @@ def evaluate_history(
 def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
     """The stress of a history, shape (points, steps, 6), in a unit of stress."""
     stress = history["stress"]
-    if (own := stress.attrs.get("units", unit)) != unit and own in KNOWN["stress"]:
-        factor = KNOWN["stress"][own] / KNOWN["stress"].get(unit, np.nan)
+    own = stress.attrs.get("units", "")
+    if (factor := unit_factor("stress", own, unit)) != 1.0:
         allowed = f"stresses in {unit}, the unit of the study, such as by scale = {{ xx = {factor:g}, … }}"
         raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
     if "component" in stress.coords:
@@ -220,13 +220,16 @@ def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, 
     if body not in (1, 2):
         raise refused("body", literal(body), "1 or 2")
     own: dict[str, float] = {}
+    axes = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
     for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
         value = two_of(fixed.get(name))[body - 1]
         try:
             own |= {} if value is None else {name: float(read_exact(value))}
         except ValueError as error:
             report(f"fixed.{name}", f"{literal(value)} ({error})", "a number, or one for each body")
-        if value is None and name in OF_BODIES:
+        if name in axes:
+            report(f"axes.{name}", "an axis", f"one number in [fixed], {name} = …, for a stress history")
+        elif value is None and name in OF_BODIES:
             report(f"fixed.{name}", "nothing", "a number, or one for each body")
     report.refuse()
     return details, own

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.study.units.rows import KNOWN
+from swtstudy.study.units.rows import KNOWN, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
@@ -414,10 +414,9 @@ def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mist
         found = f"{column} in {unit} as {name}, which is a {kind}"
         allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
         return [Mistake("", found, allowed, table.source)]
-    units, own = KNOWN[kind], table.form.scale.get(name)
-    if not unit or label not in units or units[unit] == units[label]:
+    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
+    if factor == 1.0:
         return []
-    factor = units[unit] / units[label]
     if own is not None and not math.isclose(abs(own) * factor, 1.0):
         return []
     found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"

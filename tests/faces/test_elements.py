@@ -218,6 +218,23 @@ def test_stresses_in_another_unit_than_the_study_are_refused(tmp_path: Path) -> 
     assert read_history(of_a_point(tmp_path, "-,MPa,MPa,MPa,MPa,MPa,MPa")).stress.attrs == {"units": "MPa"}
 
 
+@pytest.mark.filterwarnings("ignore:.*read as units")
+@pytest.mark.parametrize(("unit", "of_study"), [("N/mm²", "MPa"), ("N/mm2", "N/mm²"), ("Pa", "bar")])
+def test_units_of_one_size_and_unknown_units_are_let_pass(tmp_path: Path, unit: str, of_study: str) -> None:
+    history = read_history(of_a_point(tmp_path, ",".join(["-", *[unit] * 6])))
+    assert history.stress.attrs == {"units": unit}
+    rig = study(tmp_path)
+    rig.write_text(rig.read_text().replace("MPa", of_study))
+    assert evaluate_history(history, rig).SWT.attrs["units"] == of_study
+
+
+def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
+    rig = study(tmp_path)
+    rig.write_text(rig.read_text() + "[axes]\nwalker_exponent = [0.4, 0.5]\n")
+    with pytest.raises(StudyError, match=r"axes.walker_exponent: found an axis; allowed: one number"):
+        evaluate_history(_written(tmp_path, np.zeros((1, 2, 6))), rig)
+
+
 @pytest.mark.parametrize(("shift", "words"), [(1e-3, "one step at each point"), (1e-12, "a millionth apart")])
 def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float, words: str) -> None:
     count = 4 if shift > 1e-6 else 2

@@ -68,6 +68,12 @@ class LineUnits(Units):
         return self.force if kind == "work" else super().label(kind)
 
 
+def unit_factor(kind: str, unit: str, label: str) -> float:
+    """How many of a unit with a label one of another unit is; 1 where either of them is not known."""
+    known = KNOWN[kind]
+    return known[unit] / known[label] if unit in known and label in known else 1.0
+
+
 def right_place(name: str, known: Collection[str]) -> str:
     """Say where an unknown key of a table belongs: beside other parameters, or which keys the table has."""
     if name in (NAMES_KEY, SIMILAR_KEY):
