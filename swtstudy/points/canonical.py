@@ -53,10 +53,8 @@ def _numbers(part: str) -> tuple[str, ...]:
     return tuple(n for n, row in rows if row.part == part and row.kind == "number" and not row.instead_of)
 
 
-#: Columns that make the frequency ratio, ω2/ω1 = p/q, and the load; of a loop also what it costs.
-RATIO_COLUMNS = ("p", "q")
+#: What the load costs if it is a loop.
 COST = "load_cost"
-LOAD_COLUMNS = ("control", COST, "load", *RATIO_COLUMNS, *_numbers("load"))
 #: Columns that points have in common which are solved in one call.
 SHARED_COLUMNS = ("profile", "control", "load", "criterion")
 #: Shape parameters, of whichever profile.
@@ -67,8 +65,8 @@ _OTHERS = (*reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"
 NUMBERS = (*_numbers("load"), *_OTHERS)
 #: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
 #: control see `swtstudy.points.canonical`.
-COLUMNS = ("profile", "criterion", *LOAD_COLUMNS, *SHAPE_COLUMNS, *_OTHERS)
-_INTEGERS = {"profile", "control", COST, "load", *RATIO_COLUMNS, "criterion"}
+_INTEGERS = ("profile", "criterion", "control", COST, "load", "p", "q")  # ω2/ω1 = p/q
+COLUMNS = (*_INTEGERS, *_numbers("load"), *SHAPE_COLUMNS, *_OTHERS)
 #: Columns of a grid that rows are made of: a stick zone that stays has a strain share of 0.
 GIVEN_COLUMNS = (*COLUMNS, SHIFT)
 #: Numbers over the dimensions of a grid that they depend on, in the order of their axes.
@@ -117,7 +115,7 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    from swtstudy.solver.phases import fold_bulk_phase, fold_phase, without_what_stands_still
+    from swtstudy.solver.phases import fold_bulk_phase, fold_phase
 
     table, columns = np.empty(len(places), ROW), grid.at(places, *GIVEN_COLUMNS)
     for name, numbers in zip(COLUMNS, columns, strict=False):
@@ -149,13 +147,15 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     table["control"] = normal + 2 * tangential
     if not fold:
         return table, np.zeros(table.shape, bool)
-    # A loop has neither phase nor frequencies.
+    # A loop and a constant normal load have neither phase nor frequencies.
     is_loop = table["load"] != code_of(HARMONIC, "load")
-    phase, p, q = without_what_stands_still(rests | is_loop, table["phase"], table["p"], table["q"])
+    for name, value in (("phase", 0.0), ("p", 1), ("q", 1)):
+        table[name][rests | is_loop] = value
+    p, q = table["p"], table["q"]
     # In units of π and nudged: multiples of the period fall on one side whatever their rounding error.
     nudge = 2 * 10.0**-DIGITS
-    folded, mirrored = fold_phase(phase + nudge, p, q)
-    table["p"], table["q"], table["phase"] = p, q, _in_turns(folded - nudge)
+    folded, mirrored = fold_phase(table["phase"] + nudge, p, q)
+    table["phase"] = _in_turns(folded - nudge)
     moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
     both_ways = (q % 2 == 0) | rests
     folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)

@@ -20,7 +20,6 @@ from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS,
 
 if TYPE_CHECKING:
     from swtstudy.solver.loop import Loop
-    from swtstudy.vocabulary.arrays import FloatArray, Shape
 
 #: Parameters that scale the columns of a loop.
 AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
@@ -28,9 +27,8 @@ AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude
 LARGEST_LOAD = 1e9
 #: Shapes of one profile; each is looked at, a million in 0.1 s.
 MOST_SHAPES = 50_000_000
-#: Shapes that are looked at together: the working memory for one is some 100 bytes, and some 7 kB where the
-#: depth has to be found from a force.
-_SLAB, _TOGETHER = 500_000, 5_000
+#: Shapes that are looked at together: the working memory for one is some 100 bytes.
+_SLAB = 500_000
 
 
 def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], report: Report) -> None:
@@ -126,7 +124,7 @@ def check_loops(grid: Grid, report: Report) -> None:
         found = f"{literal(load.name)} with a normal column from {low:g} to {high:g}, far from 0"
         allowed = f"deviations from the mean normal load: take its mean, {0.5 * (low + high):g}, off"
         report.of("load", found, f"{allowed} (absolute = true, LoadPath.absolute)")
-    names = [literal(load.name) for load in loops if control.mixed and not load.is_steady]
+    names = [literal(load.name) for load in loops if control.mixed and len({*load.normal_ends}) > 1]
     smooth = [literal(load.name) for load in loops if control.mixed and not hasattr(load, "vertices")]
     if names:
         found = f"{', '.join(names)} with a normal load that is not constant, and {control.name}"
@@ -158,8 +156,8 @@ def idle_axes(grid: Grid) -> list[str]:
 
 def sizes_of(load: Loop) -> dict[str, float]:
     """Largest size of the values of a loop, by the amplitude that multiplies them."""
-    ends = load.normal_ends, load.tangential_ends, load.bulk_ends or (0.0, 0.0)
-    return {name: max(map(abs, each)) for name, each in zip(AMPLITUDES, ends, strict=True)}
+    sizes = {name: max(map(abs, each)) for name, each in zip(AMPLITUDES, load.ends, strict=False)}
+    return dict.fromkeys(AMPLITUDES, 0.0) | sizes
 
 
 def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
@@ -225,11 +223,11 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         Says where a place of the grid is, so that each load is looked at. Without it the largest load of a
         shape counts, whose contact is the hardest to keep compact.
     """
-    from swtstudy.solver.at_rest import check_shape, compact_shapes
+    from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
     from swtstudy.solver.loop import Loop
 
     # By how many amplitudes the normal load rises at most.
-    reach = max(load.reach if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
+    reach = max(load.normal_ends[1] if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
     # A table of real contacts is another one in a_H and δ0 from depth to depth.
     known, profiles = grid.definitions, dict[str, dict[int, Any]]()
     for code in dict.fromkeys(grid.columns["profile"][1].ravel().tolist()):
@@ -258,7 +256,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
                 same = np.flatnonzero(code == own)
                 shape = {name: values[same] for name, values in zip(names, shapes, strict=True)}
                 normal = 1.0 + np.maximum(load[same] * reach, 0.0)
-                depth = largest_depths(grid, table, shape, normal)
+                depth = largest_depths(table, shape, normal) if grid.control.normal_force else normal
                 wrong = np.flatnonzero(~np.atleast_1d(compact_shapes(table, shape, depth)))
                 if wrong.size and not refused:
                     first = {name: float(values[wrong[0]]) for name, values in shape.items()}
@@ -270,19 +268,3 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
                 refused += wrong.size
         if refused:
             report.of(names or "profile", found + more_like_it(refused), why or "")
-
-
-def largest_depths(grid: Grid, profile: Any, shape: Shape, normal: FloatArray) -> FloatArray:
-    """Largest depth of each of n shapes, from the largest value of what is prescribed, both (n,)."""
-    from swtstudy.solver.at_rest import compact_shapes, largest_depth
-
-    if not grid.control.normal_force:
-        return normal
-    # The depth at a force is known for shapes that carry the force at δ0.
-    depth = np.ones_like(normal)
-    sound = np.flatnonzero(compact_shapes(profile, shape, depth))
-    some = {name: values[sound] for name, values in shape.items()}
-    for rows in np.array_split(np.arange(len(sound)), len(sound) // _TOGETHER + 1):
-        own = {name: values[rows] for name, values in some.items()}
-        depth[sound[rows]] = largest_depth(profile, own, normal[rows])
-    return depth

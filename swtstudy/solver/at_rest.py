@@ -29,6 +29,9 @@ SAME, MOST_STEPS = 1e-13, 80
 #: Radii at which the largest pressure is looked for, and how often, each time about the highest one.
 RADII, LOOKS = 201, 4
 
+#: Shapes whose depths are found together from forces: the working memory for one is some 7 kB.
+_TOGETHER = 5_000
+
 #: A function of s.
 Function = Callable[[FloatArray], FloatArray]
 
@@ -192,13 +195,20 @@ def _rule(even: int, halvings: int) -> tuple[FloatArray, FloatArray]:
     return (edges[:-1, None] + half * (1.0 + node)).ravel(), (half * weight).ravel()
 
 
-def largest_depth(profile: AnyProfile, shape: Shape, largest_force: FloatArray) -> FloatArray:
-    """Largest depth of n profiles at the largest normal force over that at δ0, both of shape (n,)."""
-    if is_plane(profile) or not len(largest_force):
-        return largest_force
-    at_rest = AtRest(profile, shape)
-    force = np.broadcast_to(largest_force, (len(largest_force),)).reshape(len(at_rest.flat_radius), -1)
-    return at_rest.depth(at_rest.radius_at(force * at_rest.unit())).reshape(largest_force.shape)
+def largest_depths(profile: AnyProfile, shape: Shape, force: FloatArray) -> FloatArray:
+    """Largest depths of n profiles at the largest normal forces over those at δ0, both of shape (n,).
+
+    They are known for shapes whose contact carries the force at δ0, and 1 for others.
+    """
+    depth = np.ones_like(force)
+    sound = np.flatnonzero(compact_shapes(profile, shape, depth))
+    for rows in np.array_split(sound, len(sound) // _TOGETHER + 1) if len(sound) else ():
+        depth[rows] = force[rows]
+        if not is_plane(profile):
+            at_rest = AtRest(profile, {name: values[rows] for name, values in shape.items()})
+            own = force[rows].reshape(len(at_rest.flat_radius), -1) * at_rest.unit()
+            depth[rows] = at_rest.depth(at_rest.radius_at(own)).ravel()
+    return depth
 
 
 def compact_shapes(profile: AnyProfile, shape: Shape, largest: Any) -> BoolArray:

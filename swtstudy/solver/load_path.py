@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.kernel.loops import without_collinear
-from swtstudy.solver.loop import FINITE, LARGEST, FloatArray, Loop, checked_mean, checked_name, mean_of
+from swtstudy.solver.loop import FINITE, LARGEST, Loop, checked_name
 from swtstudy.solver.smooth_path import SmoothPath, sampled
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, refused
 from swtstudy.vocabulary.parameters import MANY_TURNS
@@ -60,8 +61,7 @@ class LoadPath(Loop):
     """
 
     def __init__(self, name: str, vertices: ArrayLike, mean_normal: float | None = None) -> None:
-        self.name = checked_name(name)
-        self.mean_normal = checked_mean(mean_normal, self.name)
+        super().__init__(name, mean_normal)
         #: Shape (k, 2), or (k, 3) unless c_b is 0, from the vertex that is the first in lexicographic order.
         self.vertices = _canonical(_checked(vertices, self.name), self.name)
 
@@ -119,7 +119,7 @@ class LoadPath(Loop):
         return cls(name, [[normal, tangential, bulk], [-normal, -tangential, -bulk]])
 
     def content(self) -> dict[str, Any]:
-        return {"vertices": self.vertices.tolist()} | mean_of(self)
+        return {"vertices": self.vertices.tolist()} | super().content()
 
     @staticmethod
     def harmonic_sum(
@@ -190,19 +190,9 @@ class LoadPath(Loop):
     def cost(self) -> int:
         return 1 + len(self.vertices) // SIDES_PER_OSCILLATION
 
-    @property
-    def normal_ends(self) -> tuple[float, float]:
-        return float(self.vertices[:, 0].min()), float(self.vertices[:, 0].max())
-
-    @property
-    def tangential_ends(self) -> tuple[float, float]:
-        return float(self.vertices[:, 1].min()), float(self.vertices[:, 1].max())
-
-    @property
-    def bulk_ends(self) -> tuple[float, float] | None:
-        if self.vertices.shape[1] < 3:
-            return None
-        return float(self.vertices[:, 2].min()), float(self.vertices[:, 2].max())
+    @cached_property
+    def ends(self) -> list[tuple[float, float]]:
+        return [(float(column.min()), float(column.max())) for column in self.vertices.T]
 
     def course(self) -> FloatArray:
         return np.concatenate([self.vertices, self.vertices[:1]])

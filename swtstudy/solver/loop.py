@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from typing import ClassVar
+from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import Definition, wrong_name
 from swtstudy.vocabulary.mistakes import StudyError, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import PAIRS
-
-FloatArray = NDArray[np.float64]
-#: Length of the common period in φ, rad.
-PERIOD = 2.0 * np.pi
-
 
 #: Largest number of a loop: squares of it are numbers still, whatever its unit.
 LARGEST = 1e100
@@ -33,29 +26,28 @@ class Loop(Definition):
 
     parameter: ClassVar[str] = "load"
 
-    #: The mean normal load, in the unit of its column, from which c_n deviates; None if it is unknown.
-    mean_normal: float | None = None
+    def __init__(self, name: object, mean_normal: object) -> None:
+        self.name = checked_name(name)
+        #: The mean normal load, in the unit of its column, from which c_n deviates; None if it is unknown.
+        self.mean_normal = None if mean_normal is None else plain_number(mean_normal)
+        if self.mean_normal is not None and not 0.0 < self.mean_normal <= LARGEST:
+            found = literal(mean_normal) if isinstance(mean_normal, str) else f"{self.mean_normal:g}"
+            raise refused(f"mean_normal of {name}", found, "a positive number: bodies are pressed")
 
     @property
     @abstractmethod
+    def ends(self) -> list[tuple[float, float]]:
+        """Least and largest c_n, c_t and, with a bulk stress, c_b."""
+
+    @property
     def normal_ends(self) -> tuple[float, float]:
         """Least and largest c_n."""
+        return self.ends[0]
 
     @property
-    @abstractmethod
-    def tangential_ends(self) -> tuple[float, float]:
-        """Least and largest c_t."""
-
-    @property
-    def reach(self) -> float:
-        """Largest c_n."""
-        return self.normal_ends[1]
-
-    @property
-    def is_steady(self) -> bool:
-        """True if the normal load is constant."""
-        low, high = self.normal_ends
-        return low == high
+    def bulk_ends(self) -> tuple[float, float] | None:
+        """Least and largest c_b; None where there is no bulk stress."""
+        return self.ends[2] if len(self.ends) > 2 else None
 
     @property
     def is_absolute(self) -> bool:
@@ -64,39 +56,16 @@ class Loop(Definition):
         return abs(low + high) > FAR * (high - low)
 
     @property
-    @abstractmethod
-    def bulk_ends(self) -> tuple[float, float] | None:
-        """Least and largest c_b; None where there is no bulk stress."""
-
-    @property
     def scaled_by(self) -> tuple[str, ...]:
         return (*PAIRS.values(), *(("bulk_stress_amplitude",) if self.bulk_ends else ()))
+
+    def content(self) -> dict[str, Any]:
+        """The mean normal load, where it is known; the kinds of loops add what they are made of."""
+        return {} if self.mean_normal is None else {"mean_normal": self.mean_normal}
 
     @abstractmethod
     def course(self) -> FloatArray:
         """c_n, c_t and, with a bulk stress, c_b over a round, its begin once more at the end: (T, 2 or 3)."""
-
-
-def checked_mean(mean: object, name: str) -> float | None:
-    """The mean normal load of a loop.
-
-    Raises
-    ------
-    StudyError
-        A ValueError, if it is no positive number.
-    """
-    if mean is None:
-        return None
-    number = plain_number(mean)
-    if not 0.0 < number <= LARGEST:
-        found = literal(mean) if isinstance(mean, str) else f"{number:g}"
-        raise refused(f"mean_normal of {name}", found, "a positive number: bodies are pressed")
-    return number
-
-
-def mean_of(loop: Loop) -> dict[str, float]:
-    """The mean normal load as a part of the content of a loop."""
-    return {} if loop.mean_normal is None else {"mean_normal": loop.mean_normal}
 
 
 def checked_name(name: object) -> str:

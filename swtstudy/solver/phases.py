@@ -3,20 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
-IntArray = NDArray[np.int64]
-BoolArray = NDArray[np.bool_]
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IntArray
+
 #: Turns that a phase is off a multiple of its period by rounding.
 ROUNDING = 1e-12
-
-
-def without_what_stands_still(
-    constant: BoolArray, phase: FloatArray, p: IntArray, q: IntArray
-) -> tuple[FloatArray, IntArray, IntArray]:
-    """Phase and ω2/ω1 = p/q, each (n,): 0 and 1 for a constant normal load, which has neither."""
-    return np.where(constant, 0.0, phase), np.where(constant, 1, p), np.where(constant, 1, q)
 
 
 def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray, BoolArray]:
@@ -36,11 +27,8 @@ def fold_phase(phase: FloatArray, p: IntArray, q: IntArray) -> tuple[FloatArray,
     folded, mirrored
         The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
     """
-    period = np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p
-    turns = np.floor(phase / period + ROUNDING)
-    folded = np.maximum(phase - turns * period, 0.0)
-    mirrored = (q % 2 == 1) & (turns % 2 == 1)
-    return folded, mirrored
+    folded, is_odd = _folded(phase, np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p)
+    return folded, (q % 2 == 1) & is_odd
 
 
 def fold_bulk_phase(
@@ -68,7 +56,11 @@ def fold_bulk_phase(
         The equivalent ψ_B in [0, π) or [0, 2π), and whether x is mirrored by both folds together.
     """
     phase = phase + np.where(mirrored, np.pi, 0.0)
-    period = np.where(both_ways, 1.0, 2.0) * np.pi
+    folded, is_odd = _folded(phase, np.where(both_ways, 1.0, 2.0) * np.pi)
+    return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & is_odd)
+
+
+def _folded(phase: FloatArray, period: FloatArray) -> tuple[FloatArray, BoolArray]:
+    """Phases in [0, period), and whether they were an odd number of periods away."""
     turns = np.floor(phase / period + ROUNDING)
-    folded = np.maximum(phase - turns * period, 0.0)
-    return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & (turns % 2 == 1))
+    return np.maximum(phase - turns * period, 0.0), turns % 2 == 1

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.kernel.loops import ends_of_sum
-from swtstudy.solver.loop import LARGEST, PERIOD, FloatArray, Loop, checked_mean, checked_name, mean_of
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, is_number, literal, plain_number, refused
+from swtstudy.solver.loop import LARGEST, Loop
+from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.mistakes import is_number, literal, plain_number, refused
 
 #: Amplitudes below this share of the largest one are rounding of a Fourier transform.
 ROUNDING = 1e-12
@@ -29,18 +30,17 @@ class SmoothPath(Loop):
     def __init__(
         self, name: str, normal: object, tangential: object, bulk: object = (), *, mean_normal: object = None
     ) -> None:
-        self.name = checked_name(name)
-        self.mean_normal = checked_mean(mean_normal, self.name)
+        super().__init__(name, mean_normal)
         columns = {"normal": normal, "tangential": tangential, "bulk": bulk}
         #: Rows of order, amplitude and phase of c_n, c_t and c_b.
         self.harmonics = {key: _checked(rows, f"{key} of {name}") for key, rows in columns.items()}
-        if self._ends("bulk") == (0.0, 0.0):
+        if ends_of_sum(self.harmonics["bulk"]) == (0.0, 0.0):
             del self.harmonics["bulk"]
         if not any(order and size for rows in self.harmonics.values() for order, size, _ in rows):
             raise refused(f"harmonics of {name}", "nothing that changes", "a loop")
 
     def content(self) -> dict[str, Any]:
-        return dict(self.harmonics) | mean_of(self)
+        return self.harmonics | super().content()
 
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> SmoothPath:
@@ -53,22 +53,11 @@ class SmoothPath(Loop):
         return 1 + int(max([1, *orders]))
 
     @cached_property
-    def normal_ends(self) -> tuple[float, float]:
-        return self._ends("normal")
-
-    @cached_property
-    def tangential_ends(self) -> tuple[float, float]:
-        return self._ends("tangential")
-
-    @cached_property
-    def bulk_ends(self) -> tuple[float, float] | None:
-        return self._ends("bulk") if "bulk" in self.harmonics else None
-
-    def _ends(self, component: str) -> tuple[float, float]:
-        return ends_of_sum(self.harmonics.get(component, ()))
+    def ends(self) -> list[tuple[float, float]]:
+        return [ends_of_sum(rows) for rows in self.harmonics.values()]
 
     def course(self) -> FloatArray:
-        turn = np.linspace(0.0, PERIOD, DRAWN)
+        turn = np.linspace(0.0, 2.0 * np.pi, DRAWN)
         columns = [
             sum((size * np.sin(order * turn + phase) for order, size, phase in rows), np.zeros(DRAWN))
             for rows in self.harmonics.values()
@@ -85,9 +74,7 @@ def sampled(name: str, course: Callable[[FloatArray], tuple[ArrayLike, ...]]) ->
             raise ValueError(f"{len(columns)} columns")
     except (TypeError, ValueError) as error:
         allowed = "c_n and c_t, or c_n, c_t and c_b, each of the shape of φ"
-        raise StudyError(
-            [Mistake(f"course of {name}", f"a function that fails ({error})", allowed)]
-        ) from None
+        raise refused(f"course of {name}", f"a function that fails ({error})", allowed) from None
     if not all(np.isfinite(each).all() for each in columns):
         raise refused(f"course of {name}", "a value that is no finite number", "finite numbers")
     return SmoothPath(name, *[_harmonics(each, name) for each in columns])
@@ -113,9 +100,7 @@ def _checked(rows: object, key: str) -> list[list[float]]:
     if not isinstance(rows, Sequence | np.ndarray) or isinstance(rows, str):
         raise refused(key, literal(rows), allowed)
     for row in rows:
-        sound = (
-            isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(is_number(each) for each in row)
-        )
+        sound = isinstance(row, Sequence | np.ndarray) and len(row) == 3 and all(map(is_number, row))
         sound = sound and all(abs(plain_number(each)) <= LARGEST for each in row)
         if not (sound and row[0] == int(row[0]) and 0 <= row[0] <= HIGHEST_ORDER):
             raise refused(key, literal(row), allowed)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import AXISYMMETRIC, GEOMETRIES, PLANE
 from swtstudy.vocabulary.definition import Definition, read_numbers, wrong_name
 from swtstudy.vocabulary.families import MEAN_LOAD
@@ -90,12 +90,8 @@ class TabulatedProfile(Definition):
         return f"TabulatedProfile({self.name!r}, {self.radius.size} points up to {self.radius[-1]:g})"
 
     def content(self) -> dict[str, Any]:
-        content = {
-            "radius": self.radius.tolist(),
-            "height": self.height.tolist(),
-            "smoothing": self.smoothing,
-        }
-        return content | {"geometry": PLANE} if self.plane else content
+        content = {name: getattr(self, name).tolist() for name in ("radius", "height")}
+        return content | {"smoothing": self.smoothing} | ({"geometry": PLANE} if self.plane else {})
 
     @classmethod
     def of_content(cls, name: str, content: Mapping[str, Any]) -> TabulatedProfile:
@@ -176,15 +172,12 @@ class TabulatedProfile(Definition):
     @cached_property
     def deepest(self) -> float:
         """The depth, or N/N_0, up to which there is a full disc or strip of contact within the table."""
-        falls = self._falls
-        s = self._sampled[0][falls[0] if falls.size else -1]
-        return float(self.rise(np.array([s]))[0][0]) / (MEAN_LOAD if self.plane else 1.0)
+        return float(self.rise(self._largest)[0][0]) / (MEAN_LOAD if self.plane else 1.0)
 
     @property
     def compact_radius(self) -> float:
         """The radius of the largest contact that is one disc or strip, within the table."""
-        falls = self._falls
-        return float(np.hypot(self._sampled[0][falls[0] if falls.size else -1], self.flat_radius))
+        return float(np.hypot(self._largest[0], self.flat_radius))
 
     def least_smoothing(self, radius: float) -> float | None:
         """The least smoothing above its own with which contacts are one disc or strip up to a radius.
@@ -214,7 +207,7 @@ class TabulatedProfile(Definition):
         if depth <= self.deepest:
             return None
         at, place = ("load 4P/(πE*) =", "half-width") if self.plane else ("depth", "radius")
-        if self._falls.size:
+        if self._largest[0] < self.end:
             advice = "if its heights are noisy, smoothing takes that away"
             if self.smoothing != 0.0:
                 advice = f"its smoothing is {self.smoothing:g}: more takes noise away, "
@@ -243,10 +236,10 @@ class TabulatedProfile(Definition):
         return CubicSpline(s, slope * s / np.maximum(np.hypot(s, self.flat_radius), LEAST_STEP * self.end))
 
     @property
-    def _falls(self) -> IndexArray:
-        """Where of these places the slope is negative."""
-        slope = self._sampled[1]
-        return np.flatnonzero(slope < -NEGATIVE * np.abs(slope).max())
+    def _largest(self) -> FloatArray:
+        """The first of these places at which the slope is negative, or else the end, shape (1,)."""
+        s, slope = self._sampled
+        return np.append(s[slope < -NEGATIVE * np.abs(slope).max()], s[-1])[:1]
 
 
 #: The name of a family, or a table.
