@@ -10,7 +10,7 @@ import math
 import platform
 from collections.abc import Callable, Collection
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
+from importlib.metadata import version
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -64,10 +64,5 @@ _PACKAGES = ("numpy", "scipy", "xarray", "netCDF4", "dask")
 @cache
 def versions() -> str:
     """Versions of Python, of this package and of packages that affect its numbers and files."""
-    found = [f"python {platform.python_version()}", f"swtstudy {__version__}"]
-    for name in _PACKAGES:
-        try:
-            found.append(f"{name} {version(name)}")
-        except PackageNotFoundError:
-            continue
-    return ", ".join(found)
+    packages = (f"{name} {version(name)}" for name in _PACKAGES)
+    return ", ".join([f"python {platform.python_version()}", f"swtstudy {__version__}", *packages])

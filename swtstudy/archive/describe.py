@@ -280,19 +280,14 @@ def outcome(dataset: xr.Dataset) -> Iterator[str]:
     ...     print(line)
     s = 0.08612 (friction = 0.2; x/a_H = −1.32) to 0.2443 (friction = 0.4; x/a_H = −1.32).
     """
-    found = [_criterion_words(dataset, name) for name in measures(dataset)] or [*_of_criteria(dataset)]
+    found = [_criterion_words(dataset, name) for name in measures(dataset)]
+    if not found and "criterion" in dataset.dims:  # values by several criteria are not to be compared
+        parts = {each: dataset.sel(criterion=each) for each in dataset.criterion.values}
+        found = [f"{each}: {_criterion_words(part, 's')}" for each, part in parts.items()]
+    found = found or [_criterion_words(dataset, "s")]
     yield f"{'; '.join([*found, *life_words(dataset)])}.".replace("= -", "= −")
     if words := outside_words(dataset):
         yield words
-
-
-def _of_criteria(dataset: xr.Dataset) -> Iterator[str]:
-    """Values of s, by each criterion where there are several: these are not to be compared."""
-    if "criterion" not in dataset.dims:
-        yield _criterion_words(dataset, "s")
-        return
-    for each in dataset.criterion.values:
-        yield f"{each}: {_criterion_words(dataset.sel(criterion=each), 's')}"
 
 
 def _criterion_words(dataset: xr.Dataset, name: str) -> str:

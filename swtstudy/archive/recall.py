@@ -23,15 +23,15 @@ from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, StudyError, is_rtol, literal, plain_number
+from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, is_rtol, literal, plain_number
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units, require
 
 
-def grid_of(dataset: xr.Dataset) -> Grid:
-    """The grid of an archive, from its coordinates.
+def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
+    """The grid of an archive, which comes from a file, from its coordinates.
 
     Raises
     ------
@@ -39,7 +39,7 @@ def grid_of(dataset: xr.Dataset) -> Grid:
         With every coordinate that no study can have; or if the results have been left without s.
     """
     require(dataset, "s")
-    report, dims = Report(), [str(name) for name in dataset.s.dims]
+    report, dims = Report(source), [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
     known = defined_in(dataset.attrs)
@@ -153,9 +153,14 @@ def mistakes(dataset: xr.Dataset, source: str) -> Report:
     """Everything that is wrong in an archive that lacks nothing."""
     report = Report(source)
     # Each of these can be checked only if what it relies on, the one before it, is sound.
-    for check in (_check_attributes, _check_shapes, _check_coordinates, _check_values):
-        if not report:
-            check(dataset, report)
+    _check_attributes(dataset, report)
+    if not report:
+        _check_shapes(dataset, report)
+    if not report:
+        with report:
+            grid_of(dataset, source)
+    if not report:
+        _check_values(dataset, report)
     return report
 
 
@@ -206,14 +211,6 @@ def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
             report(name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}")
         if plain[name].dtype.kind not in "fiu":
             report(name, f"values of type {plain[name].dtype}", "numbers")
-
-
-def _check_coordinates(dataset: xr.Dataset, report: Report) -> None:
-    try:
-        grid_of(dataset)
-    except StudyError as error:
-        for mistake in error.mistakes:
-            report(mistake.key, mistake.found, mistake.allowed)
 
 
 def _check_values(dataset: xr.Dataset, report: Report) -> None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from os import PathLike
 from pathlib import Path
@@ -18,13 +17,13 @@ from swtstudy.archive import parts
 from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.work import Work, assess
-from swtstudy.archive.workers import WorkerError, Workers, without_signals, workers_of
-from swtstudy.points.chunk import Arrays, Found, Run, Solver, chunks, put, stacked
+from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers
+from swtstudy.points.chunk import Run, Solver, chunks, put
 from swtstudy.study.definition import Study, read_studies, require_study
 from swtstudy.study.shipped import shipped_folder
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.files import check_writable
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal
+from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
@@ -180,15 +179,14 @@ def run_several(
 ) -> None:
     """Compute studies with the same workers, write their archives, and draw their figures beside these.
 
-    While the workers compute a study, the archive of the one before is written in another thread. An error in
-    one study ends all; what is computed of the others is saved.
+    An error in one study ends all; what is computed of it is saved, and so are the archives before it.
 
     Parameters
     ----------
     studies
         Studies and the paths of their archives.
     finished
-        Called with every archive, once its figure is drawn, one after the other, not always in this thread.
+        Called with every archive, once its figure is drawn.
     formats
         Formats of the figures: "png", "pdf", "svg". Without one nothing is drawn.
     width
@@ -197,43 +195,31 @@ def run_several(
         As for `run`.
     """
     if not isinstance(workers, int) or workers < 1:
-        raise StudyError([Mistake("workers", literal(workers), "a number of workers, from 1 on")])
+        raise refused("workers", literal(workers), "a number of workers, from 1 on")
 
-    def draw_and_finish(study: Study, path: Path, dataset: xr.Dataset) -> None:
-        if study.figure is not None and formats:
-            from swtstudy.figures.draw import draw
-            from swtstudy.figures.style import save_figure
-
-            figure = draw(dataset, width=width)
-            for ending in formats:
-                save_figure(figure, path.with_suffix(f".{ending}"))
-        finished(study, path, dataset)
-
-    with ExitStack() as held:
-        background = held.enter_context(ThreadPoolExecutor(1))
-        pool = held.enter_context(workers_of(workers, processes, client))
-        before: Job | None = None
-        try:
-            for study, path in studies:
+    local = LocalPool if processes else Workers
+    with local(workers) if client is None else ClusterPool(client) as pool:
+        for study, path in studies:
+            require_study(study)
+            check_archive_path(path)
+            check_writable(path)
+            with locked(parts.parts_folder(path)):
                 job = Job(study, path, retry_failed)
-                held.callback(job.close)
-                with without_signals():
-                    writing = before and (before, background.submit(before.finish, draw_and_finish))
-                    before = None
-                try:
+                with job.reporting():
                     job.compute(pool, solver)
-                finally:
-                    if writing:
-                        with writing[0].reporting():
-                            writing[1].result()
-                before = job
-        finally:
-            if before is not None:
-                before.finish(draw_and_finish)
+                    dataset = job.finish()
+            if study.figure is not None and formats:
+                from swtstudy.figures.draw import draw
+                from swtstudy.figures.style import save_figure
+
+                figure = draw(dataset, width=width)
+                for ending in formats:
+                    save_figure(figure, path.with_suffix(f".{ending}"))
+            finished(study, path, dataset)
 
 
 class Job:
-    """A study to be computed, and the lock of its archive until it is closed.
+    """A study to be computed, while the lock of its archive is held.
 
     Parameters
     ----------
@@ -246,19 +232,12 @@ class Job:
     """
 
     def __init__(self, study: Study, path: Path, retry_failed: bool) -> None:
-        require_study(study)
-        check_archive_path(path)
-        check_writable(path)
         self.study, self.path, self._folder = study, path, parts.parts_folder(path)
-        with ExitStack() as held:
-            held.enter_context(locked(self._folder))
-            parts.clear_unfinished(self._folder)
-            self._begin = self._saved = time.perf_counter()
-            self.work = assess(study, path, retry_failed)
-            self._what, self._complete = _told(self.work), not self.work.todo.any()
-            self._unsaved: list[tuple[IndexArray, Arrays]] = []
-            self._reported: OSError | None = None
-            self.close = held.pop_all().close
+        parts.clear_unfinished(self._folder)
+        self._begin = self._saved = time.perf_counter()
+        self.work = assess(study, path, retry_failed)
+        self._what, self._complete = _told(self.work), not self.work.todo.any()
+        self._unsaved: list[IndexArray] = []
 
     def compute(self, workers: Workers, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
@@ -268,11 +247,12 @@ class Job:
         work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
         number, todo = work.found.runs.index(run), int(work.todo.sum())
         missing = chunks(work.points, work.todo, work.asked)
-        with self.reporting(), Progress(todo, self.path.stem, delay=0.0) as shown:
+        with Progress(todo, self.path.stem, delay=0.0) as shown:
             try:
                 for places, arrays in workers.solve(missing, rtol, solver):
                     arrays["run"][:] = number
-                    self._unsaved.append((places, arrays))
+                    put(work.found.arrays, places, arrays)
+                    self._unsaved.append(places)
                     now = time.perf_counter()
                     if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
                         self._save()
@@ -283,37 +263,31 @@ class Job:
     def _save(self) -> None:
         """Save the results of chunks as a part; only then they count."""
         if self._unsaved:
-            several, of_chunks = zip(*self._unsaved, strict=True)
-            places, arrays = np.concatenate(several), stacked(of_chunks)
-            part = Found(arrays | {"row": self.work.points.rows[places]}, self.work.found.runs)
-            parts.save_part(self._folder, part.take(slice(None)))
-            put(self.work.found.arrays, places, arrays)
+            parts.save_part(self._folder, self.work.found.take(np.concatenate(self._unsaved)))
             self._unsaved, self._saved = [], time.perf_counter()
 
-    def finish(self, finished: Finished) -> None:
-        """Write the archive, which replaces the parts, and release it; what is not in it is kept.
+    def finish(self) -> xr.Dataset:
+        """Write the archive, which replaces the parts, and read it; what is not in it is kept.
 
         An archive that exactly this study wrote stays as it is, if nothing had to be done.
         """
         from swtstudy.archive.netcdf import read_archive
 
-        with self.reporting():
-            archive = read_archive(self.path) if self.path.exists() else None
-            same = archive is not None and archive.attrs["study"] == self.study.text
-            if archive is None or not (same and self._complete) or len(parts.read_parts(self._folder)):
-                archive = self._written(archive)
-            parts.clear_parts(self._folder)
-        self.close()
-        finished(self.study, self.path, archive)
+        archive = read_archive(self.path) if self.path.exists() else None
+        same = archive is not None and archive.attrs["study"] == self.study.text
+        if archive is None or not (same and self._complete) or len(parts.read_parts(self._folder)):
+            self._write([] if archive is None else [archive.attrs["history"]])
+            archive = read_archive(self.path)
+        parts.clear_parts(self._folder)
+        return archive
 
-    def _written(self, before: xr.Dataset | None) -> xr.Dataset:
-        """Write the archive over one from before."""
+    def _write(self, history: list[str]) -> None:
+        """Write the archive, with the history of the one that it replaces."""
         from swtstudy.archive.archive import build, history_line
-        from swtstudy.archive.netcdf import read_archive, save
+        from swtstudy.archive.netcdf import save
 
         work, kept = self.work, parts.kept_folder(self.path)
-        lines = [history_line(self._what)] + ([] if before is None else [before.attrs["history"]])
-        seconds = time.perf_counter() - self._begin
+        lines, seconds = [history_line(self._what), *history], time.perf_counter() - self._begin
         dataset = build(self.study, work.points, work.found, "\n".join(lines), seconds)
         try:
             with parts.keeping(kept, work.others):
@@ -322,7 +296,6 @@ class Job:
             raise OSError(f"cannot write the archive ({error})") from error
         if len(work.others):
             _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
-        return read_archive(self.path)
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
@@ -331,15 +304,13 @@ class Job:
         try:
             yield
         except (KeyboardInterrupt, OSError) as error:
-            if error is self._reported:
-                raise
-            saved = f"{count - self.work.todo.sum()} of {count} distinct points are saved beside {self.path}"
+            known = count - self.work.todo.sum() - sum(map(len, self._unsaved))
+            saved = f"{known} of {count} distinct points are saved beside {self.path}"
             if isinstance(error, KeyboardInterrupt):
                 raise Stopped(f"stopped; {saved}; the same command continues from there") from None
             kind = WorkerError if isinstance(error, WorkerError) else OSError
             advice = "once that is fixed, the same command continues from there"
-            self._reported = kind(f"{error.strerror or error}; {saved}; {advice}")
-            raise self._reported from error
+            raise kind(f"{error.strerror or error}; {saved}; {advice}") from error
 
 
 def _told(work: Work) -> str:

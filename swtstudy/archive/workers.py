@@ -11,7 +11,7 @@ import signal
 import sys
 import threading
 import types
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -51,13 +51,6 @@ Solved = tuple[IndexArray, Arrays]
 
 class WorkerError(OSError):
     """Workers that cannot do the work: they are gone, of another version, or lack the package."""
-
-
-def workers_of(count: int, processes: bool, client: Client | None) -> Workers:
-    """Workers of a run: a cluster's workers, if there is a client of one."""
-    if client is not None:
-        return ClusterPool(client)
-    return LocalPool(count) if processes else Workers(count)
 
 
 @contextmanager
@@ -115,6 +108,7 @@ class Workers:
     gone: tuple[type[BaseException], ...] = ()
     apart = False
     _executor: Any = None
+    _at_shutdown: Mapping[str, bool] = {"cancel_futures": True}
 
     def __init__(self, count: int) -> None:
         self.size = count
@@ -131,16 +125,21 @@ class Workers:
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
-        self._executor = self._executor or self._start()
         if self.apart:
             function, arguments = pickle.loads, (cloudpickle.dumps(_Task(function, arguments)),)
-        return self._executor.submit(function, *arguments)
+        try:
+            self._executor = self._executor or self._start()
+            return self._executor.submit(function, *arguments)
+        except self.lost as error:
+            lost: Future[Any] = Future()
+            lost.set_exception(error)
+            return lost
 
     def renew(self, wait: bool = False) -> None:
         """Drop all tasks; new workers start with the next one."""
         executor, self._executor = self._executor, None
         if executor is not None:
-            executor.shutdown(wait, cancel_futures=True)
+            executor.shutdown(wait=wait, **self._at_shutdown)
 
     def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver) -> Iterator[Solved]:
         """Yield the values of all chunks, in any order.
@@ -208,15 +207,6 @@ class LocalPool(Workers):
     def _start(self) -> ProcessPoolExecutor:
         return start_workers(self.size)
 
-    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """See `Workers`."""
-        try:
-            return super().submit(function, *arguments)
-        except BrokenProcessPool as error:
-            lost: Future[Any] = Future()
-            lost.set_exception(error)
-            return lost
-
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
         for process in list((getattr(self._executor, "_processes", None) or {}).values()) if kind else ():
@@ -232,6 +222,7 @@ class ClusterPool(Workers):
     """
 
     apart = True
+    _at_shutdown: Mapping[str, bool] = {}  # this executor knows no cancelling
 
     def __init__(self, client: Client) -> None:
         from distributed import Client
@@ -255,12 +246,6 @@ class ClusterPool(Workers):
         self._ended.set()
         if kind is None or not issubclass(kind, OSError):  # without a scheduler there is nothing to end
             self.renew()
-
-    def renew(self, wait: bool = False) -> None:
-        """See `Workers`: this executor knows no cancelling."""
-        executor, self._executor = self._executor, None
-        if executor is not None:
-            executor.shutdown(wait=wait)
 
     def _watch(self) -> None:
         """Count the workers; warn when there are none: dask waits for them silently."""

@@ -11,16 +11,7 @@ import numpy as np
 from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import (
-    COST,
-    ROW,
-    SHARED_COLUMNS,
-    Distinct,
-    Table,
-    alike,
-    group_rows,
-    points_from,
-)
+from swtstudy.points.canonical import COST, ROW, Distinct, Table, alike, group_rows, points_from
 from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
@@ -82,8 +73,7 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     if {YIELD, DISTANCE} & {*asked.items}:
         pieces = np.maximum(pieces, PIECES_OF_BODY)
     found: list[IndexArray] = []
-    shared = points.rows[[*SHARED_COLUMNS]]  # a view, whose rows are copied in full
-    for own in alike(shared if wanted.all() else shared[places], *points.distances[places].T):
+    for own in alike(points.rows if wanted.all() else points.rows[places], *points.distances[places].T):
         own = places[own]
         own = own[np.argsort(-pieces[own], kind="stable")]
         number = (np.cumsum(pieces[own]) - 1) // PIECES
@@ -291,8 +281,7 @@ def look_up(rows: Table, found: Found, candidates: BoolArray) -> IntArray:
     index = index[np.lexsort((-index, tolerance, -count, found["status"][index]))]
     # The first of equal rows wins: candidates come in order of preference, followed by the table itself.
     first, group = group_rows(np.concatenate([found["row"][index], rows]))
-    winner = first[group[len(index) :]]
-    return np.where(winner < len(index), np.append(index, -1)[np.minimum(winner, len(index))], -1)
+    return np.append(index, np.full(len(rows), -1))[first[group[len(index) :]]]
 
 
 def matching(points: Distinct, known: Found, candidates: BoolArray) -> Found:
