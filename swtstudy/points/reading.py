@@ -139,21 +139,15 @@ def read_values(
     for name, raw in (*fixed.items(), *axes.items(), *samples.items()):
         if name in rows and rows[name].units == "rad":
             warn_of_degrees(report.key(name), raw)
+    read = {n: _read(rows[n], raw, report.key(n), report, known) for n, raw in fixed.items() if n in rows}
     known_axes = {name: raw for name, raw in axes.items() if name in rows and raw is not None}
-    read = {
-        name: _read(rows[name], raw, report.key(name), report, known)
-        for name, raw in fixed.items()
-        if name in rows
-    }
-    good_axes: NamedValues = {}
     sizes = [raw.num + len(raw.also) if isinstance(raw, Range) else len(raw) for raw in known_axes.values()]
     # Axes that are not too long one by one may be so together: to read them takes a minute.
     if sum(sizes) > LONGEST_AXIS >= max(sizes) and min(sizes) > 0:
         found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
         report.of(axes, found, f"at most {LONGEST_AXIS} values along all axes")
         known_axes = {}
-    for name, raw in known_axes.items():
-        good_axes[name] = _read_axis(rows[name], raw, report.key(name), report, known)
+    good_axes = {n: _read_axis(rows[n], raw, report.key(n), report, known) for n, raw in known_axes.items()}
     for twice in given_twice((*fixed, *axes, *samples)):
         report.of(*twice)
     return {name: value for name, value in read.items() if value is not None}, good_axes

@@ -114,15 +114,13 @@ def solve_grid(
     """
     import xarray as xr
 
-    from swtstudy.points.labelled import label, margins, values_at
+    from swtstudy.points.labelled import label, margins
 
     points = None
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
-        # Unlike a function in a function it can be pickled.
-        values_of_block = partial(_block_values, grid, rtol, asked, own)
         made = xr.apply_ufunc(
-            values_of_block,
+            partial(_values_of_block, grid, rtol, asked),  # unlike a function in a function it can be pickled
             *(
                 xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
                 for dim, size in grid.sizes.items()
@@ -134,30 +132,29 @@ def solve_grid(
         )
         arrays = {name: each.data for name, each in zip(own, made, strict=True)}
     else:
-        points = Distinct.of(grid, asked)
-        arrays = values_at(grid, points, _found(points, rtol, asked), asked)
+        points, arrays = _solved(grid, rtol, asked, np.arange(grid.size))
     arrays |= margins(grid, points)
     return label(grid, arrays, asked).assign_attrs(source=f"swtstudy {__version__}", rtol=rtol)
 
 
-def _block_values(
-    grid: Grid, rtol: float, asked: Request, own: Mapping[str, tuple[str, ...]], *positions: IndexArray
+def _values_of_block(
+    grid: Grid, rtol: float, asked: Request, *positions: IndexArray
 ) -> tuple[NDArray[Any], ...]:
-    """Values of a block of the grid, from positions along its dimensions; ``own`` are their further ones."""
-    from swtstudy.points.labelled import values_at
-
+    """Values of a block of the grid, from positions along its dimensions."""
     places = np.ravel_multi_index(np.broadcast_arrays(*positions), grid.shape)
-    points = Distinct.of(grid, asked, places.ravel())
-    arrays = values_at(grid, points, _found(points, rtol, asked), asked, places.ravel())
+    _, arrays = _solved(grid, rtol, asked, places.ravel())
+    own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
     sizes = {name: [asked.sizes[dim] for dim in dims] for name, dims in own.items()}
     return tuple(arrays[name].reshape(*places.shape, *sizes[name]) for name in own)
 
 
-def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
-    """All that is asked of points, solved one chunk after another; raises if one has no value."""
+def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tuple[Distinct, Arrays]:
+    """The distinct points at places of a grid, and the values there; raises if a point has no value."""
     # The solver is imported where something is solved.
     from swtstudy.points.chunk import blank, chunks, fill, put
+    from swtstudy.points.labelled import values_at
 
+    points = Distinct.of(grid, asked, places)
     count = len(points.rows)
     found = blank(count)
     with Progress(count) as progress:
@@ -166,7 +163,7 @@ def _found(points: Distinct, rtol: float, asked: Request) -> Arrays:
             fill(arrays, chunk, rtol)
             put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
-    return found
+    return points, values_at(grid, points, found, asked, places)
 
 
 def spanned(
