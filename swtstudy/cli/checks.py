@@ -49,8 +49,7 @@ def sensitivity(
     target = archive_paths([study], results)[study]
     stem = "_".join((target.stem, "indices", *(re.sub(r"\W+", "_", each) for each in y)))
     targets = {end: target.with_name(f"{stem}{end}") for end in (".nc", ".md", ".png")}
-    for path in (target, *targets.values()):
-        check_writable(path)
+    check_writable(target, *targets.values())
 
     from swtstudy.archive.netcdf import save
     from swtstudy.paper.markdown import table
@@ -61,8 +60,7 @@ def sensitivity(
     write_text(targets[".md"], text)
     save_figure(draw_sensitivity(indices, width=width), targets[".png"])
     click.echo(terminal.of_markdown(text, terminal.line_length()))
-    for path in (target, *targets.values()):
-        click.echo(str(path))
+    click.echo("\n".join(map(str, (target, *targets.values()))))
 
 
 @click.command()
@@ -94,15 +92,13 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     from swtstudy.figures.style import save_figure
 
     targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
-    for path in targets.values():
-        check_writable(path)
+    check_writable(*targets.values())
     found = swtstudy.fit(study, tests, y=y, friction=friction, confidence=confidence)
     save(found, targets[".nc"])
     save_figure(draw_fit(found, width=width), targets[".png"])
     for line in fit_lines(found):
         terminal.say(line)
-    for path in targets.values():
-        click.echo(str(path))
+    click.echo("\n".join(map(str, targets.values())))
 
 
 #: Commands that make everything to be checked: audits are not part of the suite.
@@ -174,8 +170,7 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 
     defined = read_studies(studies)
     targets = archive_paths(defined, results, AUDIT_PREFIX)
-    for target in targets.values():
-        check_writable(target)
+    check_writable(*targets.values())
 
     from swtstudy.paper.markdown import report
 

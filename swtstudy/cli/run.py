@@ -92,8 +92,7 @@ def run(
         raise click.UsageError("Missing argument 'STUDY...', or --all.")
     defined = read_studies([*studies, str(shipped_folder())] if suite else studies)
     targets = archive_paths(defined, results)
-    for target in targets.values():
-        check_writable(target)
+    check_writable(*targets.values())
 
     from swtstudy.archive.run import run_several
 
@@ -128,13 +127,11 @@ def _stopped_once() -> Iterator[None]:
         return
 
     def stop(*_: object) -> NoReturn:
-        for each in before:
+        for each in (signal.SIGINT, signal.SIGTERM):
             signal.signal(each, signal.SIG_IGN)
         raise KeyboardInterrupt
 
-    before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
-    for each in before:
-        signal.signal(each, stop)
+    before = {each: signal.signal(each, stop) for each in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -43,15 +44,9 @@ def new(name: str, units: bool) -> None:
         raise refused("NAME", literal(name), "a name for the study, such as mine")
     target = Path(name if name.endswith(".toml") else f"{name}.toml")
     check_writable(target)
-    try:
-        open(target, "x").close()
-    except FileExistsError:
-        raise FileExistsError(f"{target} already exists; choose another name") from None
-    try:
-        write_text(target, (template_with_units if units else template)(target.stem.replace("_", " ")))
-    except BaseException:
-        target.unlink()  # empty still, and in the way of another try
-        raise
+    if os.path.lexists(target):
+        raise FileExistsError(f"{target} already exists; choose another name")
+    write_text(target, (template_with_units if units else template)(target.stem.replace("_", " ")))
     click.echo(str(target))
     schema = target.with_name(SCHEMA_FILE)
     if not schema.exists():

@@ -45,12 +45,10 @@ from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, with
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
 from swtstudy.vocabulary.mistakes import (
-    ALLOWED_RTOL,
     DEFAULT_RTOL,
     Mistake,
     Report,
     StudyError,
-    is_rtol,
     literal,
     plain_number,
     refused,
@@ -382,8 +380,7 @@ class PhysicalContact:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
         report, grid = Report(), self.grid
         fixed, axes = spanned({} if distance is None else {DISTANCE: distance}, report)
-        if not is_rtol(rtol):
-            report("rtol", literal(rtol), ALLOWED_RTOL)
+        report.rtol(rtol)
         distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
         names = read_quantities(names, "quantities", report)
         materials = _of_both("constants", constants, report, FatigueConstants)

@@ -285,8 +285,8 @@ def points_of(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> list[d
     """The best and the worst point with their pictures, as `swtstudy.inspect` draws them."""
     parts = []
     for end, one in ends:
-        part: dict[str, Any] = {"end": end, "where": _where(dataset, one)}
-        part["symbol"] = html.symbol_of(findings.measured(one))
+        symbol = html.symbol_of(findings.measured(one))
+        part: dict[str, Any] = {"end": end, "where": _where(dataset, one), "symbol": symbol}
         try:
             if has_units(one):  # a real contact, in its units
                 body = int(one.body) if "body" in one.coords and not one.body.ndim else 1

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
+from string import ascii_uppercase
 
 import xarray as xr
 
@@ -11,7 +13,7 @@ from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_maps
-from swtstudy.figures.words import flag_words, part_words, quantity_words, slices, title_words
+from swtstudy.figures.words import flag_words, parts_of, quantity_words, title_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
@@ -117,17 +119,18 @@ def _check(dataset: xr.Dataset, layout: FigureLayout) -> None:
 
 def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -> Figure:
     """A row of panels for each quantity, a column for each value of the panels' dimension."""
-    parts = slices(dataset, layout.panels)
+    count = dataset.sizes[layout.panels] if layout.panels else 1
     lines, upright = FIGURES[layout.kind].of == "lines", layout.kind == "life"
     scale = hue_scale(dataset[layout.hue]) if layout.hue else None
-    sheet = Sheet(len(layout.y), len(parts), width)
+    sheet = Sheet(len(layout.y), count, width)
     figure = sheet.figure(_SCALE_WIDTH if scale or not lines else 0.0)
     shared = {"share_x": "row", "share_y": "all"} if upright else {"share_y": "row" if lines else "all"}
     axes = sheet.panels(figure, **shared)
     for row, y in enumerate(layout.y):
         values = quantity(dataset, y)
         words = quantity_words(values, y)
-        panels = slices(_shown(dataset, y, values, layout.validity), layout.panels)
+        shown = _shown(dataset, y, values, layout.validity)
+        places, panels = zip(*parts_of(shown, layout.panels), strict=True)
         if lines:
             for one, panel in zip(axes[row], panels, strict=True):
                 draw_lines(one, panel, y, layout, scale)
@@ -138,15 +141,15 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             across, words = words, across
         elif not lines:
             words = axis_words(str(layout.vertical), dataset[layout.vertical].attrs)
-        for bottom in sheet.lowest(axes[: row + 1]) if upright or row == len(layout.y) - 1 else []:
-            bottom.set_xlabel(across)
+        beneath = upright or row == len(layout.y) - 1
+        for lowest in axes[row, max(count - sheet.across, 0) :] if beneath else ():
+            lowest.set_xlabel(across)
         sheet.label_left(axes[row], words)
-        for column, (one, part) in enumerate(zip(axes[row], parts, strict=True)):
+        for number, one, place in zip(itertools.count(row * count), axes[row], places, strict=False):
             # The letter of a panel, the quantity where that differs between rows, and its place.
-            letter = f"({chr(ord('A') + (row * len(parts) + column) % 26)})" if axes.size > 1 else ""
-            title = [title_words(values, y)] if len(layout.y) > 1 else []
-            place = [part_words(part, layout.panels)] if layout.panels else []
-            one.set_title(f"{letter}  {',  '.join([*title, *place])}".strip(), loc="left")
+            letter = f"({ascii_uppercase[number % 26]})" if axes.size > 1 else ""
+            title = title_words(values, y) if len(layout.y) > 1 else ""
+            one.set_title(f"{letter}  {',  '.join(filter(None, (title, place)))}".strip(), loc="left")
     if scale and layout.hue:
         add_scale(figure, axes, scale, dataset[layout.hue])
     return figure

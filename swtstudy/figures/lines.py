@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,31 +16,16 @@ from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.figures.style import stroke
-from swtstudy.figures.words import (
-    flag_words,
-    is_life,
-    part_words,
-    slices,
-    tick_angles,
-    tick_flags,
-    tick_in_ratios,
-)
+from swtstudy.figures.words import flag_words, is_life, parts_of, tick_angles, tick_flags, tick_in_ratios
 from swtstudy.results.evaluate import words_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
-from swtstudy.vocabulary.choices import WITHOUT_S
+from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
 from swtstudy.vocabulary.wording import axis_words
 
-#: Markers at the point where a regime begins, and words; a regime without s has it at the last point before.
-_MARKS = {
-    "stick": ("D", "stick begins"),
-    "partial_slip": ("^", "partial slip begins"),
-    "gross_slip": ("o", "gross slip begins"),
-    "lift_off": ("s", "lift-off begins"),
-    "not_finite": ("x", "not finite from here on"),
-    "no_equilibrium": ("X", "no equilibrium from here on"),
-}
+#: Markers at the point where a regime begins; a regime without s has it at the last point before.
+_MARKERS = dict(zip(REGIMES, "D^osxX", strict=True))
 #: Points of a line up to which each has a marker: between few points a line is not the curve.
 _FEW = 10
 #: A vertical axis over a logarithmic one is so, too, from this ratio of its ends: two decades.
@@ -92,19 +78,19 @@ def draw_lines(
         Colours of the values of hue; without it the curves have the styles of the property cycle, and labels.
     """
     panel = panel.sortby(layout.x)
-    parts = slices(panel, layout.hue)
-    for part in parts:
+    parts = [*parts_of(panel, layout.hue)]
+    for words, part in parts:
         look: dict[str, Any] = {"markevery": 0.1}
         if scale:
             look = stroke(scale.to_rgba(part[layout.hue].item()))
-        elif layout.hue:
-            look["label"] = part_words(part, layout.hue)
+        elif words:
+            look["label"] = words
         _draw_line(axes, part, panel.value, y, layout, look)
     if not np.isfinite(panel.value).any():
         axes.text(0.5, 0.5, "no value", ha="center", va="center", color="0.3", transform=axes.transAxes)
     _scale_axes(axes, panel[layout.x], panel.value, layout)
     if layout.regimes:
-        regimes = [words_of(part, "regime").values.tolist() for part in parts]
+        regimes = [words_of(part, "regime").values.tolist() for _, part in parts]
         _shade_without(axes, panel[layout.x].values, regimes)
 
 
@@ -184,15 +170,14 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
 
 def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str]) -> None:
     """Mark the points of a line where the regime changes; there is one for each point, empty if unknown."""
-    for place in range(1, len(regimes)):
-        before, name = regimes[place - 1 : place + 1]
+    for place, (before, name) in enumerate(pairwise(regimes), 1):
         if name and before and name != before:
-            at = place - 1 if name in WITHOUT_S else place
-            marker, words = _MARKS[name]
+            at, begins = (place - 1, "from here on") if name in WITHOUT_S else (place, "begins")
+            words = f"{name.replace('lift_off', 'lift-off').replace('_', ' ')} {begins}"
             # On white, above all lines, and in no line's colour: marks mean the same on every line.
             look: dict[str, Any] = {"linestyle": "none", "color": "0.25", "markerfacecolor": "white"}
             size = 1.4 * rcParams["lines.markersize"]
-            axes.plot([x[at]], [s[at]], marker=marker, markersize=size, zorder=4, label=words, **look)
+            axes.plot([x[at]], [s[at]], marker=_MARKERS[name], markersize=size, zorder=4, label=words, **look)
 
 
 def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str]]) -> None:
@@ -217,8 +202,8 @@ def _mark_along(
         return
     # Each point, and one close to it on the line: one point alone would have no band.
     line = np.stack([x, y]).astype(float)
-    nowhere = np.full((2, 1), np.nan)
-    after, before = np.hstack([line[:, 1:], nowhere]), np.hstack([nowhere, line[:, :-1]])
+    padded = np.pad(line, ((0, 0), (1, 1)), constant_values=np.nan)
+    before, after = padded[:, :-2], padded[:, 2:]
     toward = np.where(np.isfinite(after).all(axis=0), after, before)
     both = np.stack([line, line + 1e-3 * (toward - line)], axis=-1)
     band = np.where(outside[:, None], both, np.nan).reshape(2, -1)

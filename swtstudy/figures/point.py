@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from swtstudy.figures.sheet import Sheet, Width, check_width
+from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import DASHES, Style, stroke
 from swtstudy.figures.words import NO_LABELS, Labels, flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
@@ -72,7 +72,6 @@ def inspect(*, style: Style | None = None, width: Width | None = None, **paramet
     StudyError
         A ValueError with every mistake in the parameters, or in the width.
     """
-    check_width(width)
     return draw_inspection(inspect_point(**parameters), style, width)
 
 
@@ -173,19 +172,16 @@ def _guide(axes: Axes, values: Any, upright: bool = False, **own: Any) -> list[L
 def _mark(axes: Axes, marks: list[tuple[int, float, float]]) -> None:
     """Numbers of instants in discs; one disc for each place, for the later would hide the earlier."""
     near = 0.02 * np.array([np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())])
-    groups: list[list[tuple[int, float, float]]] = []
-    for mark in marks:
-        same = (group for group in groups if np.all(np.abs(np.subtract(mark, group[0])[1:]) < near))
-        if (group := next(same, None)) is None:
-            groups.append(group := [])
-        group.append(mark)
-    for group in groups:
-        shape = "circle,pad=0.18" if len(group) == 1 else "round,pad=0.18,rounding_size=0.6"
-        edge = _INSTANTS[(group[0][0] - 1) % len(_INSTANTS)]
+    discs: dict[tuple[float, float], list[int]] = {}
+    for number, *place in marks:
+        there = (other for other in discs if np.all(np.abs(np.subtract(other, place)) < near))
+        discs.setdefault(next(there, (place[0], place[1])), []).append(number)
+    for (x, y), numbers in discs.items():
+        shape = "circle,pad=0.18" if len(numbers) == 1 else "round,pad=0.18,rounding_size=0.6"
+        edge = _INSTANTS[(numbers[0] - 1) % len(_INSTANTS)]
         disc = {"boxstyle": shape, "facecolor": "white", "edgecolor": edge, "linewidth": 1.4}
         look: dict[str, Any] = {"fontsize": 0.75 * rcParams["font.size"], "bbox": disc, "zorder": 5}
-        words = ", ".join(str(number) for number, _, _ in group)
-        axes.text(*group[0][1:], words, ha="center", va="center", **look)
+        axes.text(x, y, ", ".join(map(str, numbers)), ha="center", va="center", **look)
 
 
 def _mark_over_time(axes: Axes, dataset: xr.Dataset, height: float, alpha: float) -> None:
@@ -425,9 +421,7 @@ def _draw_plane(axes: Axes, degrees: float) -> None:
     plane = plane if plane[1] < 0.0 else -plane
     inset.axhspan(-1.0, 0.0, color="0.9")
     inset.plot([-1.2, 1.2], [0, 0], **stroke(linewidth=_thin()))
-    inset.plot(
-        [0, 0.85 * plane[0]], [0, 0.85 * plane[1]], **stroke(linewidth=1.5 * rcParams["lines.linewidth"])
-    )
+    inset.plot(*np.outer(plane, (0.0, 0.85)), **stroke(linewidth=1.5 * rcParams["lines.linewidth"]))
     start = 0.42 * plane
     arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
     inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)

@@ -14,7 +14,6 @@ from typing import Any, Literal
 
 import matplotlib.figure
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.legend import Legend
@@ -87,7 +86,10 @@ class Sheet:
     fold: bool = True
 
     def __post_init__(self) -> None:
-        check_width(self.width)
+        """Refuse a width that there is not."""
+        if self.width is not None and self.width not in WIDTHS:
+            allowed = ", ".join(f'"{name}"' for name in WIDTHS)
+            raise refused("width", literal(self.width), f"{allowed}, or None for a screen")
 
     @property
     def across(self) -> int:
@@ -140,11 +142,11 @@ class Sheet:
             cell = (self.rows * lines, across, (row * lines + line) * across + column + 1)
             one = figure.add_subplot(*cell, sharex=first[share_x], sharey=first[share_y])
             lowest = row == self.rows - 1 and index + across >= self.count
-            for axis, other in ((one.xaxis, first[share_x]), (one.yaxis, first[share_y])):
-                if other is None:
+            for axis, share in ((one.xaxis, share_x), (one.yaxis, share_y)):
+                if first[share] is None:
                     axis.set_major_formatter(PlainNumbers())
-            one.tick_params(labelleft=column == 0 or share_y == "none")
-            one.tick_params(labelbottom=lowest or share_x != "all")
+            left, bottom = column == 0 or share_y == "none", lowest or share_x != "all"
+            one.tick_params(labelleft=left, labelbottom=bottom)
             panels[row, index] = one
         return panels
 
@@ -152,10 +154,6 @@ class Sheet:
         """Label the vertical axes of a row of panels, at the left end of each of its lines."""
         for first in panels[:: self.across]:
             first.set_ylabel(words)
-
-    def lowest(self, panels: NDArray[Any]) -> list[Axes]:
-        """The panels with nothing beneath them."""
-        return list(panels[-1, max(self.count - self.across, 0) :])
 
 
 class PlainNumbers(ScalarFormatter):
@@ -169,19 +167,6 @@ class PlainNumbers(ScalarFormatter):
         self.set_useMathText(False)
         super().set_locs(locs)
         self.set_useMathText(True)
-
-
-def check_width(width: object) -> None:
-    """Refuse a width that there is not.
-
-    Raises
-    ------
-    StudyError
-        A ValueError that names what is allowed.
-    """
-    if width is not None and width not in WIDTHS:
-        allowed = ", ".join(f'"{name}"' for name in WIDTHS)
-        raise refused("width", literal(width), f"{allowed}, or None for a screen")
 
 
 def new_figure(size: tuple[float, float], width: Width | None = None) -> Figure:
@@ -211,30 +196,18 @@ def wrap_texts(figure: Figure) -> None:
     letters = [len(text.get_text()) for text in (whole, *(text for text, _ in texts)) if text]
     if figure.width is None and max(letters, default=0) <= _LONG:
         return
-    # Panels get their places; drawing the figure would also do that, in twice the time.
-    if engine := figure.get_layout_engine():
-        engine.execute(figure)
-    for axes in figure.axes:
-        locator: Any = axes.get_axes_locator()
-        axes.apply_aspect(locator(axes, None) if locator else None)
+    figure.draw_without_rendering()  # panels get their places
     for text, axes in texts:
         if text is axes.yaxis.label:
             _wrap(text, axes.bbox.height, "height")
         elif text is axes.xaxis.label:
             _wrap(text, (1.0 if figure.width is None else 1.15) * axes.bbox.width)
-        else:
-            _wrap(text, _title_room(text, axes, figure.bbox.width))
+        else:  # a title may end where the last number below its panel ends
+            ticks = axes.xaxis.get_tightbbox()
+            end = max(axes.bbox.x1, ticks.x1 if ticks else 0.0)
+            _wrap(text, min(end, figure.bbox.x1) - axes.bbox.x0)
     if whole:
         _wrap(whole, 0.98 * figure.bbox.width)
-
-
-def _title_room(title: Text, axes: Axes, width: float) -> float:
-    """Width for a title: its panel's, or up to the end of the last number below a title that is longer."""
-    box = axes.bbox
-    if title.get_window_extent().width <= box.width:
-        return float(box.width)
-    ticks = axes.xaxis.get_tightbbox()
-    return min(max(box.width, (ticks.x1 if ticks else 0.0) - box.x0), width - box.x0)
 
 
 def _wrap(text: Text, room: float, along: str = "width") -> None:

@@ -14,15 +14,7 @@ from numpy.typing import NDArray
 from swtstudy.figures.lines import mark_points
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
 from swtstudy.figures.style import COLOURS, Style, stroke
-from swtstudy.figures.words import (
-    flag_words,
-    is_life,
-    part_words,
-    quantity_words,
-    slices,
-    tick_angles,
-    tick_flags,
-)
+from swtstudy.figures.words import flag_words, is_life, parts_of, quantity_words, tick_angles, tick_flags
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import quantity
@@ -48,7 +40,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
     for row, y in enumerate(layout.y):
         whole = quantity(dataset, y)
         for one, name in zip(axes[row], names, strict=True):
-            for index, (label, part) in enumerate(_by(dataset, layout.hue)):
+            for index, (label, part) in enumerate(parts_of(dataset, layout.hue)):
                 _draw_points(one, part, y, name, label, index, layout.validity)
             one.set_xlabel(axis_words(name, dataset[name].attrs))
             tick_flags(one, flag_words(whole))
@@ -60,7 +52,7 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
 
 
 def _draw_points(
-    axes: Axes, part: xr.Dataset, y: str, name: str, label: str | None, index: int, validity: bool
+    axes: Axes, part: xr.Dataset, y: str, name: str, label: str, index: int, validity: bool
 ) -> None:
     """The points of one value of hue: in grey a marker and a shade tell them apart."""
     drawn, x = quantity(part, y), part[name].values
@@ -80,7 +72,7 @@ def _draw_points(
 
 def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
     """Draw the distribution of the quantities over the points, with percentiles."""
-    panels = _by(dataset, layout.panels)
+    panels = [*parts_of(dataset, layout.panels)]
     sheet = Sheet(len(layout.y), len(panels), width)
     figure = sheet.figure()
     axes = sheet.panels(figure, share_x="row")
@@ -89,13 +81,13 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
         edges, flags = _edges(whole), flag_words(whole)
         for one, (title, panel) in zip(axes[row], panels, strict=True):
             lines = [title]
-            for index, (label, part) in enumerate(_by(panel, layout.hue)):
+            for index, (label, part) in enumerate(parts_of(panel, layout.hue)):
                 values = _finite(quantity(part, y))
                 places = np.percentile(values, [*_PERCENTILES]) if len(values) and not flags else []
                 said = [f"{n} %: {raised(f'{at:.3g}')}" for n, at in zip(_PERCENTILES, places, strict=False)]
                 words = ", ".join(filter(None, (label, *said)))
                 # An entry of the legend is for all panels: of several each has its own percentiles above.
-                alone = axes.size == 1 and label is not None
+                alone = axes.size == 1 and label
                 lines += [] if alone else [words]
                 colour, hatch = COLOURS[index % len(COLOURS)], _HATCHES[index % len(_HATCHES)]
                 look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour}
@@ -127,11 +119,6 @@ def _edges(values: xr.DataArray) -> list[float]:
     if is_life(values.attrs):
         return (10.0 ** np.histogram_bin_edges(np.log10(known[known > 0.0]), "auto")).tolist()
     return np.histogram_bin_edges(known if len(known) else [0.0, 1.0], "auto").tolist()
-
-
-def _by(dataset: xr.Dataset, name: str | None) -> list[tuple[str | None, xr.Dataset]]:
-    """The slices of a Dataset along a dimension, with their values in words."""
-    return [(part_words(part, name) if name else None, part) for part in slices(dataset, name)]
 
 
 _WORDS = {"first_order": "alone (first order)", "total": "alone and with others (total)"}

@@ -6,6 +6,7 @@ Where it is least and greatest along x is found between the points of its grid.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -42,7 +43,7 @@ _MOST = 32
 def draw_maps(
     figure: Figure,
     axes: NDArray[Any],
-    panels: list[xr.Dataset],
+    panels: Sequence[xr.Dataset],
     layout: FigureLayout,
     name: object,
     words: str,

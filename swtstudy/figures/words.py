@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -65,24 +65,17 @@ def title_words(values: xr.DataArray, y: str) -> str:
     return f"${symbol}" if found else words.rpartition(", ")[2]
 
 
-def part_words(part: xr.Dataset, name: str) -> str:
-    """Label a part of results by the value of a parameter; a profile with its shape where that is fixed.
+def parts_of(dataset: xr.Dataset, name: str | None) -> Iterator[tuple[str, xr.Dataset]]:
+    """The parts of results at each value of a parameter, with its words; the whole without one.
 
-    Parameters
-    ----------
-    part
-        Results at one value.
-    name
-        The parameter.
+    The words of a profile include its shape where that is fixed.
     """
-    shape = family_of(part[name].item()).shape if name == "profile" else ()
-    fixed = [each for each in shape if each in part.coords and part[each].ndim == 0]
-    return ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in (name, *fixed))
-
-
-def slices(dataset: xr.Dataset, name: str | None) -> list[xr.Dataset]:
-    """The parts of a Dataset at each value of a dimension; the whole without one."""
-    return [dataset] if name is None else [dataset.isel({name: i}) for i in range(dataset.sizes[name])]
+    if name is None:
+        yield "", dataset
+    for part in (dataset.isel({name: i}) for i in range(dataset.sizes[name] if name else 0)):
+        shape = family_of(part[name].item()).shape if name == "profile" else ()
+        said = (str(name), *(each for each in shape if each in part.coords and part[each].ndim == 0))
+        yield ", ".join(place_words(each, part[each].item(), part[each].attrs) for each in said), part
 
 
 def is_life(attributes: Mapping[Any, Any]) -> bool:

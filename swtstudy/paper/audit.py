@@ -24,6 +24,7 @@ from swtstudy.study.sample import drawn_rows
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.tables import read_table
+from swtstudy.vocabulary.variables import flag_attributes
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: An audit's files have this before the name of the study.
@@ -33,9 +34,8 @@ AUDIT_PREFIX = "audit_"
 VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
 #: Attributes of the variables: what is found, and what follows from it.
 _ATTRIBUTES = read_table(__file__, "audit")
-for _name, _flags in (("regime", REGIMES), ("verdict", VERDICTS)):
-    _values = np.arange(len(_flags), dtype=np.int8)
-    _ATTRIBUTES[_name] |= {"flag_values": _values, "flag_meanings": " ".join(_flags)}
+_ATTRIBUTES["regime"] |= flag_attributes(REGIMES)
+_ATTRIBUTES["verdict"] |= flag_attributes(VERDICTS)
 #: Numbers that the audit of a point finds.
 FOUND = [
     name for name in _ATTRIBUTES if name not in ("excess", "remainder", "shortfall", "regime", "verdict")
@@ -123,14 +123,6 @@ def canonical_rows(dataset: xr.Dataset) -> Table:
     loads = known.get("load", {})
     rows[COST] = [loads[each].cost if each in loads else 0 for each in dataset["load"].values]
     return rows
-
-
-def audited_points(dataset: xr.Dataset) -> dict[tuple[float, ...], np.void]:
-    """The points of an audit, each of `AUDITED`, by canonical row."""
-    points = np.empty(dataset.sizes["sample"], AUDITED)
-    for name in AUDITED.names or ():
-        points[name] = dataset[name].values
-    return dict(zip(canonical_rows(dataset).tolist(), points, strict=True))
 
 
 #: Seconds between two saves of what is audited so far: short enough to lose, long against a save.
@@ -221,7 +213,8 @@ def _known(path: Path, own: Definitions) -> tuple[dict[tuple[float, ...], np.voi
         both = {**there, **own}
         distinct = {(each.parameter, each.name) for each in both.values()}
         if audit.attrs.get("solver_version") == SOLVER_VERSION and len(distinct) == len(both):
-            return audited_points(audit), both
+            points = np.rec.fromarrays([audit[name].values for name in AUDITED.names or ()], AUDITED)
+            return dict(zip(canonical_rows(audit).tolist(), points, strict=True)), both
     return {}, own
 
 

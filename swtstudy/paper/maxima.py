@@ -15,16 +15,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from swtstudy.kernel import field
 from swtstudy.kernel.dense import highest_on_planes
-from swtstudy.kernel.field import (
-    MANY,
-    Opened,
-    criterion_at,
-    far_field_of,
-    largest_radius,
-    open_cycle,
-    passed_radii,
-)
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
@@ -81,7 +73,7 @@ class BodyMaximum(NamedTuple):
 class _Search(NamedTuple):
     """The load cycle of one point, its largest contact radius, and half the ring that is left out."""
 
-    opened: Opened
+    opened: field.Opened
     largest: float
     ring: float
 
@@ -101,8 +93,8 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     maximum, at_line
         The search starts from the highest places of a first look and from the line's own maximum.
     """
-    opened = open_cycle(**arguments_of(points))
-    largest, far = largest_radius(opened), far_field_of(opened)
+    opened = field.open_cycle(**arguments_of(points))
+    largest, far = field.largest_radius(opened), field.far_field_of(opened)
     line_is_far = not np.isfinite(line_x)
     line_x = largest if line_is_far else line_x
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
@@ -121,9 +113,9 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     return found, from_far if line_is_far else at_line
 
 
-def _maximum_at(opened: Opened, place: FloatArray) -> BodyMaximum:
+def _maximum_at(opened: field.Opened, place: FloatArray) -> BodyMaximum:
     """swt over all planes at one place, and its critical plane."""
-    swt, _, normal = criterion_at(opened, place[None], VALUE)
+    swt, _, normal = field.criterion_at(opened, place[None], VALUE)
     return BodyMaximum(float(swt[0]), place, normal[0])
 
 
@@ -134,7 +126,7 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     b = float(opened.profile["flat_radius"])
     between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
-    passed = passed_radii(opened, MOST_CUSPS)
+    passed = field.passed_radii(opened, MOST_CUSPS)
     radii = np.unique(np.round(np.concatenate([passed, between, rest]), 12))
     depths = largest * DEPTHS
     if opened.load["bulk_range"].any():
@@ -142,8 +134,8 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     angles = ANGLES[[0, -1]] if opened.profile["plane"] else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
-    highest = float(criterion_at(opened, _cartesian(own[None]), SEARCH)[0][0])
-    swt = criterion_at(opened, _cartesian(grid), LOOK, PROMISING * highest, MANY)[0]
+    highest = float(field.criterion_at(opened, _cartesian(own[None]), SEARCH)[0][0])
+    swt = field.criterion_at(opened, _cartesian(grid), LOOK, PROMISING * highest, field.MANY)[0]
     chosen = [own]
     for place in grid[np.argsort(-swt)][: np.count_nonzero(swt >= PROMISING * swt.max())]:
         apart = np.abs(place - np.array(chosen)) > [0.1 * largest, 0.5, 0.1 * largest]
@@ -166,7 +158,7 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
         trial = _off_ring(search, _folded(place + width * steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
-        swt = criterion_at(opened, _cartesian(trial), SEARCH, LEFT_OUT * height, MANY)[0]
+        swt = field.criterion_at(opened, _cartesian(trial), SEARCH, LEFT_OUT * height, field.MANY)[0]
         here, best = int(np.abs(trial - place).max(axis=1).argmin()), int(swt.argmax())
         if swt[best] > (1.0 + GAIN) * max(swt[here], height):
             place, width = trial[best], WALKING * width

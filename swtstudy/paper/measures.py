@@ -100,18 +100,6 @@ def largest_change(dataset: xr.Dataset, dim: str, sense: int) -> float:
     return max(float(change.max()), 0.0)
 
 
-def coupling(values: xr.DataArray, dim: str) -> float:
-    """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
-
-    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
-    """
-    logarithm = np.log(values)
-    centred = logarithm - logarithm.mean()
-    others = [other for other in values.dims if other != dim]
-    interaction = centred - centred.mean(dim) - centred.mean(others)
-    return float((interaction**2).sum() / (centred**2).sum())
-
-
 def period(values: FloatArray) -> float:
     """Smallest period of a 2π-periodic curve, from equally spaced samples; the last repeats the first.
 
@@ -125,33 +113,3 @@ def period(values: FloatArray) -> float:
         return math.inf
     orders = 1 + np.flatnonzero(harmonics > _SMALLEST_HARMONIC * harmonics.max())
     return 2 * math.pi / math.gcd(*orders.tolist())
-
-
-def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
-    """Indices where a curve turns by at least a given swing: alternately maxima and minima, without its ends.
-
-    Parameters
-    ----------
-    values
-        Shape (n,).
-    smallest_swing
-        Smaller ripples do not count.
-
-    Examples
-    --------
-    >>> turning_points(np.array([0.0, 3.0, 2.9, 3.1, 1.0, 4.0]), 0.5)
-    [3, 4]
-    """
-    found: list[int] = []
-    low = high = 0
-    sense = 0
-    for index, value in enumerate(values):
-        high = index if value > values[high] else high
-        low = index if value < values[low] else low
-        if sense >= 0 and values[high] - value >= smallest_swing:
-            found.append(high)
-            sense, low = -1, index
-        elif sense <= 0 and value - values[low] >= smallest_swing:
-            found.append(low)
-            sense, high = 1, index
-    return [index for index in found if index > 0]

@@ -9,16 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
-from swtstudy.paper.measures import (
-    at,
-    coupling,
-    even,
-    largest_change,
-    listed,
-    spread,
-    turning_points,
-    with_dims,
-)
+from swtstudy.paper.measures import at, even, largest_change, listed, spread, with_dims
 from swtstudy.paper.statements import Measured
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.wording import value_words
@@ -51,6 +42,18 @@ def weakly_coupled(
     chosen = even(chosen, regular) if regular else chosen
     share = coupling(with_dims(chosen, dim).s, dim)
     return share <= at_most, {"share": share}
+
+
+def coupling(values: xr.DataArray, dim: str) -> float:
+    """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
+
+    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
+    """
+    logarithm = np.log(values)
+    centred = logarithm - logarithm.mean()
+    others = [other for other in values.dims if other != dim]
+    interaction = centred - centred.mean(dim) - centred.mean(others)
+    return float((interaction**2).sum() / (centred**2).sum())
 
 
 def all_curves_fall(figure6: xr.Dataset) -> Measured:
@@ -137,6 +140,36 @@ def oscillations(dataset: xr.Dataset, *others: str) -> list[Oscillation]:
         turns = turning_points(s, _RIPPLE * float(np.ptp(s)))
         found.append(Oscillation(h[turns][2:] - h[turns][:-2], np.abs(np.diff(s[turns]))))
     return found
+
+
+def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
+    """Indices where a curve turns by at least a given swing: alternately maxima and minima, without its ends.
+
+    Parameters
+    ----------
+    values
+        Shape (n,).
+    smallest_swing
+        Smaller ripples do not count.
+
+    Examples
+    --------
+    >>> turning_points(np.array([0.0, 3.0, 2.9, 3.1, 1.0, 4.0]), 0.5)
+    [3, 4]
+    """
+    found: list[int] = []
+    low = high = 0
+    sense = 0
+    for index, value in enumerate(values):
+        high = index if value > values[high] else high
+        low = index if value < values[low] else low
+        if sense >= 0 and values[high] - value >= smallest_swing:
+            found.append(high)
+            sense, low = -1, index
+        elif sense <= 0 and value - values[low] >= smallest_swing:
+            found.append(low)
+            sense, high = 1, index
+    return [index for index in found if index > 0]
 
 
 def growing(found: Sequence[Oscillation]) -> tuple[BoolArray, BoolArray]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from swtstudy.points.canonical import Distinct
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
-from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL, Report, StudyError, is_rtol, literal
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
@@ -88,8 +88,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     report = Report()
     lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]
     fixed, axes = spanned(parameters, report)
-    if not is_rtol(rtol):
-        report("rtol", literal(rtol), ALLOWED_RTOL)
+    report.rtol(rtol)
     names = read_quantities(quantities, "quantities", report)
     asked = Request(names, *read_distances(fixed, axes, report))
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))

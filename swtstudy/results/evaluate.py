@@ -186,19 +186,18 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     # Parameters of a sample are along its dimension, single values along none.
     others = [str(name) for name in dataset.coords if name not in (*dims, *beside)]
     rows = dataset.drop_dims(beside)
-    shape = tuple(rows.sizes[name] for name in dims)
     columns = {}
     for name in [*dims, *others, *map(str, dataset.data_vars)]:
-        own = next((dim for dim in beside if dim in dataset[name].dims), None)
-        places = dataset[own].values.tolist() if own else [""]
-        for index, place in enumerate(places):
-            values = dataset[name].isel({own: index}, drop=True) if own else dataset[name]
-            whole = values.broadcast_like(rows) if dims else values
-            flat: Any = np.broadcast_to(whole.transpose(*dims).values, shape).ravel()
-            if "flag_meanings" in values.attrs:
-                meanings = values.attrs["flag_meanings"].split()
-                flat = pd.Categorical.from_codes(_flags(flat, values.attrs), meanings)
-            columns[f"{name}[{place}]" if own else name] = flat
+        values = dataset[name]
+        parts = {name: values}
+        for own in {*beside} & {*values.dims}:
+            parts = {f"{name}[{place.item()}]": values.sel({own: place}, drop=True) for place in values[own]}
+        for label, part in parts.items():
+            flat = part.broadcast_like(rows).transpose(*dims).values.ravel()
+            if "flag_meanings" in part.attrs:
+                meanings = part.attrs["flag_meanings"].split()
+                flat = pd.Categorical.from_codes(_flags(flat, part.attrs), meanings)
+            columns[label] = flat
     return pd.DataFrame(columns).rename_axis("point")
 
 

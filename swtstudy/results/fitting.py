@@ -301,7 +301,7 @@ def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
     residuals, runout, grid = tests.residuals(best[:-1]), tests.runout, tests.grid
     cracked = int((~runout).sum())
     spread = _half_widths(tests, best, confidence, cracked)
-    best = best + np.append(np.zeros(len(best) - 1), 0.5 * math.log(cracked / (cracked - len(best) + 1)))
+    scatter = math.exp(best[-1] + 0.5 * math.log(cracked / (cracked - len(best) + 1)))
     found: dict[str, Any] = {}
     for name, value, half in zip((DISTANCE, "friction"), best, spread, strict=False):
         row = grid.row(name)
@@ -313,7 +313,7 @@ def _labelled(tests: _Tests, best: FloatArray, confidence: float) -> xr.Dataset:
         words = {"long_name": f"{name} load cycles to a crack", "symbol": "N"}
         found[name] = "test", 10.0**lives, words
     found[RUNOUT] = "test", runout.astype("i1"), {"long_name": "1 for tests without a crack"}
-    found["scatter"] = (), math.exp(best[-1]), {"long_name": "standard deviation of log10 N"}
+    found["scatter"] = (), scatter, {"long_name": "standard deviation of log10 N"}
     off = np.where(runout, np.maximum(-residuals, 0.0), np.abs(residuals))
     for factor in (2, 5):
         within = int((off <= math.log10(factor)).sum())
@@ -332,8 +332,8 @@ def _read(
     if not isinstance(study, str | PathLike):
         raise refused("study", literal(study), "the path of a study file")
     raw, (columns, lines) = tables_of(study), _columns(tests)
-    report, place = Report(), str(tests) if lines else ""
-    lives, runout = _observed(columns, parameters, report, place, lines)
+    place = str(tests) if lines else ""
+    lives, runout, report = _observed(columns, lines, place, parameters)
     own = {name: values for name, values in columns.items() if name not in (LIFE, RUNOUT)}
     # Misspelt names of parameters stay, and are reported as such.
     others = [name for name in own if name not in AXES and not get_close_matches(name, AXES, 1, MISSPELT)]
@@ -343,7 +343,7 @@ def _read(
         )
     columns = {name: values for name, values in own.items() if name not in others}
     if not columns and not report:
-        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
+        report.append(Mistake("tests", f"the column {LIFE} alone", "parameters that vary, besides"))
     grid = None
     if columns:
         with report:
@@ -358,19 +358,14 @@ def _read(
 
 
 def _observed(
-    columns: Mapping[str, Sequence[object]],
-    parameters: int,
-    report: Report,
-    source: str,
-    lines: Sequence[int],
-) -> tuple[list[float], list[bool]]:
-    """The lives, and whether each is a run-out; mistakes in both columns are reported, by their lines."""
+    columns: Mapping[str, Sequence[object]], lines: Sequence[int], source: str, parameters: int
+) -> tuple[list[float], list[bool], Report]:
+    """The lives, whether each is a run-out, and mistakes in both columns, by the lines of a file."""
+    report = Report(source)
 
     def told(test: int, found: str, more: str, allowed: str) -> None:
-        if lines:
-            report.append(Mistake(f"line {lines[test]}", f"{found}{more}", allowed, source))
-        else:
-            report("tests", f"{found} of test {test + 1}{more}", allowed)
+        place, of = (f"line {lines[test]}", "") if lines else ("tests", f" of test {test + 1}")
+        report(place, f"{found}{of}{more}", allowed)
 
     given = list(columns.get(LIFE, []))
     if not given:
@@ -393,8 +388,8 @@ def _observed(
     cracked = len(given) - sum(runout)
     if given and cracked <= parameters:
         found = number_of(cracked, "test") + " with a crack" * any(runout)
-        report.append(Mistake("" if source else "tests", found, f"{parameters + 1} at least", source))
-    return numbers, runout
+        report("" if source else "tests", found, f"{parameters + 1} at least")
+    return numbers, runout, report
 
 
 def _with_tests(raw: dict[str, Any], path: Path, columns: dict[str, list[Any]], place: str) -> Study:

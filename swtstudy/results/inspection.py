@@ -129,7 +129,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
 
     pressure, traction = tractions(radius)
     # Both are even in x if nothing moves the stick zone.
-    left_traction = tractions(-radius)[1] if cycle.moved else traction
+    both_tractions = _both_sides(tractions(-radius)[1] if cycle.moved else traction, traction)
+    at_instants = "instant", "x"
     position = named("position in the direction of sliding", "x/a_H")
     variables: Variables = {
         "stick_left": ((), left, named("left end of what always sticks", "x/a_H")),
@@ -140,12 +141,8 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
         "s_local": ("x", _both_sides(values[:, 1], values[:, 0]), named(criterion.words, criterion.symbol)),
-        "pressure": (("instant", "x"), _both_sides(pressure, pressure), named("pressure", "p")),
-        "traction": (
-            ("instant", "x"),
-            _both_sides(left_traction, traction),
-            named("tangential traction in +x", "q"),
-        ),
+        "pressure": (at_instants, _both_sides(pressure, pressure), named("pressure", "p")),
+        "traction": (at_instants, both_tractions, named("tangential traction in +x", "q")),
     }
     states_of_edge = "state of the contact next to its edge, until the next instant"
     course.edge_state.attrs.update(slip.state.attrs, long_name=states_of_edge)
@@ -242,7 +239,7 @@ def _load_and_springs(
     curves["force"] = ("instant", "r"), force, of_force
     curves["edge_state"] = "time", edge.astype(np.int8), {}
     coordinates = {
-        "time": labelled_time(cycle.points.path is None, time, ("time",)),
+        "time": labelled_time(cycle.points, time, ("time",)),
         "r": ("r", radius, named("distance from the axis", "r/a_H")),
         "instant": np.arange(1, len(marked) + 1),
         "instant_time": ("instant", time[marked]),
@@ -265,22 +262,21 @@ def marked_instants(share: FloatArray, curves: dict[str, FloatArray]) -> tuple[I
     normal, tangential, *_ = (name for name in _LETTERS if name in curves)
     of_plane = [name for name in _OF_PLANE if name in curves]
     touching = curves[normal] > 0.0
-    distance = np.full(share.size, 1.0)  # to the nearest instant that is marked already
     marked: dict[int, str] = {}
 
-    def mark(index: int, reason: str) -> None:
-        nonlocal distance
-        marked[index] = reason
-        distance = np.minimum(distance, np.abs((share - share[index] + 0.5) % 1.0 - 0.5))
+    def distance() -> FloatArray:
+        """Distance in cycles to the nearest instant that is marked already."""
+        away = (np.abs((share - share[index] + 0.5) % 1.0 - 0.5) for index in marked)
+        return np.min([np.ones(share.size), *away], axis=0)
 
     for name, end in itertools.product((*of_plane, normal, tangential), ("largest", "smallest")):
         index = int(curves[name].argmax() if end == "largest" else curves[name].argmin())
-        free = len(marked) < _MARKED and distance[index] >= _APART
+        free = len(marked) < _MARKED and distance()[index] >= _APART
         # The largest normal stress, and the swing of the strain up to it, make s.
         if free and (name in of_plane or touching[index]) and (name, end) not in _OF_NO_MATTER:
-            mark(index, f"{_LETTERS[name]} {end}")
+            marked[index] = f"{_LETTERS[name]} {end}"
     moving = curves[of_plane[-1] if of_plane else tangential]
     while len(marked) < _MARKED and np.ptp(moving) > 0.0:
-        mark(int(np.where(touching, distance, -1.0).argmax()), "in between")
+        marked[int(np.where(touching, distance(), -1.0).argmax())] = "in between"
     order = sorted(marked)
     return np.array(order), [marked[index] for index in order]

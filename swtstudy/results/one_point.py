@@ -15,7 +15,7 @@ from swtstudy.solver.margins import margins_of
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, refused
+from swtstudy.vocabulary.mistakes import Report, StudyError, literal, refused
 from swtstudy.vocabulary.parameters import PAIRS
 
 
@@ -48,7 +48,7 @@ def read_cycle(parameters: Mapping[str, object]) -> LoadCycle:
     """
     cycle = LoadCycle(read_point(parameters))
     if not cycle.equilibrium:
-        raise StudyError([_no_equilibrium(cycle.points, parameters)])
+        raise _no_equilibrium(cycle.points, parameters)
     return cycle
 
 
@@ -63,22 +63,22 @@ def open_point(parameters: Mapping[str, object]) -> tuple[Points, Opened]:
     points = read_point(parameters)
     opened = open_cycle(**arguments_of(points))
     if opened is None:
-        raise StudyError([_no_equilibrium(points, parameters)])
+        raise _no_equilibrium(points, parameters)
     return points, opened
 
 
-def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> Mistake:
+def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> StudyError:
     """The force that friction does not carry, the normal force that pulls, or bodies that never touch."""
     control, ratio = points.control, float(margins_of(points)["force_ratio"][0])
     if not (control.tangential_force or control.normal_force):
         found = f"{literal(parameters['normal_amplitude'])}, at which the bodies never touch"
-        return Mistake("normal_amplitude", found, "an indentation depth above 0 at some instant")
+        return refused("normal_amplitude", found, "an indentation depth above 0 at some instant")
     pairs = (control.given_for("tangential_amplitude"), control.given_for("normal_amplitude"))
     name = next(name for name in pairs if name in PAIRS)
     found = f"{literal(parameters[name])}, at which the body slides away or is lifted off (no equilibrium)"
     if ratio > 1.0:
         found += f": |F_x| is up to {ratio:.3g} μ F_N"
-    return Mistake(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
+    return refused(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 
 _NAMES = {
@@ -164,9 +164,10 @@ def named(meaning: str, symbol: str) -> dict[str, str]:
     return {"long_name": meaning, "units": "1", "symbol": symbol}
 
 
-def read_instants(time: object) -> FloatArray:
-    """ω1 t in rad, a number or a one-dimensional sequence."""
-    return read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
+def read_instants(points: Points, time: object) -> xr.DataArray:
+    """ω1 t in rad, a number or a one-dimensional sequence, as `labelled_time` of the points."""
+    given = read_finite("time", time, "a finite number or a sequence of them, ω1 t in rad")
+    return labelled_time(points, given, ("time",) * given.ndim)
 
 
 def turns_of(points: Points) -> int:
@@ -174,8 +175,9 @@ def turns_of(points: Points) -> int:
     return 1 if points.path is not None else int(points.q[0])
 
 
-def labelled_time(harmonic: bool, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
+def labelled_time(points: Points, time: FloatArray, dims: tuple[Hashable, ...]) -> xr.DataArray:
     """Instants as a labelled array: ω1 t of harmonic loads, else angles of the period of a loop."""
-    words, symbol = ("omega1 t", r"\omega_1 t") if harmonic else ("angle of the period", r"\varphi")
+    loop = points.path is not None
+    words, symbol = ("angle of the period", r"\varphi") if loop else ("omega1 t", r"\omega_1 t")
     attributes = {"long_name": f"{words}, in the stationary cycle", "units": "rad", "symbol": symbol}
     return xr.DataArray(time, dims=dims, attrs=attributes)

@@ -26,19 +26,7 @@ from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import NUMERIC
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.derived import LIVES
-from swtstudy.vocabulary.mistakes import (
-    ALLOWED_RTOL,
-    ALLOWED_SEED,
-    DEFAULT_RTOL,
-    Mistake,
-    Report,
-    StudyError,
-    is_rtol,
-    is_seed,
-    literal,
-    nearest,
-    refused,
-)
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Mistake, Report, StudyError, literal, nearest, refused
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.progress import Progress
@@ -94,15 +82,13 @@ def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[ob
     report = Report()
     axes: dict[str, list[object] | None] = {}
     for name, ends in over.items():
-        key = f"over.{name}"
         if name not in names:
-            report(key, "not a parameter that is a number", nearest(str(name), names))
-            continue
-        axes[name] = None
-        if not isinstance(ends, list | tuple | np.ndarray) or np.shape(ends) != (2,):
-            report(key, literal(ends), "both ends of a range, (low, high)")
-        else:
+            report(f"over.{name}", "not a parameter that is a number", nearest(str(name), names))
+        elif isinstance(ends, list | tuple | np.ndarray) and np.shape(ends) == (2,):
             axes[name] = list(ends)
+        else:
+            axes[name] = None
+            report(f"over.{name}", literal(ends), "both ends of a range, (low, high)")
     return axes, report
 
 
@@ -168,35 +154,26 @@ class Planes(NamedTuple):
     gradients: FloatArray
 
 
-def probes(points: FloatArray, distance: float) -> FloatArray:
-    """Where a function has to be known for its tangent planes at m points, shape (m (d + 2), d)."""
-    inward, directions = _neighbours(points, distance)
-    beside = points[:, None, :] + inward[:, None, :] * directions
-    return np.concatenate([points, beside.reshape(-1, points.shape[1])])
-
-
-def planes_from(points: FloatArray, distance: float, found: FloatArray) -> Planes:
-    """The tangent planes at points, by the differences of the values ``found`` at their `probes`.
+def tangent_planes(points: FloatArray, distance: float) -> Generator[FloatArray, FloatArray, Planes]:
+    """The tangent planes at m points, by differences: yields the places, shape (m (d + 2), d), of the values.
 
     Left out are points where the function has no value, and points with a kink between them and their
     neighbours: differences on either side of it make a plane that touches neither.
     """
-    inward, directions = _neighbours(points, distance)
-    values, shifted = found[: len(points)], found[len(points) :].reshape(len(points), len(directions))
+    m, d = points.shape
+    step = max(_DIFFERENCE * distance, _SMALLEST_DIFFERENCE)
+    # Neighbours along each axis, inwards; the last neighbour checks the plane through the others.
+    inward = np.where(points > 0.5, -step, step)
+    directions = np.concatenate([np.eye(d), np.full((1, d), 0.5)])
+    beside = points[:, None, :] + inward[:, None, :] * directions
+    found = yield np.concatenate([points, beside.reshape(-1, d)])
+    values, shifted = found[:m], found[m:].reshape(m, d + 1)
     with np.errstate(invalid="ignore"):  # infinite where there is no value
         rises = shifted - values[:, None]
         strayed = np.abs(rises[:, -1] - 0.5 * rises[:, :-1].sum(axis=1))
         bent = strayed > _BENT * np.abs(rises).max(axis=1)
     good = np.isfinite(values) & np.isfinite(shifted).all(axis=1) & ~bent
     return Planes(points[good], values[good], (rises[:, :-1] / inward)[good])
-
-
-def _neighbours(points: FloatArray, distance: float) -> tuple[FloatArray, FloatArray]:
-    """Steps to the neighbours of points along each axis, and the neighbours in these steps, (d + 1, d)."""
-    step = max(_DIFFERENCE * distance, _SMALLEST_DIFFERENCE)
-    d = points.shape[1]
-    # The last neighbour checks the plane through the others.
-    return np.where(points > 0.5, -step, step), np.concatenate([np.eye(d), np.full((1, d), 0.5)])
 
 
 def lowest_of(planes: Planes, centre: FloatArray, value: float, distance: float) -> Iterator[FloatArray]:
@@ -270,7 +247,7 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
     for _ in range(_ROUNDS):
         around = best + distance * rng.uniform(-1.0, 1.0, (_PLANES_EACH * dimensions, dimensions))
         around = np.clip(around, 0.0, 1.0)
-        found = planes_from(around, distance, (yield probes(around, distance)))
+        found = yield from tangent_planes(around, distance)
         known = Planes(*map(np.concatenate, zip(known, found, strict=True)))
         near = (np.abs(known.points - best) <= _NEAR * distance).all(axis=1)
         known = Planes(*(column[near] for column in known))
@@ -507,22 +484,19 @@ def optimise(
         known += box.corners.margins
     check_asked(report, minimise, rtol, seed, known)
     report.refuse()
-    return optimum_in(
-        box, minimise, float(rtol), int(seed), Request((minimise,) if minimise in NAMED else ())
-    )
+    asked = Request((minimise,) if minimise in NAMED else ())
+    return optimum_in(box, minimise, float(rtol), int(seed), asked)
 
 
 def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
     """The best and the worst points of a box; see `optimise`. The best life is the longest."""
     turn = -1 if minimise in LIVES else 1
     solve = partial(solve_grid, rtol=rtol, asked=asked)
-    objectives = [Objective(box, solve, minimise, turn * sign) for sign in CASES.values()]
+    objectives = {case: Objective(box, solve, minimise, turn * sign) for case, sign in CASES.items()}
     with Progress(None, "optimise"):
-        found = {
-            case: least(each, len(box.names), seed) for case, each in zip(CASES, objectives, strict=True)
-        }
+        found = {case: least(each, len(box.names), seed) for case, each in objectives.items()}
         dataset = dataset_of(box, found, minimise, solve)
-    without = sum(int(np.isinf(objective.values).sum()) for objective in objectives)
+    without = sum(int(np.isinf(objective.values).sum()) for objective in objectives.values())
     return dataset.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 
 
@@ -530,7 +504,5 @@ def check_asked(report: Report, minimise: object, rtol: object, seed: object, kn
     """Report mistakes in how an optimum is asked for; ``known`` may be minimised."""
     if minimise not in known:
         report("minimise", literal(minimise), nearest(str(minimise), known))
-    if not is_rtol(rtol):
-        report("rtol", literal(rtol), ALLOWED_RTOL)
-    if not is_seed(seed):
-        report("seed", literal(seed), ALLOWED_SEED)
+    report.rtol(rtol)
+    report.seed(seed)

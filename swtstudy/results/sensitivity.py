@@ -14,7 +14,7 @@ from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.sample import saltelli
 from swtstudy.study.units.results import measures
-from swtstudy.vocabulary.mistakes import ALLOWED_SEED, Report, is_seed, literal, plain_number, refused
+from swtstudy.vocabulary.mistakes import Report, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.wording import value_words
@@ -67,12 +67,12 @@ def sensitivity(
     if not isinstance(dataset, xr.Dataset):
         raise refused("dataset", literal(dataset), "results, as of swtstudy.run or swtstudy.open_results")
     check_confidence(confidence)
-    if not is_seed(seed):
-        raise refused("seed", literal(seed), ALLOWED_SEED)
+    report = Report()
+    report.seed(seed)
+    report.refuse()
     names, size = _design(dataset)
     own = measures(dataset)
     quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])
-    report = Report()
     values = {name: quantity(dataset, name) for name in quantities}
     for name, each in values.items():
         _check(name, each, dataset, report)

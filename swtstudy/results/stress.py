@@ -28,6 +28,7 @@ from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.mistakes import refused
+from swtstudy.vocabulary.variables import flag_attributes
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt.
 _OF_INSTANTS, _OF_FIELD = 1e-5, 1e-3
@@ -88,9 +89,8 @@ def stress_field(
     if time is None:
         instants, history = _at_own_instants(points, opened, own, places)
     else:
-        given = read_instants(time)
-        instants = labelled_time(points.path is None, given, ("time",) * given.ndim)
-        history = stress_at(opened, places.reshape(-1, 3), given.ravel() / rounds)
+        instants = read_instants(points, time)
+        history = stress_at(opened, places.reshape(-1, 3), instants.values.ravel() / rounds)
     over = tuple(dim for dim in instants.dims if dim not in own)
     dims = (*over, *own)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places.shape[:-1], 6)
@@ -116,7 +116,7 @@ def _at_own_instants(
         every = np.minimum(np.arange(count), angle.size - 1)
         instant[k], stress[k] = angle[every], stress_at(opened, flat[k : k + 1], angle)[0, every]
     time = np.moveaxis(turns_of(points) * instant, -1, 0).reshape(count, *places.shape[:-1])
-    return labelled_time(points.path is None, time, ("instant", *dims)), stress
+    return labelled_time(points, time, ("instant", *dims)), stress
 
 
 def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:
@@ -189,12 +189,11 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     rounds = turns_of(cycle.points)
     if time is None:
         time = 2.0 * np.pi * rounds * np.arange(_INSTANTS_OF_SLIP) / _INSTANTS_OF_SLIP
-    given = read_instants(time)
-    instants = labelled_time(cycle.points.path is None, given, ("time",) * given.ndim)
+    instants = read_instants(cycle.points, time)
     allowed = "a finite distance in a_H, negative at x < 0, or a sequence of them"
     radius = xr.DataArray(np.atleast_1d(read_finite("r", r, allowed)), dims="r")
     radius.attrs.update(long_name="distance from the axis, in units of a_H", units="1", symbol="r/a_H")
-    states = cycle.states(given.ravel() / rounds)
+    states = cycle.states(instants.values.ravel() / rounds)
     # A ring under a flat face is the whole face.
     place = np.maximum(cycle.place(np.abs(radius.values)), 0.0)
     slips = np.where(states.push > 0, 2, 3)[:, None]
@@ -202,11 +201,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     off = np.abs(radius.values - centre[:, None]) if cycle.moved else place
     inside = off < states.front_s[:, None]
     state = np.where(inside, 1, np.where(touching, slips, 0)).astype(np.int8)
-    flags = {
-        "long_name": "state of the contact",
-        "flag_values": np.arange(len(_STATES), dtype=np.int8),
-        "flag_meanings": " ".join(_STATES),
-    }
+    flags = {"long_name": "state of the contact", **flag_attributes(_STATES)}
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
     }

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from swtstudy.vocabulary.mistakes import (
     STORABLE,
     Mistake,
-    StudyError,
     is_number,
     literal,
     plain_number,
+    refused,
     storable,
 )
 from swtstudy.vocabulary.parameters import PARAMETERS
@@ -49,21 +49,17 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
         If there is anything but real numbers, such as text, truth values, complex numbers, times or ragged
         sequences.
     """
-
-    def mistake() -> StudyError:
-        return StudyError([Mistake(key, literal(values), allowed)])
-
     try:
         array: np.ma.MaskedArray = np.ma.asarray(values)
     except (TypeError, ValueError):
-        raise mistake() from None
+        raise refused(key, literal(values), allowed) from None
     if array.dtype.kind == "O":
         known = np.ma.filled(array, np.nan)
         if not all(map(is_number, known.flat)):
-            raise mistake()
+            raise refused(key, literal(values), allowed)
         return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
     if array.dtype.kind not in "iuf":
-        raise mistake()
+        raise refused(key, literal(values), allowed)
     return np.asarray(np.ma.filled(array.astype(float), np.nan))
 
 

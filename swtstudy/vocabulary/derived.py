@@ -107,13 +107,11 @@ def _rows() -> Iterator[Derived]:
         yield from _of_criterion(criterion, row)
     for name, alike in read_table(__file__, "derived").items():
         yield Derived(name, **alike)
-    with_life = {name: row for name, row in CRITERIA.items() if row.life}
-    for row in with_life.values():
-        for end in _ENDS.values():
-            yield from _of_life(row, end)
-    for name, row in with_life.items():
-        for end in _ENDS.values():
-            yield from _of_scatter(name, row, end)
+    with_life = [(name, row, end) for name, row in CRITERIA.items() if row.life for end in _ENDS.values()]
+    for _, row, end in with_life:
+        yield from _of_life(row, end)
+    for each in with_life:
+        yield from _of_scatter(*each)
 
 
 #: Ends of names by what they are made of: s, and its means over a critical distance.

@@ -34,13 +34,10 @@ def read_file(path: str | PathLike[str], largest: int) -> bytes:
     with open(path, "rb", opener=at_once) as file:
         if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
             raise OSError(None, "not a regular file", str(path))
-        pieces, size = [], 0
-        while piece := file.read(2**20):
-            pieces.append(piece)
-            size += len(piece)
-            if size > largest:
-                raise OSError(None, f"more than {largest} bytes", str(path))
-    return b"".join(pieces)
+        content = file.read(largest + 1)
+    if len(content) > largest:
+        raise OSError(None, f"more than {largest} bytes", str(path))
+    return content
 
 
 def read_text(path: str | PathLike[str], largest: int = LARGEST_TEXT) -> str:
@@ -126,20 +123,20 @@ def plain_float(cell: str) -> float:
     return float(cell)
 
 
-def check_writable(path: str | PathLike[str]) -> None:
-    """Make sure that a file can be written to `path`; its folder is created if needed.
+def check_writable(*paths: str | PathLike[str]) -> None:
+    """Make sure that files can be written to some paths; their folders are created if needed.
 
     Raises
     ------
     OSError
         If it cannot be written; the message names the folder.
     """
-    path = _target(path)
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=path.parent).close()
-    except OSError as error:
-        raise type(error)(f"cannot write into the folder {path.parent}: {error.strerror}") from error
+    for folder in dict.fromkeys(_target(path).parent for path in paths):
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            tempfile.TemporaryFile(dir=folder).close()
+        except OSError as error:
+            raise type(error)(f"cannot write into the folder {folder}: {error.strerror}") from error
 
 
 @contextmanager

@@ -99,6 +99,16 @@ class Report(list[Mistake]):
         """Add a mistake in one parameter, or in several."""
         self(self.key(names), found, allowed)
 
+    def rtol(self, value: object) -> None:
+        """Add a mistake unless a value is allowed as relative accuracy."""
+        if not is_rtol(value):
+            self("rtol", literal(value), ALLOWED_RTOL)
+
+    def seed(self, value: object) -> None:
+        """Add a mistake unless a value is allowed as seed of random numbers."""
+        if not is_whole(value, 0, LARGEST_SEED):
+            self("seed", literal(value), ALLOWED_SEED)
+
     def __enter__(self) -> Report:
         """Within a with block, the mistakes of a StudyError are added, and what is left of it is not done."""
         return self
@@ -231,11 +241,6 @@ ALLOWED_RTOL = f"a number in [{SMALLEST_RTOL:g}, {LARGEST_RTOL:g}]"
 #: Largest seed: NumPy's and scipy's generators take it.
 LARGEST_SEED = 2**32 - 1
 ALLOWED_SEED = f"a whole number from 0 to {LARGEST_SEED}"
-
-
-def is_seed(value: object) -> TypeGuard[int]:
-    """Return whether a value is allowed as seed of random numbers."""
-    return is_whole(value, 0, LARGEST_SEED)
 
 
 def is_rtol(raw: object) -> bool:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import sys
 import time
-from contextvars import ContextVar, Token
+from contextvars import ContextVar
 from typing import Any, Self, TextIO
 
 _log = logging.getLogger(__name__)
@@ -38,25 +38,25 @@ class Progress:
     def __init__(
         self, total: int | None, name: str = "", unit: str = "points", delay: float = PATIENCE
     ) -> None:
-        self._total, self._name, self._unit = total, name, unit
-        self._delay, self._done = delay, 0
+        self._total, self._name, self._unit, self._delay = total, name, unit, delay
+        self._done = 0
         self._bar: Any = None
         self._outer = _OUTER.get()
-        self._token: Token[Progress | None] | None = None
         self._begin = self._told = time.monotonic()
-        self._hidden = total == 0
-        if not delay and self._outer is None:
-            self._show()
 
     def __enter__(self) -> Self:
-        if self._outer is None:
-            self._token = _OUTER.set(self)
+        self._token = _OUTER.set(self._outer or self)
+        if self._total and not self._delay and self._outer is None:
+            self._show()
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._token is not None:
-            _OUTER.reset(self._token)
-        self.close()
+        """End the line of the bar, or tell the end of what was told in lines."""
+        _OUTER.reset(self._token)
+        if self._bar is not None:
+            self._bar.close()
+        if self._told > self._begin:
+            self._tell()
 
     def add(self, finished: int = 1) -> None:
         """Count more as done."""
@@ -67,29 +67,17 @@ class Progress:
         now = time.monotonic()
         if self._bar is not None:
             self._bar.update(finished)
-        elif not self._hidden and now - self._begin >= self._delay:
+        elif now - self._begin >= self._delay:
             self._show()
-        if self._hidden and self._total != 0 and now - self._told >= LINE_SECONDS:
+        if self._bar is not None and self._bar.disable and now - self._told >= LINE_SECONDS:
             self._told = now
-            _log.info(self._words(now - self._begin))
-
-    def close(self) -> None:
-        """End the line of the bar, or tell the end of what was told in lines."""
-        if self._bar is not None:
-            self._bar.close()
-        elif self._told > self._begin:
-            _log.info(self._words(time.monotonic() - self._begin))
+            self._tell()
 
     def _show(self) -> None:
         """Show the bar where there is somebody to see it; importing tqdm takes a while."""
+        from tqdm.auto import tqdm
+
         notebook = _in_notebook()
-        self._hidden = self._total == 0 or not (notebook or _is_terminal(sys.stderr))
-        if self._hidden:
-            return
-        if notebook:
-            from tqdm.auto import tqdm
-        else:
-            from tqdm import tqdm
         self._bar = tqdm(
             total=self._total,
             initial=self._done,
@@ -97,16 +85,18 @@ class Progress:
             unit=f" {self._unit}",
             leave=not notebook,
             dynamic_ncols=True,
-            mininterval=0.1,
-            **({} if notebook else {"file": sys.stderr}),
+            disable=not (notebook or _is_terminal(sys.stderr)),
         )
-        # The rate counts from the beginning, not from when the bar appeared.
-        self._bar.start_t -= time.monotonic() - self._begin
+        if not self._bar.disable:
+            # The rate counts from the beginning, not from when the bar appeared.
+            self._bar.start_t -= time.monotonic() - self._begin
 
-    def _words(self, seconds: float) -> str:
+    def _tell(self) -> None:
+        """Write a line into the log."""
+        seconds = time.monotonic() - self._begin
         of = f" of {self._total}" if self._total else ""
         rate = f", {self._done / seconds:.3g}/s" if seconds > 0.0 else ""
-        return f"{self._name}: {self._done}{of} {self._unit}{rate}".removeprefix(": ")
+        _log.info(f"{self._name}: {self._done}{of} {self._unit}{rate}".removeprefix(": "))
 
 
 def _in_notebook() -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -34,13 +35,15 @@ MARGINS = (
 )
 
 
-#: Words of the values of variables that are flags, in the order of the values.
-_FLAGS = {"stick_zone": ZONES, "regime": REGIMES, "status": STATES}
+def flag_attributes(words: Sequence[str]) -> dict[str, Any]:
+    """CF attributes of flags, from the words of their values 0, 1, …"""
+    return {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
+
+
 #: Attributes of the data variables, following the CF conventions. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = read_table(__file__, "variables")
-for _name, _words in _FLAGS.items():
-    _values = np.arange(len(_words), dtype=np.int8)
-    ATTRIBUTES[_name] |= {"flag_values": _values, "flag_meanings": " ".join(_words)}
+for _name, _words in {"stick_zone": ZONES, "regime": REGIMES, "status": STATES}.items():
+    ATTRIBUTES[_name] |= flag_attributes(_words)
 
 
 def has_units(dataset: xr.Dataset) -> bool:

@@ -4,7 +4,7 @@ import stand_in
 
 import swtstudy
 from swtstudy import StudyError, optimise
-from swtstudy.results.optimise import Objective, Planes, least, lowest_of, planes_from, probes
+from swtstudy.results.optimise import Objective, Planes, least, lowest_of, tangent_planes
 
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
 
@@ -257,6 +257,10 @@ def test_planes_that_touch_a_linear_function_are_that_function():
     def linear(at):
         return 1.0 + at @ [3.0, -5.0]
 
-    planes = planes_from(points, 0.1, linear(probes(points, 0.1)))
+    search = tangent_planes(points, 0.1)
+    values = linear(next(search))
+    with pytest.raises(StopIteration) as end:
+        search.send(values)
+    planes = end.value.value
     np.testing.assert_allclose(planes.gradients, [[3.0, -5.0]] * 3, rtol=1e-6)
     np.testing.assert_allclose(planes.values, linear(points))
