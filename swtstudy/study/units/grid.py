@@ -21,7 +21,16 @@ from swtstudy.solver.loop import Loop
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.study.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants
-from swtstudy.study.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
+from swtstudy.study.units.rows import (
+    AT_REST_NAMES,
+    MEAN_LOADS,
+    OF_BODIES,
+    SCALES,
+    SIMILAR,
+    LineUnits,
+    Units,
+    rows,
+)
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
@@ -246,18 +255,16 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
         """The contact with values of `AT_REST_NAMES`."""
-        young, poisson = (
-            self.pairs.get(name) or (float(own[name]),) * 2 for name in ("young_modulus", "poisson_ratio")
-        )
-        profile, length, radius = own["profile"], own.get("contact_length"), own.get("radius")
+        young, poisson = (self.pairs.get(name) or (float(own[name]),) * 2 for name in OF_BODIES)
+        profile = own["profile"]
         contact = Contact(
             Moduli(young, poisson),
-            radius=radius,
+            radius=own.get("radius"),
             depth=own.get("depth", 1.0),
             friction=own["friction"],
             profile=profile,
             shape={name: own[name] for name in family_of(profile).shape},
-            contact_length=length,
+            contact_length=own.get("contact_length"),
         )
         if "normal_force" in own:
             contact = replace(contact, depth=depth_at(contact, own["normal_force"]))
@@ -344,12 +351,15 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def _columns(self) -> dict[str, Column]:
         """See `Grid.columns`: in the units of the contacts at rest."""
+        length = self.each(SCALES["a_H"].of)
         made = {
             "profile": self.each(lambda contact: code_of(contact.pure_profile), np.int64),
-            "length_scale": self.each(SCALES["a_H"].of),
-            "curvature": self.each(_curvature),
-            "face": self.each(_rounded_face),
-            "slip_scale": self.each(lambda contact: contact.slip_scale / contact.length_scale),
+            "length_scale": length,
+            # Tables have the R of the paraboloid with their a and δ0.
+            "curvature": length / self.each(lambda own: own.radius or own.contact_radius**2 / own.depth),
+            # With rounded edges: beside the face a/R is the slope.
+            "face": self.each(lambda contact: contact.flat * (contact.profile != SHARP)) / length,
+            "slip_scale": self.each(SCALES["μ E* δ0/G*"].of) / length,
             "body_share": self._strain_share,
         }
         for name, own in self.numbers.items():
@@ -388,16 +398,6 @@ class PhysicalGrid(ContactDetails, Grid):
         from swtstudy.study.units.results import with_units
 
         return with_units(dataset, self, asked)
-
-
-def _curvature(contact: Contact) -> float:
-    """a_H/R; tables have the R of the paraboloid with their a and δ0."""
-    return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
-
-
-def _rounded_face(contact: Contact) -> float:
-    """Radius of a flat face with rounded edges, in a_H: beside it a/R is the slope; 0 without one."""
-    return contact.flat / contact.length_scale * (contact.profile != SHARP)
 
 
 def _scalar(value: float) -> xr.Variable:
