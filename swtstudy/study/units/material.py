@@ -42,12 +42,12 @@ PROPERTIES: dict[str, dict[str, str]] = TABLES["properties"]
 BY_NAME: dict[str, str] = TABLES["by_name"]
 #: Keys that may stand in the table.
 KEYS = (*PROPERTIES, *BY_NAME)
-#: Fields of constants by their keys.
-CONSTANTS = {item.name: item.name for item in fields(FatigueConstants)}
+#: Keys of constants, and fields of shear constants by their keys.
+TENSILE = tuple(item.name for item in fields(FatigueConstants))
 SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
 #: Properties that go together, of which the load ratio alone may be left out.
-_TENSILE, _TORSION = tuple(CONSTANTS), tuple(SHEAR_CONSTANTS)
-_TOGETHER = (_TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
+_TORSION = tuple(SHEAR_CONSTANTS)
+_TOGETHER = (TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
 #: Why a modulus is needed.
 _SINGLE = ", since that of the bodies is no single value"
 _FILE = "a TOML file with a table of constants for each material"
@@ -123,7 +123,7 @@ def _read_material(
     values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
     groups = {group: [key for key in group if key in silent] for group in _TOGETHER}
     if not silent & {*PROPERTIES}:
-        groups[_TENSILE] = [*CONSTANTS]
+        groups[TENSILE] = [*TENSILE]
     for group, there in groups.items():
         for key in group if there else ():
             if key not in silent and key not in moduli and key != LOAD_RATIO:
@@ -135,14 +135,14 @@ def _read_material(
         return ContactDetails(units, yield_strengths=strengths), None
     known = {**moduli, **values}
 
-    def of_both(make: Any, fields_of: Mapping[str, str]) -> tuple[Any, ...]:
-        return tuple(make(**{name: known[key][k] for key, name in fields_of.items()}) for k in range(2))
+    def of_both(make: Any, keys: tuple[str, ...]) -> tuple[Any, ...]:
+        return tuple(make(*(known[key][k] for key in keys)) for k in range(2)) if groups[keys] else ()
 
     details = ContactDetails(
         units,
-        materials=of_both(FatigueConstants, CONSTANTS) if groups[_TENSILE] else (),
+        materials=of_both(FatigueConstants, TENSILE),
         yield_strengths=strengths,
-        shear_materials=of_both(ShearConstants, SHEAR_CONSTANTS) if groups[_TORSION] else (),
+        shear_materials=of_both(ShearConstants, _TORSION),
         findley_limits=tuple(values.get(LIMIT, ())),
     )
     ranges = [values[name][0] for name in (*RANGES, LOAD_RATIO) if name in values]
@@ -233,20 +233,19 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
         STRENGTH: of.yield_strengths,
         LIMIT: of.findley_limits,
     }
+    stress, (weakest, strongest) = of.units.stress or "one unit", USUAL["strain"]
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
-            least, largest = USUAL["strain"]
-            if not least <= value / modulus <= largest:
+            if not weakest <= value / modulus <= strongest:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
-                words += f", of metals {least:g} to {largest:g}"
-                warnings.warn(f"{words}: are both in {of.units.stress or 'one unit'}?", stacklevel=2)
-    (weakest, strongest), (least, largest) = USUAL["strain"], USUAL["modulus_ratio"]
+                words += f", of metals {weakest:g} to {strongest:g}"
+                warnings.warn(f"{words}: are both in {stress}?", stacklevel=2)
+    least, largest = USUAL["modulus_ratio"]
     for each, own in dict.fromkeys(zip(of.materials, young, strict=False)):
         ratio, strain = each.young_modulus / own, each.strength / own
         # With an unusual strength the body's modulus is the odd one, of which a warning has told.
         if weakest <= strain <= strongest and not least <= ratio <= largest:
             words = f"material.young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
-            stress = of.units.stress or "one unit"
             warnings.warn(f"{words}: are both of one material, and in {stress}?", stacklevel=2)
     for name, (least, largest) in USUAL["constants"].items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):

@@ -192,10 +192,8 @@ def _of_constants(
         at = {dim: [k]} if len(both) > 1 else {}
         own = value.isel(at, missing_dims="ignore")
         dims = (*own.dims, *COUNTED_SIZES)
-        counted = [
-            dataset[name].isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
-            for name in names
-        ]
+        shares = (dataset[name].isel(at, missing_dims="ignore") for name in names)
+        counted = [each.broadcast_like(own).transpose(*dims).values for each in shares]
         one, other = grid.curves(criterion, ratios, drawn)
         found = make(one, own.values, counted)
         if not np.array_equal(one, other):
