@@ -39,9 +39,8 @@ def to_toml(
     fixed: dict[str, Any] = dict(grid.fixed)
     axes: dict[str, Any] = dict(grid.axes)
     blocks = getattr(grid, "blocks", ())
-    if blocks:  # which have the loads
-        fixed.pop("load", None)
-        axes.pop("load", None)
+    for table in (fixed, axes) if blocks else ():  # which have the loads
+        table.pop("load", None)
     if asked.distances:
         (axes if asked.is_axis else fixed)[DISTANCE] = (
             asked.distances if asked.is_axis else asked.distances[0]

@@ -81,10 +81,8 @@ class Moduli:
         That within a disc under a traction along x, like √(1 − r²/a²), goes with (4 − 3ν)/G (Mindlin), that
         of a strip with (1 − ν)/G.
         """
-        of_both = [
-            ((1.0 - ν) if plane else (4.0 - 3.0 * ν)) / g
-            for g, ν in zip(self.shear, self.poisson, strict=True)
-        ]
+        numbers = [1.0 - ν if plane else 4.0 - 3.0 * ν for ν in self.poisson]
+        of_both = [number / g for number, g in zip(numbers, self.shear, strict=True)]
         return 2.0 * of_both[body] / sum(of_both)
 
 

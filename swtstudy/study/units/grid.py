@@ -55,9 +55,7 @@ def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
     return "depth" if "normal_amplitude" in given else "normal_force"
 
 
-def implied_amplitudes(
-    given: Collection[str], loads: Sequence[Value], profiles: Iterable[object]
-) -> dict[str, float]:
+def implied_amplitudes(given: set[str], loads: Sequence[Value], profiles: Iterable[Any]) -> dict[str, float]:
     """Amplitudes that contacts have unless they are given.
 
     The columns of measured loads are loads themselves: forces, if not told otherwise; beside a depth also a
@@ -67,10 +65,10 @@ def implied_amplitudes(
     if are_measured(loads):
         if NORMAL_AMPLITUDES.isdisjoint(given):
             found["normal_force_amplitude"] = LOOP_AMPLITUDE
-        if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
+        if not {"tangential_amplitude", "tangential_force_amplitude"} & given:
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
-    elif NORMAL_AMPLITUDES.isdisjoint({*given, *scaling_of(loads)}) and any(map(is_plane, profiles)):
+    elif NORMAL_AMPLITUDES.isdisjoint(given | scaling_of(loads)) and any(map(is_plane, profiles)):
         found["normal_force_amplitude"] = 0.0
     return found
 
@@ -133,8 +131,7 @@ class ContactDetails:
         self, criterion: str, poisson_ratios: Sequence[float]
     ) -> tuple[FatigueConstants | ShearConstants, ...]:
         """Constants of both bodies for lives by a criterion, estimated from the tensile ones unless given."""
-        own: tuple[FatigueConstants | ShearConstants, ...]
-        own = getattr(self, CRITERIA[criterion].constants[-1])
+        own: tuple[FatigueConstants | ShearConstants, ...] = getattr(self, CRITERIA[criterion].constants[-1])
         return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
 
     def scatters(self, criterion: str) -> bool:

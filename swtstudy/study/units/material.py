@@ -56,7 +56,7 @@ USUAL: dict[str, Any] = TABLES["usual"]
 
 _log = logging.getLogger(__name__)
 #: Values of both bodies; none of what is not given, or wrong.
-_Both = Sequence[Any]
+Both = Sequence[Any]
 
 
 def read_given(
@@ -90,7 +90,7 @@ def read_given(
         for name in OF_BODIES
         if name in fixed
     }
-    moduli: dict[str, _Both] = {}
+    moduli: dict[str, Both] = {}
     if _YOUNG in sound:
         # A wrong one is reported elsewhere: meanwhile any stands for it.
         one, two = moduli[_YOUNG] = [each or 1.0 for each in sound[_YOUNG]]
@@ -108,7 +108,7 @@ def two_of(value: object) -> list[Any]:
 
 
 def _read_material(
-    raw: Mapping[str, Any], moduli: Mapping[str, _Both], units: Units, folder: Path, report: Report
+    raw: Mapping[str, Any], moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
@@ -149,9 +149,7 @@ def _read_material(
     return details, critical_distance(units, *ranges) if ranges else None
 
 
-def _both(
-    key: str, tables: Sequence[Mapping[str, Any]], others: _Both | None, units: Units, report: Report
-) -> _Both:
+def _both(key: str, tables: list[dict[str, Any]], others: Both | None, units: Units, report: Report) -> Both:
     """A property of both bodies; none if there are mistakes, which are reported."""
     both = [_number(table.get(key, others and others[body])) for body, table in enumerate(tables)]
     allowed = _allowed(key, units)

@@ -78,7 +78,7 @@ def read_contacts(
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     _check_lengths(profiles, everything, report)
-    _check_given(everything, good, own, report)
+    _check_given({*everything}, good, own, report)
     rules.check_amplitudes(everything, good, report)
     rules.check_criteria(everything, good, report)
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
@@ -191,14 +191,12 @@ def _pairs(
     return pairs, single
 
 
-def _check_given(
-    everything: Collection[str], good: NamedValues, own: Mapping[str, Parameter], report: Report
-) -> None:
+def _check_given(everything: set[str], good: NamedValues, own: dict[str, Parameter], report: Report) -> None:
     """Report which values a contact lacks, and which exclude one another."""
     profiles = good.get("profile", ("paraboloid",))
     has_radius = not all(isinstance(profile, Definition) for profile in profiles)
     # A misspelt key is not lacking, too.
-    everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
+    everything |= {meant(name, own) or name for name in everything if name not in own}
     # A wrong load is reported: nothing else is lacking because of it.
     measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
     everything |= {*grids.implied_amplitudes(everything, measured, profiles)}
@@ -209,17 +207,17 @@ def _check_given(
         report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     mean = grids.mean_of_loads(everything, measured)
-    if wrong := units.wrong_mean_load({*everything, *([mean] if mean else [])}):
+    if wrong := units.wrong_mean_load([*everything, *([mean] if mean else [])]):
         found, allowed = wrong
         for load in [load for load in loops if load.is_absolute][:1]:
             allowed += f"; or absolute = true under [loads.{load}], whose normal column is far from 0"
         report.of(units.MEAN_LOADS, found, allowed)
-    if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
+    if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything:
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report.of("body", literal(list(good["body"])), "1 or 2")
     scaling = grids.scaling_of(loops)
-    sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
+    sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & (everything | scaling)
     if "bulk_stress_ratio" in everything and not sized:
         report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
     mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
