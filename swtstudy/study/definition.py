@@ -206,7 +206,7 @@ def one_of_study(
     raw = tables_of(path)
     reader = StudyReader(raw, path, Path(path).parent)
     reader.report.refuse()
-    fixed, _ = reader.fixed_and_axes(reader.parts.blocks)
+    fixed, _ = reader.fixed_and_axes(block.load for block in reader.parts.blocks)
     profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
     if Path(name).suffix == ".csv":
         file, name = str(Path(name).resolve()), Path(name).stem

@@ -18,16 +18,7 @@ from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
-from swtstudy.study.keys import (
-    BlockTable,
-    LoadTable,
-    ProfileTable,
-    SignalTable,
-    Table,
-    TraceTable,
-    read_study,
-    under,
-)
+from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
 from swtstudy.study.sample import Design, Sampled, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
@@ -74,7 +65,7 @@ class StudyReader:
         parts, report = self.parts, self.report
         known = {"load": self._loads(), "profile": self._profiles()}
         blocks = self._blocks(known["load"])
-        fixed, axes = self.fixed_and_axes(blocks)
+        fixed, axes = self.fixed_and_axes(block.load for block in blocks)
         contacts, fixed = self._contacts(fixed, axes)
         self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         own = rows(contacts.units) if contacts else PARAMETERS
@@ -223,15 +214,15 @@ class StudyReader:
 
     def firsts(self) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""
-        _, axes = self.fixed_and_axes(self.parts.blocks)
+        _, axes = self.fixed_and_axes(block.load for block in self.parts.blocks)
         found = {n: v.start if isinstance(v, Range) else (v or [None])[0] for n, v in axes.items()}
         units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
         samples, *_ = self._sample(rows(units) if units else PARAMETERS, {})
         return found | {name: values[0] if values else None for name, values in samples.items()}
 
-    def fixed_and_axes(self, blocks: Sequence[Block | BlockTable]) -> tuple[dict[str, Any], dict[str, Any]]:
+    def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Fixed values and axes; the loads of blocks are the last axis if there are several."""
-        loads = list(dict.fromkeys(block.load for block in blocks))
+        loads = list(dict.fromkeys(of_blocks))
         given = self.parts.fixed, self.parts.axes
         fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in given)
         if len(loads) > 1:

@@ -21,16 +21,7 @@ from swtstudy.solver.loop import Loop
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units.at_rest import Contact, Moduli, depth_at
 from swtstudy.study.units.life import SCATTERED, Block, FatigueConstants, LifeCurve, Scatter, ShearConstants
-from swtstudy.study.units.rows import (
-    AT_REST_NAMES,
-    MEAN_LOADS,
-    OF_BODIES,
-    SCALES,
-    SIMILAR,
-    LineUnits,
-    Units,
-    rows,
-)
+from swtstudy.study.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR, LineUnits, Units, rows
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
@@ -252,8 +243,8 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
         """The contact with values of `AT_REST_NAMES`."""
-        young, poisson = (self.pairs.get(name) or (float(own[name]),) * 2 for name in OF_BODIES)
-        profile = own["profile"]
+        profile, of_bodies = own["profile"], ("young_modulus", "poisson_ratio")
+        young, poisson = (self.pairs.get(name) or (float(own[name]),) * 2 for name in of_bodies)
         contact = Contact(
             Moduli(young, poisson),
             radius=own.get("radius"),

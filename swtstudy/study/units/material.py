@@ -17,16 +17,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, ShearConstants
-from swtstudy.study.units.rows import (
-    KNOWN,
-    OF_BODIES,
-    TABLES,
-    UNIT_KINDS,
-    Units,
-    read_units,
-    right_place,
-    wrong_size,
-)
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, read_units, right_place, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
@@ -81,7 +72,7 @@ def read_given(
     """
     units = read_units(labels, report)
     if units is None:  # reported: meanwhile the labels stand for units
-        given = {kind: labels.get(kind) for kind in UNIT_KINDS}
+        given = {kind: labels.get(kind) for kind in KNOWN}
         units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
