@@ -11,35 +11,23 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike
 
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, plain_values
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
 from swtstudy.points.solve import dimensions_of, solve_grid, spanned
 from swtstudy.points.validity import validity_lines
 from swtstudy.solver.table import TabulatedProfile
+from swtstudy.study.units import rows as units
 from swtstudy.study.units.at_rest import Contact, Moduli
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, are_measured
 from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
 from swtstudy.study.units.material import warn_of_units
 from swtstudy.study.units.reading import check_distances, completed, read_contacts
 from swtstudy.study.units.results import COMMENTS, attributes, derived, scale_of
-from swtstudy.study.units.rows import (
-    LABELS,
-    NAMES_KEY,
-    OF_BODIES,
-    ONE_OF,
-    REST_DEPENDS_ON,
-    SCALES,
-    SIMILAR,
-    SIMILAR_KEY,
-    TABLES,
-    Units,
-    checked_body,
-    rows,
-    wrong_size,
-)
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
@@ -60,7 +48,6 @@ from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import html_table, place_words, plain_words
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.figure import Figure
 
     from swtstudy.figures.sheet import Width
@@ -71,13 +58,11 @@ if TYPE_CHECKING:
     Values = FloatArray | xr.DataArray
 
 #: Sizes of a contact at rest.
-AT_REST = (*TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
+AT_REST = (*units.TABLES["at_rest"], "mean_pressure", "swt_scale", "work_scale", "force_factor")
 
 
-@lru_cache(maxsize=8)
-def _scaled(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
-    """`TabulatedProfile.scaled`, whose fit takes time."""
-    return table.scaled(length, depth)
+#: A table in other units: its fit takes time.
+_scaled = lru_cache(maxsize=8)(TabulatedProfile.scaled)
 
 
 @dataclass(frozen=True, repr=False)
@@ -103,13 +88,11 @@ class PhysicalContact:
         several = {n: size for n, size in self.grid.sizes.items() if n != "body"}
         words = " × ".join(f"{size} {name}" for name, size in several.items()) or "one"
         count = f"{np.prod([*several.values()])} = " if len(several) > 1 else ""
-        rows = [*self._words()]
-        wide = [max(len(row[column]) for row in rows) for column in range(3)]
-        lines = (
-            f"  {kind:<{wide[0]}}  {name:<{wide[1]}}  {value:>{wide[2]}}  {meaning}".rstrip()
-            for kind, name, value, meaning in rows
-        )
-        return "\n".join((f"<PhysicalContact: {count}{words}>", *lines))
+        lines, rows = [f"<PhysicalContact: {count}{words}>"], [*self._words()]
+        a, b, c, _ = (max(map(len, column)) for column in zip(*rows, strict=True))
+        for kind, name, value, meaning in rows:
+            lines.append(f"  {kind:<{a}}  {name:<{b}}  {value:>{c}}  {meaning}".rstrip())
+        return "\n".join(lines)
 
     def _repr_html_(self) -> str:
         """A table for a notebook: what is given, the contact at rest, and the parameters without units."""
@@ -119,9 +102,9 @@ class PhysicalContact:
         """Kind, name, value and meaning of all that is known without solving."""
         grid = self.grid
         for name, each in self._given().items():
-            if name not in TABLES["at_rest"]:
+            if name not in units.TABLES["at_rest"]:
                 yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
-        for name, meaning in TABLES["at_rest"].items():
+        for name, meaning in units.TABLES["at_rest"].items():
             found = np.unique(grid.each(attrgetter(name)))
             ends = dict.fromkeys(found[[0, -1]].tolist())
             yield "at rest", name, " to ".join(map(plain_words, ends)), meaning
@@ -160,14 +143,11 @@ class PhysicalContact:
             return self._plain(self.grid.mean_of_bulk(self.grid.along("bulk_stress_amplitude")))
         if len(values) < 2:
             return values[0] if values else None
-        if self.grid.row(name).kind == "name":
-            return self._plain(self.grid.over_dimension(name, np.array(values, object)))
-        return self._plain(self.grid.along(name))
+        kind = object if self.grid.row(name).kind == "name" else float
+        return self._plain(self.grid.over_dimension(name, np.array(values, kind)))
 
     def _plain(self, values: xr.Variable) -> Any:
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
-        import xarray as xr
-
         labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
         return xr.DataArray(values, labels) if labels else values.values.item()
 
@@ -196,13 +176,11 @@ class PhysicalContact:
         if "poisson_ratio" in parameters:
             raise refused("poisson_ratio", "a parameter", "that of the bodies, which stays")
         rest, grid = self._one, self.grid
-        profile = parameters.get("profile", rest.profile)
-        kept = family_of(profile).shape
-        every = self.parameters(grid.bulk_stress_body + 1)
-        own = {n: v for n, v in every.items() if PARAMETERS[n].part != "shape" or n in (*kept, "profile")}
+        shape = family_of(parameters.get("profile", rest.profile)).shape
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
-        own = {name: value for name, value in own.items() if name not in replaced}
-        found, report = read_grid({**own, **parameters}, {})
+        replaced |= {*SHAPE_COLUMNS} - {*shape}
+        own = self.parameters(grid.bulk_stress_body + 1)
+        found, report = read_grid({n: v for n, v in own.items() if n not in replaced} | parameters, {})
         if found is None:
             raise StudyError(report)
         fixed: dict[str, Any] = {n: v for n, v in found.fixed.items() if n != "poisson_ratio"}
@@ -211,7 +189,6 @@ class PhysicalContact:
         elif isinstance(fixed["profile"], TabulatedProfile):
             fixed["profile"] = _scaled(fixed["profile"], 1.0 / rest.length_scale, 1.0 / rest.depth)
         contact = replace(rest, friction=fixed["friction"], profile=fixed["profile"], shape={})
-        shape = family_of(contact.profile).shape
         # In the order of the table: a length may be measured in the one before it.
         for name in sorted(fixed, key=[*PARAMETERS].index):
             if PARAMETERS[name].scale:
@@ -300,8 +277,6 @@ class PhysicalContact:
             If no s of the contacts is of SWT; if ``body`` and the coordinate ``body`` name it both, or
             neither and the bodies are not ``alike``; if s is negative or no number.
         """
-        import xarray as xr
-
         names = [str(each) for each in self.grid.values("criterion")]
         if SWT not in names:
             allowed = f"{SWT}; of others solve() has the values in units"
@@ -310,19 +285,18 @@ class PhysicalContact:
         if isinstance(s, xr.DataArray) and "body" in s.coords:
             if body is not None:
                 raise refused("body", literal(body), "nothing, since s has the coordinate body")
-            if not np.isin(s.body, LABELS).all():
+            if not np.isin(s.body, units.LABELS).all():
                 found = f"the coordinate {literal(s.body.values.tolist())}"
                 raise refused("body", found, "1 and 2")
-            bodies = (s.body == LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+            bodies = (s.body == units.LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
         elif body is None and not alike:
             allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
             raise refused("body", "nothing", allowed)
         else:
-            bodies = np.array(0 if body is None else checked_body(body) - 1)
+            bodies = np.array(0 if body is None else units.checked_body(body) - 1)
         with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
-            of_body = (
-                not_negative("s", s) * np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])[bodies]
-            )
+            shares = np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])
+            of_body = not_negative("s", s) * shares[bodies]
             if not isinstance(s, xr.DataArray):
                 return of_body * self.swt_scale, bodies
             swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)
@@ -367,14 +341,12 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
-        grid, asked = self._with_request(
-            rtol, critical_distance, constants, yield_strength, quantities, blocks
-        )
+        grid, asked = self._request(rtol, critical_distance, constants, yield_strength, quantities, blocks)
         for words in idle_axes(grid):
             warnings.warn(words, stacklevel=2)
         return solve_grid(grid, float(rtol), asked)
 
-    def _with_request(
+    def _request(
         self, rtol: Any, distance: Any, constants: Any, strength: Any, names: Any = (), blocks: Any = None
     ) -> tuple[PhysicalGrid, Request]:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
@@ -436,26 +408,22 @@ class PhysicalContact:
         from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
 
         self._one  # noqa: B018 – one contact only, or an error
-        grid, asked = self._with_request(rtol, critical_distance, constants, yield_strength)
+        grid, asked = self._request(rtol, critical_distance, constants, yield_strength)
         made = (each.name for each in derived(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
         if minimise not in known and (lacks := lacking(minimise, grid, grid.values("criterion"), asked)):
             raise refused("minimise", literal(minimise), f"with {' and '.join(lacks)}")
-        report, numbers = Report(), [name for name, row in grid.rows.items() if row.kind == "number"]
-        corners: PhysicalGrid | None = None
+        report, corners = Report(), None
+        numbers = [n for n, row in grid.rows.items() if row.kind == "number" and n not in (DISTANCE, "body")]
         with report:
-            ranges, wrong = read_ranges(over, [name for name in numbers if name not in (DISTANCE, "body")])
+            ranges, wrong = read_ranges(over, numbers)
             wrong.refuse()
-            replaced = {*ranges}.union(*(pair for pair in ONE_OF if {*pair} & {*ranges}))
+            replaced = {*ranges}.union(*(pair for pair in units.ONE_OF if {*pair} & {*ranges}))
             given = {**grid.fixed, **{name: [*two] for name, two in grid.pairs.items()}}
             fixed = {name: value for name, value in given.items() if name not in replaced}
-            bodies = {name: [*values] for name, values in grid.axes.items() if name == "body"}
-            corners, found = read_contacts(
-                fixed,
-                {**ranges, **bodies},
-                grid.about,
-                lambda name: f"over.{name}" if name in ranges else name,
-            )
+            along = ranges | {name: [*values] for name, values in grid.axes.items() if name == "body"}
+            keys = {name: f"over.{name}" for name in ranges}
+            corners, found = read_contacts(fixed, along, grid.about, lambda name: keys.get(name, name))
             found.refuse()
         check_asked(report, minimise, rtol, seed, [name for name in known if not name.endswith("_error")])
         if asked.is_axis:
@@ -512,13 +480,13 @@ class PhysicalContact:
 
     def _body(self, body: int | str) -> int:
         """The label of a body, 1 or 2, from that or its name."""
-        return checked_body(body, names=self.grid.body_names)
+        return units.checked_body(body, names=self.grid.body_names)
 
     def _scales(self, body: int | str) -> dict[str, tuple[float, str, str]]:
         """By name of a variable its scale in one body of one contact, its symbol, the label of its unit."""
         contact, index, labels = self._one, self._body(body) - 1, self.grid.labels
         row = CRITERIA[str(self.grid.values("criterion")[0])]
-        measured = TABLES["measured"].items()
+        measured = units.TABLES["measured"].items()
         found = {name: (getattr(contact, scale), symbol, kind) for name, (scale, kind, symbol) in measured}
         strain = contact.depth / contact.length_scale * contact.moduli.swt_share(index)
         found["normal_strain"] = strain, r"\varepsilon_n", "1"
@@ -533,15 +501,12 @@ class PhysicalContact:
                 words = str(dataset[name].attrs.get("long_name", name))
                 words = words.partition(", in units of")[0].partition(" over E*")[0]
                 scales[name] = scale, {"long_name": words, "symbol": symbol, "units": unit}
-        for name, row in self.grid.rows.items():
-            by = PARAMETERS[name].scale if name in PARAMETERS else ""
-            if by and name in dataset.coords:
-                unit = self.grid.labels.words(SCALES[by].kind)
-                scales[name] = SCALES[by].of(self._one), {"symbol": row.symbol, "units": unit}
+        for name in (name for name, row in PARAMETERS.items() if row.scale and name in dataset.coords):
+            by, symbol = units.SCALES[PARAMETERS[name].scale], self.grid.row(name).symbol
+            scales[name] = by.of(self._one), {"symbol": symbol, "units": self.grid.labels.words(by.kind)}
         for name, (scale, own) in scales.items():
-            attributes = {**dataset[name].attrs, **own}
-            dataset[name] = dataset[name].variable * scale
-            dataset[name].attrs = attributes
+            old = dataset[name]
+            dataset[name] = old.dims, old.values * scale, {**old.attrs, **own}
         return dataset
 
     def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
@@ -550,7 +515,7 @@ class PhysicalContact:
         for name, values in {"profile": self.grid.values("profile"), **self._given()}.items():
             row = self.grid.row(name)
             of_other = row.part == "bulk" and body != self.grid.bulk_stress_body + 1
-            if not of_other and (name in REST_DEPENDS_ON or not at_rest):
+            if not of_other and (name in units.REST_DEPENDS_ON or not at_rest):
                 value: Any = values[body - 1 if name in self.grid.pairs else 0]
                 value = str(value) if row.kind == "name" else value
                 words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
@@ -593,9 +558,7 @@ class PhysicalContact:
 
         length, parameters = self._one.length_scale, self.parameters(body)
         read_places(**places, allowed="finite positions, which are lengths")  # as they are given
-        in_a_h = {
-            name: v / length if hasattr(v, "dims") else np.divide(v, length) for name, v in places.items()
-        }
+        in_a_h = {n: v / length if hasattr(v, "dims") else np.divide(v, length) for n, v in places.items()}
         with self._in_equilibrium(body):
             found = field(**in_a_h, **parameters)
         return self._with_units(found, body)
@@ -644,7 +607,7 @@ def _of_both(name: str, given: Any, report: Report, kind: type[Any] | None = Non
     pair = tuple(given) if dimensions_of(given) == 1 and len(given) == 2 else (given, given)
     allowed = f"a {kind.__name__ if kind else 'positive stress'}, or a pair of them, one for each body"
     if kind is None:
-        wrong = [each for stress in pair for each in wrong_size(name, stress, allowed)]
+        wrong = [each for stress in pair for each in units.wrong_size(name, stress, allowed)]
         pair = tuple(map(plain_number, pair))
     else:
         sound = all(isinstance(one, kind) for one in pair)
@@ -673,10 +636,10 @@ def contact_of(dataset: xr.Dataset) -> PhysicalContact:
 _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 
 
-@with_parameters(row for name, row in rows(Units()).items() if name != DISTANCE)
+@with_parameters(row for name, row in units.rows(units.Units()).items() if name != DISTANCE)
 def physical(
     *,
-    similar: Any = SIMILAR,
+    similar: Any = units.SIMILAR,
     bulk_stress_body: Any = 1,
     bodies: Any = None,
     yield_strength: Any = None,
@@ -749,29 +712,28 @@ def physical(
     >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """
-    report, wrong, about = Report(), Report(), ContactDetails()
-    unsaid = {name for name in (*CONTACT_AXES, *OF_BODIES) if parameters.get(name) is None}
-    parameters = {name: value for name, value in parameters.items() if name not in unsaid}
+    report, about, optional = Report(), ContactDetails(), (*CONTACT_AXES, *units.OF_BODIES)
+    parameters = {n: value for n, value in parameters.items() if value is not None or n not in optional}
     for name in _ASKED:
         if name in parameters:
             report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
-    own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *OF_BODIES)}
-    fixed, axes = spanned(own, wrong)
-    for name in (name for name in OF_BODIES if name in parameters):
-        value = parameters[name]
-        fixed[name] = list(value) if dimensions_of(value) == 1 else value
     properties: dict[str, Any] = {
         "yield_strengths": _of_both("yield_strength", yield_strength, report),
         "findley_limits": _of_both("findley_limit", findley_limit, report),
         "shear_materials": _of_both("shear_constants", shear_constants, report, ShearConstants),
     }
     with report:
-        carrier = checked_body(bulk_stress_body, "bulk_stress_body") - 1
+        carrier = units.checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)
+    own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *units.OF_BODIES)}
+    fixed, axes = spanned(own, report)
+    for name in (name for name in units.OF_BODIES if name in parameters):
+        value = parameters[name]
+        fixed[name] = list(value) if dimensions_of(value) == 1 else value
     if "body" not in parameters:
-        axes = {**axes, "body": LABELS}
-    named = {} if bodies is None else {NAMES_KEY: bodies}
-    grid, found = read_contacts({**fixed, **named, SIMILAR_KEY: similar}, axes, about)
-    if grid is None or report or wrong:
-        raise StudyError([*report, *wrong, *found])
+        axes["body"] = units.LABELS
+    named = {} if bodies is None else {units.NAMES_KEY: bodies}
+    grid, found = read_contacts({**fixed, **named, units.SIMILAR_KEY: similar}, axes, about)
+    if grid is None or report:
+        raise StudyError([*report, *found])
     return PhysicalContact(grid)

@@ -89,90 +89,11 @@ class UserTable:
     """
 
     def __init__(
-        self,
-        path: Path,
-        names: Sequence[str],
-        known: Collection[str],
-        form: FileTable | None,
-        most: int = MOST_ROWS,
+        self, path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int
     ) -> None:
         self.path, self.source, self.names, self.known = path, str(path), names, known
         self.form, self.has_keys = form or FileTable(), form is not None
         self.report = Report()
-        self._read(most)
-
-    def column(self, name: str) -> int:
-        """The place of a column."""
-        return self.headers.index(self.form.header(name))
-
-    def has(self, name: str) -> bool:
-        """Return whether the table has a column."""
-        return self.form.header(name) in self.headers
-
-    def texts(self, name: str) -> list[str]:
-        """The cells of a column."""
-        column = self.column(name)
-        return [cells[column] for _, cells in self.cells]
-
-    def numbers(self, names: Sequence[str]) -> FloatArray:
-        """Columns of numbers, scaled, shape (rows, k); a StudyError with the first mistake of each kind."""
-        found, hints, report = [], set(), Report(self.source)
-        for name in names:
-            texts = self.texts(name)
-            values = np.array([number(text, self.form.decimal) for text in texts])
-            found.append(values * self.form.scale.get(name, 1.0))
-            for row in np.flatnonzero(~np.isfinite(values))[:1]:
-                text, hint = texts[row], ""  # the key that is usually missing there
-                if text.lower() in MISSING:
-                    timed = "time" in type(self.form).model_fields
-                    hint = "; with the header of the time, time = ..., such rows are left out" * timed
-                    hint = hint or "; leave such rows out"
-                elif "," in text and self.form.decimal == ".":
-                    hint = COMMA_HINT
-                elif row == 0:
-                    hint = "; lines above the header are skip_rows, a row of units is units_row = true"
-                if hint not in hints:
-                    place, shown = f"line {self.cells[row][0]}, {self.form.header(name)}", literal(text)
-                    report(place, shown if text else "nothing", f"a finite number{hint}")
-                hints |= {hint} - {""}
-        report.refuse()
-        return np.stack(found, axis=1)
-
-    def rows_without(self, names: Sequence[str]) -> list[int]:
-        """Lines of the rows that lack a value in one of the columns."""
-        columns = [*map(self.column, names)]
-        return [line for line, cells in self.cells if any(cells[k].lower() in MISSING for k in columns)]
-
-    def values(self, name: str) -> list[object]:
-        """The cells of a column, numbers where they are, scaled, and texts."""
-        found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
-        factor = self.form.scale.get(name, 1.0)
-        return [factor * value if math.isfinite(value) else text for text, value in found]
-
-    def unit(self, name: str, kind: str) -> tuple[str, str]:
-        """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
-
-        In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
-        """
-        column = self.column(name)
-        header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
-        bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
-        for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
-            kinds = [each for each, known in KNOWN.items() if text in known]
-            if kinds:
-                return text, kind if kind in kinds else kinds[0]
-        for text in (cell, header):
-            words = re.findall(r"[A-Za-zµμ]+", text)
-            if words and words[-1] in KNOWN[kind] and words[-1] != "in":
-                return words[-1], kind
-        return "", kind
-
-    def refused(self, place: str, found: str, allowed: str) -> StudyError:
-        """The error of a mistake at a place in the file."""
-        return refused(place, found, allowed, self.source)
-
-    def _read(self, most: int) -> None:
-        """Read the table; a StudyError with what is wrong, and in which line."""
         try:
             data = read_file(self.path, LARGEST_TABLE)
         except OSError as error:
@@ -214,7 +135,72 @@ class UserTable:
             if comma:
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
-            _tell(self.source, words)
+            warnings.warn(f"{Path(self.source).name}: {words}", stacklevel=3)
+
+    def column(self, name: str) -> int:
+        """The place of a column."""
+        return self.headers.index(self.form.header(name))
+
+    def has(self, name: str) -> bool:
+        """Return whether the table has a column."""
+        return self.form.header(name) in self.headers
+
+    def texts(self, name: str) -> list[str]:
+        """The cells of a column."""
+        column = self.column(name)
+        return [cells[column] for _, cells in self.cells]
+
+    def numbers(self, names: Sequence[str]) -> FloatArray:
+        """Columns of numbers, scaled, shape (rows, k); a StudyError with the first mistake of each kind."""
+        found, hints, report = [], set(), Report(self.source)
+        for name in names:
+            texts = self.texts(name)
+            values = np.array([number(text, self.form.decimal) for text in texts])
+            found.append(values * self.form.scale.get(name, 1.0))
+            for row in np.flatnonzero(~np.isfinite(values))[:1]:
+                text, hint = texts[row], ""  # the key that is usually missing there
+                if text.lower() in MISSING:
+                    timed = "time" in type(self.form).model_fields
+                    hint = "; with the header of the time, time = ..., such rows are left out" * timed
+                    hint = hint or "; leave such rows out"
+                elif "," in text and self.form.decimal == ".":
+                    hint = COMMA_HINT
+                elif row == 0:
+                    hint = "; lines above the header are skip_rows, a row of units is units_row = true"
+                if hint not in hints:
+                    place, shown = f"line {self.cells[row][0]}, {self.form.header(name)}", literal(text)
+                    report(place, shown if text else "nothing", f"a finite number{hint}")
+                hints |= {hint} - {""}
+        report.refuse()
+        return np.stack(found, axis=1)
+
+    def values(self, name: str) -> list[object]:
+        """The cells of a column, numbers where they are, scaled, and texts."""
+        found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
+        factor = self.form.scale.get(name, 1.0)
+        return [factor * value if math.isfinite(value) else text for text, value in found]
+
+    def unit(self, name: str, kind: str) -> tuple[str, str]:
+        """The unit of a column that its row of units or its header says, and its kind; empty if unknown.
+
+        In a row of units or in brackets a unit of any kind counts, elsewhere one of the kind asked for.
+        """
+        column = self.column(name)
+        header, cell = self.headers[column], (self.units[column : column + 1] or [""])[0]
+        bracket = re.search(r"[\[(]([^\[(]*)[\])]$", header)
+        for text in (cell.strip("[]() "), bracket[1].strip() if bracket else ""):
+            kinds = [each for each, known in KNOWN.items() if text in known]
+            if kinds:
+                return text, kind if kind in kinds else kinds[0]
+        for text in (cell, header):
+            words = re.findall(r"[A-Za-zµμ]+", text)
+            if words and words[-1] in KNOWN[kind] and words[-1] != "in":
+                return words[-1], kind
+        return "", kind
+
+    def refused(self, place: str, found: str, allowed: str) -> StudyError:
+        """The error of a mistake at a place in the file."""
+        return refused(place, found, allowed, self.source)
 
     def _text(self, data: bytes) -> str:
         """The text in the file, its lines ended by newlines; of a wrong encoding as in Windows'."""
@@ -276,9 +262,7 @@ class UserTable:
     def _found_header(self, content: str | list[Row]) -> tuple[str, int]:
         """The separator, and the number of rows above the header: the row with most of the names."""
         wanted, others = ({*map(self.form.header, names)} for names in (self.names, self.known))
-        rows_of: dict[str, list[Row]] = {}
-        score: dict[str, tuple[int, ...]] = {}
-        header: dict[str, int] = {}
+        rows_of, score, header = dict[str, list[Row]](), dict[str, tuple[int, ...]](), dict[str, int]()
         for separator in SEPARATORS:
             rows: list[Row] = [(self.form.skip_rows + 1, [])]
             try:
@@ -384,7 +368,7 @@ def read_columns(
     if not known.keys() >= form.columns.keys():
         report.refuse()  # which column is meant is unknown
     with report:
-        table = UserTable(path, names, optional, form)
+        table = UserTable(path, names, optional, form, MOST_ROWS)
         report += table.report
         for name in () if form.columns else (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
@@ -396,11 +380,13 @@ def read_columns(
         for name, kind in kinds.items():
             if labels and name in names:
                 report += _wrong_unit(table, name, kind, str(labels.get(kind)))
-        empty = table.rows_without(names) if gaps else []
+        columns = [*map(table.column, names)] if gaps else []
+        empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
         if empty and len(empty) < len(table.cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
-                _tell(table.source, f"line {empty[0]}{more} left out: a value is missing")
+                words = f"line {empty[0]}{more} left out: a value is missing"
+                warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=4)
             table.cells = [row for row in table.cells if row[0] not in {*empty}]
         values = table.numbers(names)
     report.refuse()
@@ -479,7 +465,3 @@ def _has_decimal_commas(texts: Sequence[str]) -> bool:
 
 def _is_number(cell: str) -> bool:
     return any(math.isfinite(number(cell, sign)) for sign in ".,")
-
-
-def _tell(source: str, words: str) -> None:
-    warnings.warn(f"{Path(source).name}: {words}", stacklevel=5)

@@ -11,8 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
+from swtstudy.points.rules import idle_axes
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.reading import StudyReader, unused
 from swtstudy.study.shipped import find_study, shipped_studies
+from swtstudy.study.units.grid import PhysicalGrid
+from swtstudy.study.units.material import STRENGTH
+from swtstudy.study.units.reading import doubts_of_units
 from swtstudy.study.units.rows import ONE_OF, REST_DEPENDS_ON
 from swtstudy.study.writing import as_html, in_one_line
 from swtstudy.vocabulary.choices import SWT, families_with
@@ -81,11 +86,7 @@ class Study:
     text: str
     design: Design | None = None
 
-    def __repr__(self) -> str:
-        return in_one_line(self)
-
-    def _repr_html_(self) -> str:
-        return as_html(self)
+    __repr__, _repr_html_ = in_one_line, as_html
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Study:
@@ -126,12 +127,11 @@ class Study:
         """
         if not isinstance(text, str):
             raise refused("text", literal(text), "the text of a study file")
-        from swtstudy.study.reading import doubts, unused
-
         raw = _parsed(text, source)
         study = study_from(raw, text, source, Path(folder))
         unused(raw, study.grid, source).refuse()
-        for line in doubts(study.grid, "units" in raw):
+        odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
+        for line in (*(f"axes.{words}" for words in idle_axes(study.grid)), *odd):
             warnings.warn(f"{source}: {line}", stacklevel=2)
         return study
 
@@ -169,8 +169,6 @@ def _parsed(text: str, source: str) -> dict[str, Any]:
 
 def study_from(raw: Mapping[str, Any], text: str, source: str, folder: Path) -> Study:
     """The study of the tables of a file; see `Study.from_text`."""
-    from swtstudy.study.reading import StudyReader
-
     return Study(**StudyReader(raw, source, folder).fields(text))
 
 
@@ -204,14 +202,11 @@ def one_of_study(
     StudyError
         With every mistake; also if an axis of the study, or what it samples, has no value here.
     """
-    from swtstudy.study.reading import StudyReader
-    from swtstudy.study.units.material import STRENGTH
-
     path = str(find_study(path))
     raw = tables_of(path)
     reader = StudyReader(raw, path, Path(path).parent)
     reader.report.refuse()
-    fixed, _ = reader.fixed_and_axes(reader.parts.blocks)
+    fixed, _ = reader.fixed_and_axes(block.load for block in reader.parts.blocks)
     profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
     if Path(name).suffix == ".csv":
         file, name = str(Path(name).resolve()), Path(name).stem

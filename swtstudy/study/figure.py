@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, fields
 from typing import Annotated, ClassVar
 
@@ -25,6 +25,8 @@ _NORMALISED = re.compile(r"s\s*/\s*s\s*\(\s*(\w+)\s*=\s*([^()]+|[^()]*\([^()]*\)
 #: The data variables of an archive.
 VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface", "status", "run")
 
+#: Key, found and allowed of mistakes.
+Wrong = Iterator[tuple[str, str, str]]
 #: Further parts of a figure.
 QUANTITY = '"s/s(name=value)"'
 
@@ -127,7 +129,7 @@ def reference(y: str) -> tuple[str, Value] | None:
     return name, read_value(AXES[name], raw.strip())
 
 
-def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+def wrong_layout(layout: FigureLayout) -> Wrong:
     """Key, found and allowed of everything that is wrong with a layout for any results."""
     used: dict[str, str] = {}
     for role, name in layout.roles():
@@ -145,7 +147,7 @@ def wrong_layout(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
         yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
 
 
-def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
+def _wrong_roles(layout: FigureLayout) -> Wrong:
     """Find mistakes in what is combined with the kind of figure."""
     kind, named = FIGURES[layout.kind], f'kind = "{layout.kind}"'
     if kind.of == "surface" and layout.vertical is None:
@@ -169,9 +171,7 @@ def _wrong_roles(layout: FigureLayout) -> Iterator[tuple[str, str, str]]:
 NO_AXIS = "a figure needs an axis of numbers; swtstudy show STUDY draws one point"
 
 
-def wrong_axes(
-    layout: FigureLayout, sizes: Mapping[str, int | None], of: str
-) -> Iterator[tuple[str, str, str]]:
+def wrong_axes(layout: FigureLayout, sizes: Mapping[str, int | None], of: str) -> Wrong:
     """Key, found and allowed of everything in a layout that does not fit the given axes.
 
     Parameters
@@ -201,12 +201,7 @@ def wrong_axes(
 
 
 def check_figure(
-    layout: FigureLayout,
-    dims: list[str],
-    grid: Grid | None,
-    asked: Request,
-    report: Report,
-    unsure: Collection[str] = (),
+    layout: FigureLayout, dims: list[str], grid: Grid | None, asked: Request, report: Report, unsure: set[str]
 ) -> None:
     """Report everything in a figure that does not fit its study.
 
@@ -237,11 +232,9 @@ def check_figure(
             sizes = {dim: {**lengths, **asked.sizes}[dim] for dim in made[name]}
         else:  # of what is no quantity, all that the figure uses
             sizes = {dim: lengths.get(dim) for dim in dims if dim not in QUANTITY_AXES}
-            used = (
-                () if name in VARIABLES or not name.isidentifier() else (each for _, each in layout.roles())
-            )
-            own = asked.variables.get(name, [each for each in used if each in QUANTITY_AXES])
-            sizes |= {dim: asked.sizes[dim] for dim in own}
+            unknown = name.isidentifier() and name not in VARIABLES
+            used = [each for _, each in layout.roles() if each in QUANTITY_AXES and unknown]
+            sizes |= {dim: asked.sizes[dim] for dim in asked.variables.get(name, used)}
         of = f"{y} in this study" if asked.distances or {*dims} - {*sizes} else "this study"
         found += wrong_axes(layout, sizes, of)
         found += _wrong_quantity(y, dims, grid, asked, known)
@@ -251,9 +244,7 @@ def check_figure(
         report(*mistake)
 
 
-def _wrong_quantity(
-    y: str, dims: list[str], grid: Grid | None, asked: Request, known: list[str]
-) -> Iterator[tuple[str, str, str]]:
+def _wrong_quantity(y: str, dims: list[str], grid: Grid | None, asked: Request, known: list[str]) -> Wrong:
     """Key, found and allowed of a quantity that a study does not have, or of its place."""
     name, found = y.strip(), literal(y)
     try:

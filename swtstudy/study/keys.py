@@ -59,6 +59,8 @@ class Table(BaseModel):
 
 File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
+Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
+Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
 
 class FileTable(Table):
@@ -149,9 +151,7 @@ class SampleTable(FileTable):
 
     design: DesignName | None = None
     """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
-    size: Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)] = (
-        None
-    )
+    size: Size = None
     """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""
     seed: Annotated[int, rules.ALLOWED_SEED, Field(ge=0, le=rules.LARGEST_SEED)] = 0
     """Seed of the random numbers."""
@@ -221,9 +221,7 @@ class StudyTable(Table):
 
     title: Annotated[str, "a text that is not empty", Field(min_length=1)]
     """One line that describes the study."""
-    rtol: Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)] = (
-        rules.DEFAULT_RTOL
-    )
+    rtol: Accuracy = rules.DEFAULT_RTOL
     """Relative accuracy asked of s."""
     quantities: Any = []
     """Quantities computed beside s, as data variables of the results."""

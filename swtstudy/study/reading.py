@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,29 +13,19 @@ import numpy as np
 
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.reading import Known, Range, read_distances, read_grid
-from swtstudy.points.rules import idle_axes
 from swtstudy.points.values import read_angle
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
-from swtstudy.study.keys import (
-    BlockTable,
-    LoadTable,
-    ProfileTable,
-    SignalTable,
-    Table,
-    TraceTable,
-    read_study,
-    under,
-)
+from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
 from swtstudy.study.sample import Design, Sampled, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import Block, Scatter, wrong_rounds
 from swtstudy.study.units.material import read_given
-from swtstudy.study.units.reading import ANY, ANY_MEASURED, doubts_of_units, read_contacts
+from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, read_units, rows
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
@@ -75,7 +65,7 @@ class StudyReader:
         parts, report = self.parts, self.report
         known = {"load": self._loads(), "profile": self._profiles()}
         blocks = self._blocks(known["load"])
-        fixed, axes = self.fixed_and_axes(blocks)
+        fixed, axes = self.fixed_and_axes(block.load for block in blocks)
         contacts, fixed = self._contacts(fixed, axes)
         self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         own = rows(contacts.units) if contacts else PARAMETERS
@@ -224,17 +214,15 @@ class StudyReader:
 
     def firsts(self) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""
-        found = {
-            name: axis.start if isinstance(axis, Range) else (axis or [None])[0]
-            for name, axis in self.fixed_and_axes(self.parts.blocks)[1].items()
-        }
+        _, axes = self.fixed_and_axes(block.load for block in self.parts.blocks)
+        found = {n: v.start if isinstance(v, Range) else (v or [None])[0] for n, v in axes.items()}
         units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
         samples, *_ = self._sample(rows(units) if units else PARAMETERS, {})
         return found | {name: values[0] if values else None for name, values in samples.items()}
 
-    def fixed_and_axes(self, blocks: Sequence[Block | BlockTable]) -> tuple[dict[str, Any], dict[str, Any]]:
+    def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Fixed values and axes; the loads of blocks are the last axis if there are several."""
-        loads = list(dict.fromkeys(block.load for block in blocks))
+        loads = list(dict.fromkeys(of_blocks))
         given = self.parts.fixed, self.parts.axes
         fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in given)
         if len(loads) > 1:
@@ -310,11 +298,3 @@ def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
             words = f"a {parameter} that is not used"
             report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report
-
-
-def doubts(grid: Grid, has_units: bool) -> Iterator[str]:
-    """Axes that have no effect; odd units."""
-    for words in idle_axes(grid):
-        yield f"axes.{words}"
-    if has_units:
-        yield from doubts_of_units(grid)  # type: ignore[arg-type]

@@ -57,6 +57,9 @@ _CONSTANTS = {
 _CAN_SCATTER = (
     f"{', '.join(CONSTANTS)}, with {TORSION} before it in torsion, with _1 or _2 behind it of one body"
 )
+#: Allowed in a file of points.
+_PARAMETERS_ALONE = "columns of parameters; constants that scatter are in sample.ranges or sample.points"
+_POINTS = "a CSV file: a row with names of parameters, then a row with their values for each point"
 _MATRIX = "a table of variances and covariances, such as strength = { strength = 900, ductility = -0.5 }"
 
 
@@ -211,10 +214,7 @@ class SampleReader:
             if points is None:
                 return {}, None, scatter
             for name in SCATTERED.keys() & points:
-                allowed = (
-                    "columns of parameters; constants that scatter are in sample.ranges or sample.points"
-                )
-                self.report("sample.file", f"the column {name}, a constant", allowed)
+                self.report("sample.file", f"the column {name}, a constant", _PARAMETERS_ALONE)
         every = table.ranges if forms[0] == "design" else points or {}
         own = {name: each for name, each in every.items() if name not in SCATTERED}
         if not own and (table.covariance or every):
@@ -232,16 +232,13 @@ class SampleReader:
             names = {form.header(name): name for name in self.rows}
             if table.cells:
                 return {(name := names.get(each, each)): table.values(name) for each in table.headers if each}
-            allowed = (
-                "a CSV file: a row with names of parameters, then a row with their values for each point"
-            )
-            self.report("sample.file", f"{path} without points", allowed)
+            self.report("sample.file", f"{path} without points", _POINTS)
         return None
 
     def _designed(self, ranges: Mapping[str, Any]) -> tuple[Sampled, Design | None]:
         """Values of parameters in their ranges, at the points of a design."""
-        numeric = {name: row for name, row in self.rows.items() if row.kind == "number"}
-        names, before = [name for name in ranges if name in numeric], len(self.report)
+        before, numeric = len(self.report), {n: row for n, row in self.rows.items() if row.kind == "number"}
+        sound = {name: raw for name, raw in ranges.items() if name in numeric}
         if not ranges:
             self.report("sample.ranges", "nothing", "at least one parameter with its range")
         for name in (name for name in ranges if name not in numeric):
@@ -252,11 +249,25 @@ class SampleReader:
             if name in self.rows:
                 found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
             self.report(f"sample.ranges.{name}", found, allowed)
-        design, read = self._design(len(names)), self._distributions(ranges, numeric)
+        design, values, _ = self._at_design(sound, numeric)
         if design is None or len(self.report) > before:
-            return dict.fromkeys(names), None
-        columns = zip(names, design.points(len(names)).T, strict=True)
-        return {name: tuple(read[name].values(column).tolist()) for name, column in columns}, design
+            return dict.fromkeys(sound), None
+        return {name: tuple(column.tolist()) for name, column in values.items()}, design
+
+    def _at_design(
+        self, ranges: Mapping[str, Any], rows: Mapping[str, Parameter], more: int = 0
+    ) -> tuple[Design | None, dict[str, FloatArray], FloatArray]:
+        """The design, values in ranges at its points, and more of its columns; no design if one is wrong."""
+        before, dimensions, read = len(self.report), len(ranges) + more, {}
+        design = self._design(dimensions)
+        for name, raw in ranges.items():
+            with self.report:
+                read[name] = _distribution(rows[name], raw, f"sample.ranges.{name}")
+        if design is None or not dimensions or len(self.report) > before:
+            return None, {}, np.empty((0, more))
+        unit = design.points(dimensions)
+        values = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
+        return design, values, unit[:, len(ranges) :]
 
     def _design(self, dimensions: int) -> Design | None:
         """The design of the table; a wrong size is reported."""
@@ -272,16 +283,6 @@ class SampleReader:
         if count > LONGEST_AXIS:
             self.report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
         return Design(table.design, size, table.seed)
-
-    def _distributions(
-        self, ranges: Mapping[str, Any], rows: Mapping[str, Parameter]
-    ) -> dict[str, Distribution]:
-        """The sound distributions of parameters."""
-        read = {}
-        for name in (each for each in ranges if each in rows):
-            with self.report:
-                read[name] = _distribution(rows[name], ranges[name], f"sample.ranges.{name}")
-        return read
 
     def _listed(self, points: Mapping[str, Any], key: str, rows: Mapping[str, Parameter]) -> NamedValues:
         """Points given one by one, none with mistakes; the first wrong value of each parameter is told."""
@@ -360,16 +361,13 @@ class SampleReader:
         if table.design == "saltelli":
             allowed = "a design other than saltelli, for draws of constants"
             report("sample.design", literal(table.design), allowed)
-        read, dimensions = self._distributions(ranges, _CONSTANTS), len(ranges) + len(correlated)
-        design = self._design(dimensions)
-        if design is None or len(report) > before or not dimensions:
+        design, draws, unit = self._at_design(ranges, _CONSTANTS, len(correlated))
+        if design is None or len(report) > before:
             return {}
         from scipy.special import ndtri
 
-        unit = design.points(dimensions)
-        draws = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
         about = np.array([(_own_values(name, contacts) or [math.nan])[0] for name in correlated])
-        normal = ndtri(np.clip(unit[:, len(ranges) :], 1e-12, 1.0 - 1e-12))
+        normal = ndtri(np.clip(unit, 1e-12, 1.0 - 1e-12))
         return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
 
 

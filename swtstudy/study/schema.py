@@ -42,18 +42,12 @@ def study_schema() -> dict[str, Any]:
         parts["RangeTable"]["properties"][name]["type"] = ["number", "string"]
     given = PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]} | CONTACT_AXES
     label = {"type": "string", "minLength": 1}
-    kinds = {
-        kind: {"description": f"Of each {kind}.", **label, "examples": list(KNOWN[kind])} for kind in UNITS
-    }
+    kinds = {k: {"description": f"Of each {k}.", **label, "examples": list(KNOWN[k])} for k in UNITS}
     of_both = {"type": ["number", "string", "array"], "minItems": 2, "maxItems": 2}
     meanings = {key: row["meaning"] for key, row in PROPERTIES.items()} | BY_NAME
     properties = {key: {"description": meaning, **of_both} for key, meaning in meanings.items()}
-    for name, more in (
-        ("units", {"properties": kinds, "required": [*UNITS]}),
-        ("material", {"properties": properties}),
-    ):
-        table = {"description": keys[name]["description"], "type": "object"}
-        keys[name] = {**table, **more, "additionalProperties": False}
+    _close(keys, "units", kinds, required=[*UNITS])
+    _close(keys, "material", properties)
     _name_keys(keys, parts["SampleTable"]["properties"], given)
     schema |= {"if": {"required": ["units"]}, "else": {"properties": _without_units(given)}}
     for role in ("x", "vertical", "hue", "panels"):
@@ -71,19 +65,19 @@ def _name_keys(keys: dict[str, Any], sample: dict[str, Any], given: Mapping[str,
         (sample, "ranges", _range, NUMERIC),
         (sample, "points", _list, PARAMETERS),
     ):
-        # The known names replace pydantic's schema for arbitrary keys, which varies with its version.
-        table[part] = {
-            "description": table[part]["description"],
-            "type": "object",
-            "properties": {
-                name: {"description": _description(given[name]), **entry_of(given[name])} for name in names
-            },
-            "additionalProperties": False,
-        }
+        rows = {name: given[name] for name in names}
+        described = {n: {"description": _description(row), **entry_of(row)} for n, row in rows.items()}
+        _close(table, part, described)
     similar = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
     keys["fixed"]["properties"][SIMILAR_KEY] = similar
     pair = {"type": "array", "items": {"type": "string", "minLength": 1}, "minItems": 2, "maxItems": 2}
     keys["fixed"]["properties"][NAMES_KEY] = {"description": _NAMES, **pair}
+
+
+def _close(tables: dict[str, Any], name: str, keys: Mapping[str, Any], **more: Any) -> None:
+    """Let a table have known keys alone: pydantic's schema for arbitrary ones varies with its version."""
+    kept = {"description": tables[name]["description"], "type": "object", "properties": keys}
+    tables[name] = {**kept, **more, "additionalProperties": False}
 
 
 def schema_text() -> str:

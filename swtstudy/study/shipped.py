@@ -36,9 +36,8 @@ def shipped_folder() -> Path:
 def shipped_studies() -> dict[str, Path]:
     """Paths of the studies by name, such as "figure3": the paper's studies, then the audit's."""
     folder = shipped_folder()
-    return {
-        path.stem: path for path in [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]
-    }
+    files = [*sorted(folder.glob("*.toml")), *sorted(folder.glob("audit/*.toml"))]
+    return {path.stem: path for path in files}
 
 
 def find_study(path: str) -> Path:

@@ -125,8 +125,8 @@ class Signal:
         """Root mean square of what the harmonics leave out of the samples, by column; 0 without them."""
         if not self.highest:
             return np.zeros(self.values.shape[1])
-        fits = np.array([fit for _, fit in self._fits])
-        return np.asarray(np.sqrt(np.mean((self._whole - fits) ** 2, axis=1)))
+        fits = np.stack([fit for _, fit in self._fits], axis=1)
+        return np.asarray(np.sqrt(np.mean((self.values[: self._used] - fits) ** 2, axis=0)))
 
     @property
     def words(self) -> str:
@@ -153,18 +153,13 @@ class Signal:
         return self.count == 1 and self._used == len(self.time)
 
     @property
-    def _whole(self) -> FloatArray:
-        """The samples within the whole cycles, by column."""
-        return self.values[: self._used].T
-
-    @property
     def phase(self) -> FloatArray:
         """φ of each sample within the whole cycles, rad, from 0 on."""
         return 2.0 * np.pi * (self.time[: self._used] - self.time[0]) / self.period
 
     @cached_property
     def _fits(self) -> list[tuple[FloatArray, FloatArray]]:
-        return [cycles.harmonics(self.phase, column, self.highest) for column in self._whole]
+        return [cycles.harmonics(self.phase, column, self.highest) for column in self.values[: self._used].T]
 
     def _polygon(self, name: str, cycle: FloatArray) -> LoadPath:
         off = np.eye(1, cycle.shape[1]) * (self.mean_normal or 0.0)

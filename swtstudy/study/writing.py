@@ -39,9 +39,8 @@ def to_toml(
     fixed: dict[str, Any] = dict(grid.fixed)
     axes: dict[str, Any] = dict(grid.axes)
     blocks = getattr(grid, "blocks", ())
-    if blocks:  # which have the loads
-        fixed.pop("load", None)
-        axes.pop("load", None)
+    for table in (fixed, axes) if blocks else ():  # which have the loads
+        table.pop("load", None)
     if asked.distances:
         (axes if asked.is_axis else fixed)[DISTANCE] = (
             asked.distances if asked.is_axis else asked.distances[0]
@@ -69,12 +68,11 @@ def _lines(entries: Mapping[str, Any]) -> list[str]:
 def _of_contacts(grid: Grid) -> tuple[list[tuple[str, Mapping[str, Any]]], dict[str, Any]]:
     """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
     from swtstudy.study.units.grid import PhysicalGrid
-    from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH
+    from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
 
     if not isinstance(grid, PhysicalGrid):
         return [], {}
-    own = [vars(each) for each in grid.materials]
-    material = {key: [each[key] for each in own] for key in (own[0] if own else ())}
+    material = {key: [getattr(each, key) for each in grid.materials] for key in TENSILE}
     for key, name in SHEAR_CONSTANTS.items():
         material[key] = [getattr(each, name) for each in grid.shear_materials]
     material |= {STRENGTH: [*grid.yield_strengths], LIMIT: [*grid.findley_limits]}

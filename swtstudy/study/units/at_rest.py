@@ -9,7 +9,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -82,10 +81,8 @@ class Moduli:
         That within a disc under a traction along x, like √(1 − r²/a²), goes with (4 − 3ν)/G (Mindlin), that
         of a strip with (1 − ν)/G.
         """
-        of_both = [
-            ((1.0 - ν) if plane else (4.0 - 3.0 * ν)) / g
-            for g, ν in zip(self.shear, self.poisson, strict=True)
-        ]
+        numbers = [1.0 - ν if plane else 4.0 - 3.0 * ν for ν in self.poisson]
+        of_both = [number / g for number, g in zip(numbers, self.shear, strict=True)]
         return 2.0 * of_both[body] / sum(of_both)
 
 
@@ -271,12 +268,12 @@ def depth_at(contact: Contact, force: float) -> float:
         return math.log(factor) + math.log(contact.moduli.normal) + logarithm + length - math.log(force)
 
     # Below a least depth a shape parameter that grows as the depth falls is beyond its range.
-    name, least = "", 0.0
+    least, name = 0.0, ""
     for own, number in contact.shape_parameters.items():
         row = PARAMETERS[own]
         if row.scale and (exponent := SCALES[row.scale].power):
             depth = contact.depth * (number / row.upper) ** (1.0 / exponent)
-            name, least = max((name, least), (own, depth), key=itemgetter(1))
+            least, name = max((least, name), (depth, own))
     if least > 0.0 and excess(math.log(least)) > 0.0:
         row = PARAMETERS[name]
         allowed = f"a length of at most {row.upper:g} {row.scale} at this force"

@@ -46,9 +46,7 @@ def mean_of_loads(given: Collection[str], loads: Sequence[Value]) -> str | None:
     return "depth" if "normal_amplitude" in given else "normal_force"
 
 
-def implied_amplitudes(
-    given: Collection[str], loads: Sequence[Value], profiles: Iterable[object]
-) -> dict[str, float]:
+def implied_amplitudes(given: set[str], loads: Sequence[Value], profiles: Iterable[Any]) -> dict[str, float]:
     """Amplitudes that contacts have unless they are given.
 
     The columns of measured loads are loads themselves: forces, if not told otherwise; beside a depth also a
@@ -58,10 +56,10 @@ def implied_amplitudes(
     if are_measured(loads):
         if NORMAL_AMPLITUDES.isdisjoint(given):
             found["normal_force_amplitude"] = LOOP_AMPLITUDE
-        if not {"tangential_amplitude", "tangential_force_amplitude"} & {*given}:
+        if not {"tangential_amplitude", "tangential_force_amplitude"} & given:
             kind = "" if "normal_amplitude" in given else "force_"
             found[f"tangential_{kind}amplitude"] = LOOP_AMPLITUDE
-    elif NORMAL_AMPLITUDES.isdisjoint({*given, *scaling_of(loads)}) and any(map(is_plane, profiles)):
+    elif NORMAL_AMPLITUDES.isdisjoint(given | scaling_of(loads)) and any(map(is_plane, profiles)):
         found["normal_force_amplitude"] = 0.0
     return found
 
@@ -124,8 +122,7 @@ class ContactDetails:
         self, criterion: str, poisson_ratios: Sequence[float]
     ) -> tuple[FatigueConstants | ShearConstants, ...]:
         """Constants of both bodies for lives by a criterion, estimated from the tensile ones unless given."""
-        own: tuple[FatigueConstants | ShearConstants, ...]
-        own = getattr(self, CRITERIA[criterion].constants[-1])
+        own: tuple[FatigueConstants | ShearConstants, ...] = getattr(self, CRITERIA[criterion].constants[-1])
         return own or tuple(map(ShearConstants.estimated, self.materials, poisson_ratios))
 
     def scatters(self, criterion: str) -> bool:
@@ -246,18 +243,16 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
         """The contact with values of `AT_REST_NAMES`."""
-        young, poisson = (
-            self.pairs.get(name) or (float(own[name]),) * 2 for name in ("young_modulus", "poisson_ratio")
-        )
-        profile, length, radius = own["profile"], own.get("contact_length"), own.get("radius")
+        profile, of_bodies = own["profile"], ("young_modulus", "poisson_ratio")
+        young, poisson = (self.pairs.get(name) or (float(own[name]),) * 2 for name in of_bodies)
         contact = Contact(
             Moduli(young, poisson),
-            radius=radius,
+            radius=own.get("radius"),
             depth=own.get("depth", 1.0),
             friction=own["friction"],
             profile=profile,
             shape={name: own[name] for name in family_of(profile).shape},
-            contact_length=length,
+            contact_length=own.get("contact_length"),
         )
         if "normal_force" in own:
             contact = replace(contact, depth=depth_at(contact, own["normal_force"]))
@@ -344,12 +339,15 @@ class PhysicalGrid(ContactDetails, Grid):
 
     def _columns(self) -> dict[str, Column]:
         """See `Grid.columns`: in the units of the contacts at rest."""
+        length = self.each(SCALES["a_H"].of)
         made = {
             "profile": self.each(lambda contact: code_of(contact.pure_profile), np.int64),
-            "length_scale": self.each(SCALES["a_H"].of),
-            "curvature": self.each(_curvature),
-            "face": self.each(_rounded_face),
-            "slip_scale": self.each(lambda contact: contact.slip_scale / contact.length_scale),
+            "length_scale": length,
+            # Tables have the R of the paraboloid with their a and δ0.
+            "curvature": length / self.each(lambda own: own.radius or own.contact_radius**2 / own.depth),
+            # With rounded edges: beside the face a/R is the slope.
+            "face": self.each(lambda contact: contact.flat * (contact.profile != SHARP)) / length,
+            "slip_scale": self.each(SCALES["μ E* δ0/G*"].of) / length,
             "body_share": self._strain_share,
         }
         for name, own in self.numbers.items():
@@ -388,16 +386,6 @@ class PhysicalGrid(ContactDetails, Grid):
         from swtstudy.study.units.results import with_units
 
         return with_units(dataset, self, asked)
-
-
-def _curvature(contact: Contact) -> float:
-    """a_H/R; tables have the R of the paraboloid with their a and δ0."""
-    return contact.length_scale / (contact.radius or contact.contact_radius**2 / contact.depth)
-
-
-def _rounded_face(contact: Contact) -> float:
-    """Radius of a flat face with rounded edges, in a_H: beside it a/R is the slope; 0 without one."""
-    return contact.flat / contact.length_scale * (contact.profile != SHARP)
 
 
 def _scalar(value: float) -> xr.Variable:

@@ -17,16 +17,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, ShearConstants
-from swtstudy.study.units.rows import (
-    KNOWN,
-    OF_BODIES,
-    TABLES,
-    UNIT_KINDS,
-    Units,
-    read_units,
-    right_place,
-    wrong_size,
-)
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, read_units, right_place, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
@@ -42,12 +33,12 @@ PROPERTIES: dict[str, dict[str, str]] = TABLES["properties"]
 BY_NAME: dict[str, str] = TABLES["by_name"]
 #: Keys that may stand in the table.
 KEYS = (*PROPERTIES, *BY_NAME)
-#: Fields of constants by their keys.
-CONSTANTS = {item.name: item.name for item in fields(FatigueConstants)}
+#: Keys of constants, and fields of shear constants by their keys.
+TENSILE = tuple(item.name for item in fields(FatigueConstants))
 SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
 #: Properties that go together, of which the load ratio alone may be left out.
-_TENSILE, _TORSION = tuple(CONSTANTS), tuple(SHEAR_CONSTANTS)
-_TOGETHER = (_TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
+_TORSION = tuple(SHEAR_CONSTANTS)
+_TOGETHER = (TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
 #: Why a modulus is needed.
 _SINGLE = ", since that of the bodies is no single value"
 _FILE = "a TOML file with a table of constants for each material"
@@ -56,7 +47,7 @@ USUAL: dict[str, Any] = TABLES["usual"]
 
 _log = logging.getLogger(__name__)
 #: Values of both bodies; none of what is not given, or wrong.
-_Both = Sequence[Any]
+Both = Sequence[Any]
 
 
 def read_given(
@@ -81,7 +72,7 @@ def read_given(
     """
     units = read_units(labels, report)
     if units is None:  # reported: meanwhile the labels stand for units
-        given = {kind: labels.get(kind) for kind in UNIT_KINDS}
+        given = {kind: labels.get(kind) for kind in KNOWN}
         units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
@@ -90,7 +81,7 @@ def read_given(
         for name in OF_BODIES
         if name in fixed
     }
-    moduli: dict[str, _Both] = {}
+    moduli: dict[str, Both] = {}
     if _YOUNG in sound:
         # A wrong one is reported elsewhere: meanwhile any stands for it.
         one, two = moduli[_YOUNG] = [each or 1.0 for each in sound[_YOUNG]]
@@ -108,7 +99,7 @@ def two_of(value: object) -> list[Any]:
 
 
 def _read_material(
-    raw: Mapping[str, Any], moduli: Mapping[str, _Both], units: Units, folder: Path, report: Report
+    raw: Mapping[str, Any], moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
@@ -123,7 +114,7 @@ def _read_material(
     values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
     groups = {group: [key for key in group if key in silent] for group in _TOGETHER}
     if not silent & {*PROPERTIES}:
-        groups[_TENSILE] = [*CONSTANTS]
+        groups[TENSILE] = [*TENSILE]
     for group, there in groups.items():
         for key in group if there else ():
             if key not in silent and key not in moduli and key != LOAD_RATIO:
@@ -135,23 +126,21 @@ def _read_material(
         return ContactDetails(units, yield_strengths=strengths), None
     known = {**moduli, **values}
 
-    def of_both(make: Any, fields_of: Mapping[str, str]) -> tuple[Any, ...]:
-        return tuple(make(**{name: known[key][k] for key, name in fields_of.items()}) for k in range(2))
+    def of_both(make: Any, keys: tuple[str, ...]) -> tuple[Any, ...]:
+        return tuple(make(*(known[key][k] for key in keys)) for k in range(2)) if groups[keys] else ()
 
     details = ContactDetails(
         units,
-        materials=of_both(FatigueConstants, CONSTANTS) if groups[_TENSILE] else (),
+        materials=of_both(FatigueConstants, TENSILE),
         yield_strengths=strengths,
-        shear_materials=of_both(ShearConstants, SHEAR_CONSTANTS) if groups[_TORSION] else (),
+        shear_materials=of_both(ShearConstants, _TORSION),
         findley_limits=tuple(values.get(LIMIT, ())),
     )
     ranges = [values[name][0] for name in (*RANGES, LOAD_RATIO) if name in values]
     return details, critical_distance(units, *ranges) if ranges else None
 
 
-def _both(
-    key: str, tables: Sequence[Mapping[str, Any]], others: _Both | None, units: Units, report: Report
-) -> _Both:
+def _both(key: str, tables: list[dict[str, Any]], others: Both | None, units: Units, report: Report) -> Both:
     """A property of both bodies; none if there are mistakes, which are reported."""
     both = [_number(table.get(key, others and others[body])) for body, table in enumerate(tables)]
     allowed = _allowed(key, units)
@@ -233,20 +222,19 @@ def warn_of_units(of: ContactDetails, young: Sequence[float]) -> None:
         STRENGTH: of.yield_strengths,
         LIMIT: of.findley_limits,
     }
+    stress, (weakest, strongest) = of.units.stress or "one unit", USUAL["strain"]
     for name, values in given.items():
         for value, modulus in dict.fromkeys(zip(values, young, strict=False)):
-            least, largest = USUAL["strain"]
-            if not least <= value / modulus <= largest:
+            if not weakest <= value / modulus <= strongest:
                 words = f"material.{name} {value:g} over young_modulus {modulus:g} is {value / modulus:.3g}"
-                words += f", of metals {least:g} to {largest:g}"
-                warnings.warn(f"{words}: are both in {of.units.stress or 'one unit'}?", stacklevel=2)
-    (weakest, strongest), (least, largest) = USUAL["strain"], USUAL["modulus_ratio"]
+                words += f", of metals {weakest:g} to {strongest:g}"
+                warnings.warn(f"{words}: are both in {stress}?", stacklevel=2)
+    least, largest = USUAL["modulus_ratio"]
     for each, own in dict.fromkeys(zip(of.materials, young, strict=False)):
         ratio, strain = each.young_modulus / own, each.strength / own
         # With an unusual strength the body's modulus is the odd one, of which a warning has told.
         if weakest <= strain <= strongest and not least <= ratio <= largest:
             words = f"material.young_modulus {each.young_modulus:g} is {ratio:.3g} times the body's {own:g}"
-            stress = of.units.stress or "one unit"
             warnings.warn(f"{words}: are both of one material, and in {stress}?", stacklevel=2)
     for name, (least, largest) in USUAL["constants"].items():
         for value in dict.fromkeys(getattr(each, name) for each in of.materials):

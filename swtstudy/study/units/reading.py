@@ -16,27 +16,16 @@ import numpy as np
 
 from swtstudy.points import rules
 from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.grid import Grid
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.rules import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop
 from swtstudy.study.units import grid as grids
+from swtstudy.study.units import rows as units
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
-from swtstudy.study.units.rows import (
-    AT_REST_NAMES,
-    LABELS,
-    MEAN_LOADS,
-    NAMES_KEY,
-    NOTICEABLE_MISMATCH,
-    OF_BODIES,
-    SCALES,
-    SIMILAR_KEY,
-    labels_or,
-    rows,
-    wrong_mean_load,
-)
 from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
@@ -51,7 +40,7 @@ ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
 #: More contacts than these take minutes.
 MOST_CONTACTS = 300_000
 #: Words for a contact in every message.
-_SAID = ("radius", *MEAN_LOADS, *SHAPE_COLUMNS)
+_SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
 #: Largest pressure over E* that no metal sustains, and contact radius over R of a table, far above the limit
 #: of half-spaces.
 LARGEST_PRESSURE, LARGEST_RATIO = 0.1, 0.2
@@ -73,23 +62,23 @@ def read_contacts(
     """
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
-    raw = everything.get("profile", PARAMETERS["profile"].default)
-    tables, several = known.get("profile", {}), raw if isinstance(raw, list | tuple) else [raw]
+    raw, tables = everything.get("profile", PARAMETERS["profile"].default), known.get("profile", {})
+    several = raw if isinstance(raw, list | tuple) else [raw]
     profiles = [tables.get(each, each) if isinstance(each, str) else each for each in several]
     labels = grids.labels_of(given.units, profiles, everything)
-    own = {name: row for name, row in rows(labels).items() if name != DISTANCE}
+    own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
     pairs, single = _pairs(fixed, own, report)
-    similar = plain_number(single.pop(SIMILAR_KEY, given.similar))
+    similar = plain_number(single.pop(units.SIMILAR_KEY, given.similar))
     if not 0.0 <= similar < math.inf:
-        found = literal(fixed[SIMILAR_KEY])
-        report.of(SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
+        found = literal(fixed[units.SIMILAR_KEY])
+        report.of(units.SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
     body_names = _body_names(single, given.body_names, report)
-    others = (DISTANCE, SIMILAR_KEY, NAMES_KEY, *pairs)
+    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     _check_lengths(profiles, everything, report)
-    _check_given(everything, good, own, report)
+    _check_given({*everything}, good, own, report)
     rules.check_amplitudes(everything, good, report)
     rules.check_criteria(everything, good, report)
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
@@ -144,47 +133,41 @@ def completed(
     fixed: dict[str, Value], axes: NamedValues, samples: NamedValues, about: ContactDetails
 ) -> PhysicalGrid:
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
-    pairs = {name: two for name, two in about.pairs.items() if two[0] != two[1]}
-    fixed = fixed | {name: two[0] for name, two in about.pairs.items() if name not in pairs}
-    about = replace(about, pairs=pairs)
-    given = {*fixed, *axes, *samples, *pairs}
-    given |= replaced_by(given)
-    profiles = (*axes.get("profile", ()), *samples.get("profile", ()), fixed.get("profile"))
-    loads = axes.get("load") or samples.get("load") or tuple(v for n, v in fixed.items() if n == "load")
-    scaling = grids.scaling_of(loads)
-    fixed = fixed | grids.implied_amplitudes(given, loads, profiles)
-    given |= {*fixed} | replaced_by(fixed)
-    table = rows(grids.labels_of(about.units, profiles, given))
+    named = Grid(fixed, axes, samples)
+    loads, profiles, given = named.values("load"), named.values("profile"), {*named.names, *about.pairs}
+    fixed = fixed | grids.implied_amplitudes(given | replaced_by(given), loads, profiles)
+    given |= {*fixed} | replaced_by({*given, *fixed})
+    table = units.rows(grids.labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
-    if "bulk_stress_amplitude" in scaling:
+    if "bulk_stress_amplitude" in grids.scaling_of(loads):
         defaults["bulk_stress_amplitude"] = LOOP_AMPLITUDE
     if "bulk_stress_ratio" in given:
         del defaults["bulk_stress_mean"]
     fixed = fixed | {name: value for name, value in defaults.items() if name not in given}
     own = {name: fixed[name] for name in table if name in fixed}
-    grid = PhysicalGrid(own, dict(axes), dict(samples), **vars(about))
+    grid = PhysicalGrid(own, axes, samples, **vars(about))
     # Bodies with different s, SWT or cycles are both there.
     pulled = any(v != 0.0 for n in ("bulk_stress_amplitude", "bulk_stress_mean") for v in grid.values(n))
     of_both = (grid.materials, grid.yield_strengths, grid.shear_materials, grid.findley_limits)
     if "body" not in given and (grid.pairs or pulled or any(len({*each}) > 1 for each in of_both)):
-        return completed(fixed, {**axes, "body": (1.0, 2.0)}, samples, about)
+        return replace(grid, axes={**axes, "body": (1.0, 2.0)})
     return grid
 
 
 def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
     """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
-    raw = single.pop(NAMES_KEY, given or None)
+    raw = single.pop(units.NAMES_KEY, given or None)
     if raw is None:
         return ()
     names = tuple(raw) if isinstance(raw, list | tuple) else ()
     sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
     if len(names) != 2 or not sound or names[0] == names[1]:
-        report.of(NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
+        report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         return ()
     body = single.get("body")
-    if isinstance(body, str) and body not in map(str, LABELS):
+    if isinstance(body, str) and body not in map(str, units.LABELS):
         if body not in names:
-            report.of("body", literal(body), labels_or(names))
+            report.of("body", literal(body), units.labels_or(names))
         single["body"] = names.index(body) + 1 if body in names else 1
     return names
 
@@ -192,47 +175,49 @@ def _body_names(single: dict[str, object], given: tuple[str, ...], report: Repor
 def _pairs(
     fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
 ) -> tuple[dict[str, Any], dict[str, object]]:
-    """Split the fixed values into values of each body and the others; an empty pair for one that is wrong."""
-    pairs: dict[str, Any] = {}
-    for name in (name for name in OF_BODIES if isinstance(fixed.get(name), list | tuple)):
-        raw: Any = fixed[name]
+    """Split the fixed values into unlike values of both bodies, none where wrong, and the others."""
+    pairs, single = dict[str, Any](), dict(fixed)
+    for name in (name for name in units.OF_BODIES if isinstance(fixed.get(name), list | tuple)):
+        raw: Any = single.pop(name)
         both = {f"{name}[{i}]": one for i, one in enumerate(raw)} if len(raw) == 2 else {}
         if not both:
             report.of(name, literal(raw), f"{own[name].allowed}; or two, one for each body")
         read, _ = read_values(both, {}, report, rows=dict.fromkeys(both, own[name]))
-        pairs[name] = tuple(map(as_number, read.values())) if len(read) == 2 else ()
-    return pairs, {name: value for name, value in fixed.items() if name not in pairs}
+        two = tuple(map(as_number, read.values()))
+        if len({*two}) < len(two) == 2:
+            single[name] = two[0]
+        else:
+            pairs[name] = two if len(two) == 2 else ()
+    return pairs, single
 
 
-def _check_given(
-    everything: Collection[str], good: NamedValues, own: Mapping[str, Parameter], report: Report
-) -> None:
+def _check_given(everything: set[str], good: NamedValues, own: dict[str, Parameter], report: Report) -> None:
     """Report which values a contact lacks, and which exclude one another."""
-    tables = [isinstance(profile, Definition) for profile in good.get("profile", ("paraboloid",))]
+    profiles = good.get("profile", ("paraboloid",))
+    has_radius = not all(isinstance(profile, Definition) for profile in profiles)
     # A misspelt key is not lacking, too.
-    everything = {*everything, *(meant(name, own) or name for name in everything if name not in own)}
+    everything |= {meant(name, own) or name for name in everything if name not in own}
     # A wrong load is reported: nothing else is lacking because of it.
     measured = good.get("load") or ((ANY_MEASURED,) if "load" in everything else ())
-    profiles = good.get("profile", ())
     everything |= {*grids.implied_amplitudes(everything, measured, profiles)}
     for name in ("young_modulus", "poisson_ratio", "radius", "friction"):
-        if name not in everything and not (name == "radius" and all(tables)):
+        if name not in everything and (name != "radius" or has_radius):
             report.of(name, "nothing", own[name].allowed)
-    if "radius" in everything and all(tables) and tables:
+    if "radius" in everything and not has_radius and profiles:
         report.of("radius", "a radius", "nothing: the table of the profile has lengths")
     loops = [load for load in good.get("load", ()) if isinstance(load, Loop)]
     mean = grids.mean_of_loads(everything, measured)
-    if wrong := wrong_mean_load({*everything, *([mean] if mean else [])}):
-        absolute, hint = [load for load in measured if isinstance(load, Loop) and load.is_absolute], ""
-        if absolute:
-            hint = f"; or absolute = true under [loads.{absolute[0]}], whose normal column is far from 0"
-        report.of(MEAN_LOADS, wrong[0], wrong[1] + hint)
-    if {"bulk_stress_mean", "bulk_stress_ratio"} <= {*everything}:
+    if wrong := units.wrong_mean_load([*everything, *([mean] if mean else [])]):
+        found, allowed = wrong
+        for load in [load for load in loops if load.is_absolute][:1]:
+            allowed += f"; or absolute = true under [loads.{load}], whose normal column is far from 0"
+        report.of(units.MEAN_LOADS, found, allowed)
+    if {"bulk_stress_mean", "bulk_stress_ratio"} <= everything:
         report.of(("bulk_stress_mean", "bulk_stress_ratio"), "both", "one of the two")
     if any(value not in (1.0, 2.0) for value in good.get("body", ())):
         report.of("body", literal(list(good["body"])), "1 or 2")
     scaling = grids.scaling_of(loops)
-    sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & {*everything, *scaling}
+    sized = {"bulk_stress_amplitude", "bulk_stress_mean"} & (everything | scaling)
     if "bulk_stress_ratio" in everything and not sized:
         report.of("bulk_stress_amplitude", "nothing", "a stress, which bulk_stress_ratio needs")
     mixed = len(loops) < len(good.get("load", ()))  # what scales both kinds is asked for by check_amplitudes
@@ -258,20 +243,20 @@ def check_bodies(grid: PhysicalGrid, report: Report) -> None:
     Without friction nothing is dragged along, and bodies of any moduli are right.
     """
     rubbing = [as_number(value) for value in grid.values("friction") if as_number(value) > 0.0]
-    pairs = [Moduli(*both) for both in itertools.product(*map(grid.of_both, OF_BODIES))]
-    if not rubbing or not pairs:
+    if not rubbing:
         return
-    friction, beta = min(rubbing), max((pair.mismatch for pair in pairs), key=abs)
+    pairs = itertools.product(*map(grid.of_both, units.OF_BODIES))
+    friction, beta = min(rubbing), max((Moduli(*both).mismatch for both in pairs), key=abs)
     ratio = abs(beta) / friction
     found = f"Dundurs' β = {beta:.3g} is {ratio:.2g} times the friction {friction:g}"
     if ratio > grid.similar:
         enough = math.ceil(100.0 * ratio) / 100.0
         allowed = (
             f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1); "
-            f"{SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
+            f"{units.SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
         )
-        report.of(OF_BODIES, f"bodies that are not similar: {found}", allowed)
-    elif ratio > NOTICEABLE_MISMATCH:
+        report.of(units.OF_BODIES, f"bodies that are not similar: {found}", allowed)
+    elif ratio > units.NOTICEABLE_MISMATCH:
         words = f"{found}: pressure p drags tangential tractions of about β p along, which s leaves out"
         warnings.warn(words, stacklevel=2)
 
@@ -291,8 +276,8 @@ def read_contact(text: object) -> ContactDetails:
     except ValidationError as error:
         raise ValueError(f"not a contact: {error.errors()[0]['msg']}") from None
     several = [each for name, each in vars(given).items() if isinstance(each, tuple) and name != "blocks"]
-    sound = given.pairs.keys() <= {*OF_BODIES} and math.isfinite(given.similar)
-    if not sound or {*map(len, several)} - {0, len(LABELS)}:
+    sound = given.pairs.keys() <= {*units.OF_BODIES} and math.isfinite(given.similar)
+    if not sound or {*map(len, several)} - {0, len(units.LABELS)}:
         raise ValueError(f"not a contact: {literal(text)}")
     return given
 
@@ -340,7 +325,7 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
 
 def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Report) -> None:
     """A critical distance beyond its range in the smallest contact."""
-    unit, length = unit_words(grid.row(DISTANCE).units), grid.each(SCALES["a_H"].of)
+    unit, length = unit_words(grid.row(DISTANCE).units), grid.each(units.SCALES["a_H"].of)
     largest, smallest, upper = max(distances, default=0.0), float(length.min()), AXES[DISTANCE].upper
     if largest > upper * smallest:
         words = _words(grid, _at(grid, index_at(length, int(length.values.argmin()))))
@@ -391,7 +376,7 @@ def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
 def _words(grid: PhysicalGrid, here: Mapping[str, Value], but: str = "") -> str:
     """Which contact it is: its size and load, and whatever else of it varies, but for one parameter."""
     words = []
-    for name in (name for name in AT_REST_NAMES if name in here and name != but):
+    for name in (name for name in units.AT_REST_NAMES if name in here and name != but):
         value = here[name]
         if not isinstance(value, str | Definition) and (name in _SAID or grid.dimension(name)):
             words.append(f"{name} = {as_number(value):g}{unit_words(grid.row(name).units)}")

@@ -16,17 +16,7 @@ from swtstudy.study.units.life import Block, LifeCurve
 from swtstudy.study.units.rows import LABELS, TABLES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
-from swtstudy.vocabulary.derived import (
-    DERIVED,
-    LIFE,
-    LIVES,
-    NORMALISED,
-    PERCENTS,
-    RANKS,
-    REPETITIONS,
-    SHARE,
-    Derived,
-)
+from swtstudy.vocabulary.derived import DERIVED, LIFE, LIVES, NORMALISED, PERCENTS, RANKS, REPETITIONS, SHARE
 from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, Request
 from swtstudy.vocabulary.variables import CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
@@ -35,6 +25,7 @@ if TYPE_CHECKING:
     from swtstudy.study.units.at_rest import Contact
     from swtstudy.study.units.grid import PhysicalGrid
     from swtstudy.study.units.rows import Units
+    from swtstudy.vocabulary.derived import Derived
 
 #: Facts that an archive has even where there are none; others are left out then.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
@@ -192,10 +183,8 @@ def _of_constants(
         at = {dim: [k]} if len(both) > 1 else {}
         own = value.isel(at, missing_dims="ignore")
         dims = (*own.dims, *COUNTED_SIZES)
-        counted = [
-            dataset[name].isel(at, missing_dims="ignore").broadcast_like(own).transpose(*dims).values
-            for name in names
-        ]
+        shares = (dataset[name].isel(at, missing_dims="ignore") for name in names)
+        counted = [each.broadcast_like(own).transpose(*dims).values for each in shares]
         one, other = grid.curves(criterion, ratios, drawn)
         found = make(one, own.values, counted)
         if not np.array_equal(one, other):

@@ -93,17 +93,13 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
         elif likely := _likely_units(kind, label):
             report(f"units.{kind}", found, f"did you mean {' or '.join(likely)}?")
-    if len(report) > before:
-        return None
-    if not all(label in KNOWN[kind] for kind, label in labels.items()):
-        return Units(**labels)
-    length, force, stress = (KNOWN[kind][labels[kind]] for kind in UNIT_KINDS)
-    if math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
-        return Units(**labels)
-    number = f"{force / length**2 / stress:.3g}"
-    found = f"{labels['force']} over {labels['length']}², which is {number} {labels['stress']}"
-    report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {labels['stress']}")
-    return None
+    if len(report) == before and all(label in KNOWN[kind] for kind, label in labels.items()):
+        length, force, stress = (KNOWN[kind][label] for kind, label in labels.items())
+        if not math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
+            number, unit = f"{force / length**2 / stress:.3g}", labels["stress"]
+            found = f"{labels['force']} over {labels['length']}², which is {number} {unit}"
+            report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {unit}")
+    return Units(**labels) if len(report) == before else None
 
 
 def _likely_units(kind: str, label: str) -> list[str]:
