@@ -187,6 +187,7 @@ def test_pressure_of_strips(strip: Strip) -> None:
     b, edge = strip.flat, contact(strip, normal_force=MEAN).contact_radius
     share = np.array([-0.5, 0.05, 0.4, 0.9]) if b else np.array([0.05, 0.4, 0.9])
     x = b + (edge - b) * share
+    x = x[x > 0.0]
     expected = [strip.outer(each, edge) / np.pi for each in x]
     load = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.0}
     np.testing.assert_allclose(
