@@ -323,6 +323,17 @@ def test_a_sample_has_every_point_at_most_once(audited, tmp_path):
     assert places_of(one) != places_of(other)
 
 
+def test_points_of_a_sample_are_drawn_and_a_grid_without_end_is_refused(audited, tmp_path):
+    sample = "[sample]\ndesign = 'sobol'\nsize = 16\nranges = { phase = [0, 6], friction = [0.1, 0.5] }\n"
+    found = audit_study(Study.from_text(f'title = "t"\n{sample}'), tmp_path / "a.nc", points=10, workers=1)
+    assert len({*places_of(found)}) == found.sizes["sample"] == 10
+    names = ("friction", "phase", "normal_amplitude", "tangential_amplitude")
+    axes = "\n".join(f"{name} = {{ start = 0.1, stop = 0.9, num = 100000 }}" for name in names)
+    study = Study.from_text(f'title = "t"\n[axes]\n{axes}\n')
+    with pytest.raises(ValueError, match=r"1\d* points are too many to sample, at most 9"):
+        audit_study(study, tmp_path / "b.nc", points=1, workers=1)
+
+
 def test_an_audit_keeps_the_points_of_other_draws_but_not_of_other_solvers(audited, tmp_path):
     study, path = Study.from_toml(PARAMETER_BOX), tmp_path / "audit.nc"
     first = audit_study(study, path, points=5, seed=1, workers=1)

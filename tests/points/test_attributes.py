@@ -1,12 +1,15 @@
 """What stands beside the numbers of fields, averages and one point, in words that are not the package's."""
 
+from functools import partial
+
 import numpy as np
 import pytest
+import stand_in
+from made_up import made_up_audit
 from solved import REGIMES
+from study.told import RIG
 
 import swtstudy
-from swtstudy.paper.audit import VERDICTS
-from swtstudy.vocabulary.variables import ATTRIBUTES
 
 STRESS = {f"sigma_{name}": (rf"\sigma_{{{name}}}", "1") for name in ("xx", "yy", "zz", "yz", "xz", "xy")}
 PLACES = {name: (f"{name}/a_H", "1") for name in "xyz"}
@@ -79,14 +82,10 @@ def test_nonlocal_values():
     ],
 )
 def test_nonlocal_values_are_of_the_criterion(criterion, value):
-    found = swtstudy.solve(
-        criterion=criterion,
-        normal_sensitivity=0.3,
-        critical_distance=0.1,
-        tangential_amplitude=0.5,
-        rtol=1e-2,
-    )
-    told = {name: values.attrs for name, values in found.data_vars.items() if name not in ATTRIBUTES}
+    given = {"normal_sensitivity": 0.3, "critical_distance": 0.1, "tangential_amplitude": 0.5}
+    found = swtstudy.solve(criterion=criterion, **given, rtol=1e-2)
+    others = {*found} - {*swtstudy.solve(rtol=1e-2)}
+    told = {name: found[name].attrs for name in others}
     assert told["s_volume"]["long_name"] == f"mean of {value} over a volume"
     assert told["s_point"]["long_name"] == f"{value} at a distance"
     assert told["s_line"]["comment"] == (
@@ -97,21 +96,10 @@ def test_nonlocal_values_are_of_the_criterion(criterion, value):
 
 
 def test_counted_cycles_are_of_the_criterion():
-    own = {
-        "young_modulus": 210e3,
-        "poisson_ratio": 0.3,
-        "radius": 50.0,
-        "friction": 0.5,
-        "normal_force": 200.0,
-    }
-    contacts = swtstudy.physical(
-        **own,
-        tangential_force_amplitude=[30.0, 60.0],
-        criterion="fatemi_socie",
-        normal_sensitivity=0.3,
-        yield_strength=400.0,
-    )
-    found = contacts.solve(constants=swtstudy.FatigueConstants(210e3, 900.0, -0.1, 0.5, -0.6), rtol=1e-2)
+    own = RIG | {"normal_force": 200.0, "tangential_force_amplitude": [30.0, 60.0]}
+    own |= {"criterion": "fatemi_socie", "normal_sensitivity": 0.3, "yield_strength": 400.0}
+    contacts = swtstudy.physical(**own)
+    found = contacts.solve(constants=swtstudy.FatigueConstants(73.1e3, 900.0, -0.1, 0.5, -0.6), rtol=1e-2)
     assert found.counted.attrs["symbol"] == "s_i/s"
     assert not [each for each in found.counted.attrs.values() if "swt" in str(each).lower()]
 
@@ -144,7 +132,9 @@ def test_one_point():
 
 def test_flags_are_those_of_the_words():
     assert REGIMES == ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite", "no_equilibrium")
-    assert VERDICTS == ("none", "line_search", "plane_through_y", "symmetry_line", "surface", "not_finite")
+    assert tuple(swtstudy.solve(rtol=1e-2).regime.attrs["flag_meanings"].split()) == REGIMES
+    verdicts = made_up_audit().verdict.attrs["flag_meanings"]
+    assert verdicts == "none line_search plane_through_y symmetry_line surface not_finite"
 
 
 @pytest.mark.parametrize(
@@ -180,25 +170,45 @@ def test_xarray_labels_its_own_plots():
     assert "[" not in axes.get_xlabel()
 
 
-def test_every_variable_of_results_has_a_comment():
-    words = {
-        "s": "one elastic half-space with E*, G* against a rigid indenter",
-        "s_error": "estimated",
-        "s_surface": "over all planes",
-        "stick_zone": "whether s and all beside it have the stick zone moved by the bulk stress",
-        "bulk_shift": "by the strain of the bulk stress, in a_H",
-        "bulk_shift_ratio": "where stick_zone is in_place, s leaves it out and is too low",
-        "prescribed_force_ratio": "above 1 there is no equilibrium",
-        "radius_ratio": "half the width in plane contacts, over the radius R",
-        "slide_ratio": "exceeds the limit of partial slip, over the largest contact radius of a cycle",
-        "critical_x": "in units of a_H = sqrt(R delta0)",
-        "critical_angle": "angle of the normal of the critical plane against the x axis, in (-90, 90]",
-        "regime": "over the stationary cycle",
-        "status": "whether the point has been computed",
-        "run": "an index into the attribute runs; -1 if missing",
-        "message": "there if points failed",
-    }
-    assert words.keys() == ATTRIBUTES.keys()
-    for name, attributes in ATTRIBUTES.items():
-        assert words[name] in attributes.get("comment", ""), name
-        assert name == "message" or ("units" in attributes) != ("flag_meanings" in attributes), name
+#: Symbol and comment of each variable that all results have, or those with a bulk stress, with forces, with
+#: units or with points that failed.
+TOLD = {
+    "s": ("s", "one elastic half-space with E*, G* against a rigid indenter"),
+    "s_error": (r"\Delta s", "estimated"),
+    "s_surface": (r"s_\mathrm{surface}", "over all planes"),
+    "stick_zone": (None, "whether s and all beside it have the stick zone moved by the bulk stress"),
+    "bulk_shift": ("e/a_H", "by the strain of the bulk stress, in a_H"),
+    "bulk_shift_ratio": ("e/(a - c)", "where stick_zone is in_place, s leaves it out and is too low"),
+    "prescribed_force_ratio": (r"\max |F_x|/(\mu F_N)", "above 1 there is no equilibrium"),
+    "radius_ratio": (r"a_\mathrm{max}/R", "half the width in plane contacts, over the radius R"),
+    "slide_ratio": (
+        r"(u_\mathrm{A} - u_\mathrm{slip})/a_\mathrm{max}",
+        "exceeds the limit of partial slip, over the largest contact radius of a cycle",
+    ),
+    "critical_x": ("x/a_H", "in units of a_H = sqrt(R delta0)"),
+    "critical_angle": (r"\varphi", "of the normal of the critical plane against the x axis, in (-90, 90]"),
+    "regime": (None, "over the stationary cycle"),
+    "status": (None, "whether the point has been computed"),
+    "run": (None, "an index into the attribute runs; -1 if missing"),
+    "message": (None, "there if points failed"),
+}
+
+
+def test_what_a_reader_is_told_of_each_variable(tmp_path):
+    forces = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 0.5}
+    moved = swtstudy.solve(**forces, bulk_stress_amplitude=0.01, rtol=1e-2)
+    contact = swtstudy.physical(**RIG, depth=0.01, tangential_amplitude=1e-3)
+    study = swtstudy.Study.from_text('title = "t"\naxes.friction = [0.3, 0.4]\n')
+    failed = swtstudy.run(study, tmp_path / "a.nc", workers=1, solver=partial(stand_in.fail_at, 0.3))
+    found = {**contact.solve(1e-2).data_vars, **failed.data_vars, **moved.data_vars}
+    assert {*TOLD} == {*moved, *failed, "radius_ratio", "slide_ratio"}
+    for name, (symbol, words) in TOLD.items():
+        attributes = found[name].attrs
+        assert attributes.get("symbol") == symbol, name
+        assert words in attributes["comment"], name
+        # A pure number has no unit: xarray would show it as [1].
+        assert attributes.get("units") == ("degree" if name == "critical_angle" else None)
+    assert "SWT0 = E* delta0 / R" in found["s"].attrs["comment"]
+    for name, meanings in (("regime", " ".join(REGIMES)), ("status", "computed failed missing")):
+        assert found[name].attrs["flag_meanings"] == meanings
+        assert found[name].attrs["flag_values"].tolist() == [*range(len(meanings.split()))]

@@ -8,14 +8,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from asking import EVERY, study
-from click.testing import CliRunner
+from command import call
+from study.told import merged, refused
 
 import swtstudy
-from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.merge import merge
-from swtstudy.archive.netcdf import save
-from swtstudy.archive.paths import ArchiveError
-from swtstudy.cli import main
+from swtstudy import Study, open_results, run
 
 NEAR = "phase = [0.5, 1.0]\ncritical_distance = {}"
 
@@ -54,14 +51,12 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     xr.testing.assert_identical(open_results(path), more)
     one = run(study("[fixed]\ncritical_distance = 0.1\n", "phase = [2.0]"), tmp_path / "b.nc", workers=1)
     assert one.s_volume.dims == ("phase",)
-    merged = merge([path, tmp_path / "b.nc"], sparse=True)
-    assert merged.critical_distance.values.tolist() == [0.05, 0.1]
-    assert np.isnan(merged.s_volume.values).tolist() == [[False, False], [False, False], [True, False]]
-    save(merged, tmp_path / "merged.nc")
-    done = run(Study.from_text(merged.attrs["study"]), tmp_path / "merged.nc", workers=1)
+    both = merged(path, tmp_path / "b.nc", more=("--sparse",))
+    assert both.critical_distance.values.tolist() == [0.05, 0.1]
+    assert np.isnan(both.s_volume.values).tolist() == [[False, False], [False, False], [True, False]]
+    done = run(Study.from_text(both.attrs["study"]), tmp_path / "merged.nc", workers=1)
     assert np.isfinite(done.s_line).all()
-    told = CliRunner().invoke(main, ["info", str(tmp_path / "merged.nc")]).output
-    assert "distances      0.05, 0.1" in told
+    assert "distances      0.05, 0.1" in call("info", tmp_path / "merged.nc").output
 
 
 @pytest.mark.parametrize(
@@ -77,20 +72,17 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     ],
 )
 def test_bad_distances_are_named(entry: str, words: str) -> None:
-    with pytest.raises(StudyError, match=words) as error:
-        Study.from_text(f'title = "t"\n{entry}\n')
-    assert len(error.value.mistakes) == 1
+    assert len(refused(words, Study.from_text, f'title = "t"\n{entry}\n').mistakes) == 1
 
 
 def test_one_point_has_no_critical_distance() -> None:
-    with pytest.raises(StudyError, match="critical_distance: found unknown parameter"):
-        swtstudy.inspect_point(critical_distance=0.1)
-    with pytest.raises(StudyError, match=r"critical_distance: found .*; allowed: a single value or"):
-        swtstudy.solve(critical_distance=[[0.1]])
+    refused("critical_distance: found unknown", swtstudy.inspect_point, critical_distance=0.1)
+    words = "critical_distance: found .*; allowed: a single value or"
+    refused(words, swtstudy.solve, critical_distance=[[0.1]])
 
 
 def test_the_command_line_prints_a_column_for_each_distance() -> None:
-    answer = CliRunner().invoke(main, ["solve", "--critical-distance", "0.05,0.2", "--rtol", "1e-2"])
+    answer = call("solve", "--critical-distance", "0.05,0.2", "--rtol", "1e-2")
     header, row = (line.split("\t") for line in answer.output.splitlines())
     values = dict(zip(header, row, strict=True))
     assert float(values["s_volume[0.05]"]) > float(values["s_volume[0.2]"]) > 0.0
@@ -115,10 +107,9 @@ def test_the_command_line_prints_a_column_for_each_distance() -> None:
 def test_archives_with_damaged_quantities_are_refused(
     damage, words: str, two_distances: xr.Dataset, tmp_path: Path
 ) -> None:
-    path = tmp_path / "a.nc"
-    save(damage(two_distances), path)
-    with pytest.raises(ArchiveError, match=words):
-        open_results(path)
+    damage(two_distances).to_netcdf(tmp_path / "a.nc")
+    with pytest.raises(ValueError, match=words):
+        open_results(tmp_path / "a.nc")
 
 
 def test_means_of_what_is_the_same_everywhere() -> None:

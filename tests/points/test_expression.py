@@ -1,12 +1,23 @@
 import contextlib
+import json
 import math
 from fractions import Fraction
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
+from study.told import refused
 
-from swtstudy.points.values import evaluate
+from swtstudy import Study, StudyError
+
+#: Letters that TOML takes as they are, or as JSON writes them.
+LETTERS = st.characters(exclude_categories=["Cs", "Cc"])
+
+
+def evaluated(*texts: str, name: str = "phase") -> tuple:
+    """Texts as values of a parameter; phases may be any number."""
+    values = json.dumps(texts, ensure_ascii=False)
+    return Study.from_text(f'title = "t"\nsample.points.{name} = {values}\n').grid.samples[name]
 
 
 @pytest.mark.parametrize(
@@ -32,9 +43,12 @@ from swtstudy.points.values import evaluate
     ],
 )
 def test_value(text, value):
-    result = evaluate(text)
-    assert type(result) is type(value)
-    assert result == value
+    assert evaluated(text) == (float(value),)
+
+
+def test_ratios_are_exact():
+    ratios = evaluated("-(1 - 3) * 3/4", "sqrt(4/9)", "0.1", name="frequency_ratio")
+    assert ratios == (Fraction(3, 2), Fraction(2, 3), Fraction(1, 10))
 
 
 @pytest.mark.parametrize(
@@ -65,16 +79,21 @@ def test_value(text, value):
     ],
 )
 def test_refused(text, reason):
-    with pytest.raises(ValueError, match=reason):
-        evaluate(text)
+    refused(f"phase: .*{reason}", evaluated, text)
 
 
-@given(st.text(alphabet="0123456789.e+-*/() pisqrt", max_size=30) | st.text(max_size=100))
-def test_any_text_is_a_number_or_refused(text):
-    with contextlib.suppress(ValueError):
-        assert math.isfinite(evaluate(text))
+@settings(max_examples=20, deadline=None)
+@given(st.lists(st.text("0123456789.e+-*/() pisqrt") | st.text(LETTERS), min_size=1, max_size=20))
+def test_any_text_is_a_number_or_refused(texts):
+    with contextlib.suppress(StudyError):
+        assert all(map(math.isfinite, evaluated(*texts)))
 
 
-@given(st.fractions(-999, 999, max_denominator=999), st.fractions(-999, 999, max_denominator=999))
-def test_arithmetic_is_exact(a, b):
-    assert evaluate(f"({a}) + ({b}) * ({a}) - ({b})") == a + b * a - b
+PAIRS = st.tuples(*[st.fractions(-30, 30, max_denominator=999)] * 2)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.lists(PAIRS, min_size=1, max_size=20))
+def test_arithmetic_is_exact(pairs):
+    found = evaluated(*(f"({a}) + ({b}) * ({a}) - ({b})" for a, b in pairs))
+    assert found == tuple(float(a + b * a - b) for a, b in pairs)

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 import stand_in
+from study.told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
-from swtstudy.archive.paths import ArchiveError
 
 HUGE = 10**400
 R = np.linspace(0.0, 3.0, 9)
@@ -23,14 +23,10 @@ SQUARE = [[0.0, -1.0], [0.5, -1.0], [0.5, 1.0], [0.0, 1.0]]
 @pytest.mark.parametrize("number", [HUGE, -HUGE, 1e300, 1e101, float("nan")])
 def test_vertices_that_cannot_be_computed_with(number: float) -> None:
     vertices = [[0.0, 1.0], [number, 0.0], [0.0, -1.0]]
-    with pytest.raises(
-        StudyError, match=r"vertices of a, number 2: found .*allowed: finite numbers, in magnitude"
-    ):
-        LoadPath("a", vertices)
-    with pytest.raises(StudyError, match="allowed: rows of order"):
-        LoadPath.harmonic_sum("a", [(1, number, 0.0)], [(1, 1.0, 0.0)])
-    with pytest.raises(StudyError, match="allowed: rows of order"):
-        LoadPath.harmonic_sum("a", [(number, 1.0, 0.0)], [(1, 1.0, 0.0)])
+    words = r"vertices of a, number 2: found .*allowed: finite numbers, in magnitude"
+    refused(words, LoadPath, "a", vertices)
+    refused("allowed: rows of order", LoadPath.harmonic_sum, "a", [(1, number, 0.0)], [(1, 1.0, 0.0)])
+    refused("allowed: rows of order", LoadPath.harmonic_sum, "a", [(number, 1.0, 0.0)], [(1, 1.0, 0.0)])
 
 
 @pytest.mark.parametrize("kind", ["vertices", "radius", "normal"])
@@ -50,10 +46,8 @@ def test_integers_of_many_digits_in_a_study(kind: str) -> None:
 )
 def test_loads_beside_which_the_mean_is_rounding(vertices: list[list[float]]) -> None:
     loop = LoadPath("rig", vertices)
-    with pytest.raises(
-        StudyError, match=r"load: found 'rig' with a \w+( stress)? of 1e\+10; allowed: at most 1e\+09"
-    ):
-        swtstudy.solve(load=loop)
+    words = r"load: found 'rig' with a \w+( stress)? of 1e\+10; allowed: at most 1e\+09"
+    refused(words, swtstudy.solve, load=loop)
     # Scaled, as by a unit, it is like any other.
     bulk = {"bulk_stress_amplitude": 1e-10} if loop.bulk_ends else {}
     small = swtstudy.solve(load=loop, normal_amplitude=1e-10, tangential_amplitude=1e-10, rtol=1e-2, **bulk)
@@ -68,8 +62,7 @@ def test_masked_values_are_no_data() -> None:
     mask = np.zeros((4, 2), bool)
     assert LoadPath("a", np.ma.array(SQUARE, mask=mask)) == LoadPath("a", SQUARE)
     mask[2, 0] = True
-    with pytest.raises(StudyError, match=r"vertices of a, number 3: found \[nan, 1.0\]"):
-        LoadPath("a", np.ma.array(SQUARE, mask=mask))
+    refused(r"vertices of a, number 3: found \[nan, 1.0\]", LoadPath, "a", np.ma.array(SQUARE, mask=mask))
     with pytest.raises(StudyError, match=r"a.height: found nan at point .*; allowed: finite numbers"):
         TabulatedProfile("a", R, np.ma.array(R**2, mask=R == 3.0))
     with pytest.raises(StudyError, match=r"a.radius: found nan at point .*; allowed: finite numbers"):
@@ -87,10 +80,8 @@ def test_masked_values_are_no_data() -> None:
     ],
 )
 def test_what_is_no_number_is_no_profile_and_no_loop(values: Any) -> None:
-    with pytest.raises(StudyError, match=r"a.height: found no one-dimensional array of numbers"):
-        TabulatedProfile("a", R, values)
-    with pytest.raises(StudyError, match="allowed: a list of pairs of numbers"):
-        LoadPath("a", np.reshape(values[:8], (4, 2)))
+    refused(r"a.height: found no one-dimensional array of numbers", TabulatedProfile, "a", R, values)
+    refused("allowed: a list of pairs of numbers", LoadPath, "a", np.reshape(values[:8], (4, 2)))
 
 
 @pytest.mark.parametrize("scale", [3e150, 1e21, 1e-22, 1e-200, HUGE])
@@ -135,7 +126,7 @@ def test_attributes_of_an_archive(
         value = json.dumps(json.loads(dataset.attrs["contact"]) | {"similar": HUGE})
     dataset.attrs[attribute] = value
     dataset.to_netcdf(tmp_path / "a.nc")
-    with pytest.raises(ArchiveError, match=words):
+    with pytest.raises(ValueError, match=words):
         open_results(tmp_path / "a.nc")
 
 
@@ -143,8 +134,5 @@ def test_attributes_of_an_archive(
 def test_axes_that_are_too_long_only_together_are_told_of_at_once(other: str) -> None:
     text = f'title = "t"\n[axes]\nphase = {{start = 0, stop = 1, num = 1000000}}\nfriction = {other}'
     begin = time.process_time()
-    with pytest.raises(
-        StudyError, match=r"axes.phase, axes.friction: .* at most 1000000 values along all axes"
-    ):
-        Study.from_text(text)
+    refused(r"axes.phase, axes.friction: .* at most 1000000 values along all axes", Study.from_text, text)
     assert time.process_time() - begin < 1.0

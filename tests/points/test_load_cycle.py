@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from real import ALUMINIUM, CONTACT
+from study.told import RIG
 
 import swtstudy
 from swtstudy import Study, run
@@ -43,18 +44,14 @@ def test_dissipation_is_the_area_of_the_loop_that_inspect_shows() -> None:
 
 @pytest.mark.parametrize(("ratio", "bulk"), [("4", 0.0), pytest.param("7/5", 20.0, marks=pytest.mark.slow)])
 def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: float) -> None:
-    contact = swtstudy.physical(
-        young_modulus=73.1e3,
-        poisson_ratio=0.33,
-        radius=50.0,
-        friction=0.5,
-        normal_force=200.0,
-        tangential_force_amplitude=60.0,
-        normal_force_amplitude=np.multiply(RESTING, 200.0),
-        frequency_ratio=ratio,
-        phase=0.7,
-        bulk_stress_mean=bulk,
-    )
+    loads = {
+        "normal_force": 200.0,
+        "tangential_force_amplitude": 60.0,
+        "frequency_ratio": ratio,
+        "phase": 0.7,
+    }
+    loads |= {"normal_force_amplitude": np.multiply(RESTING, 200.0), "bulk_stress_mean": bulk}
+    contact = swtstudy.physical(**RIG, **loads)
     asked = {"quantities": ["dissipation"], "constants": ALUMINIUM}
     found = contact.solve(1e-2, **asked)
     for name in ("dissipation", "cycles"):

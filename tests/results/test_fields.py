@@ -10,6 +10,7 @@ import xarray as xr
 from oracles import hertz
 from scenes import each_profile, random_points
 from scipy.integrate import simpson
+from study.told import refused
 
 import swtstudy
 from swtstudy import StudyError
@@ -211,8 +212,7 @@ PUBLIC = {
 @pytest.mark.parametrize("value", NO_NUMBERS.values(), ids=NO_NUMBERS)
 @pytest.mark.parametrize("key", PUBLIC)
 def test_what_is_no_number_is_one_mistake(key, value):
-    with pytest.raises(StudyError, match=rf"^{key}: found .*; allowed: [^\n]*$"):
-        PUBLIC[key](value)
+    refused(rf"^{key}: found .*; allowed: [^\n]*$", PUBLIC[key], value)
 
 
 def test_every_wrong_position_is_named():
@@ -233,8 +233,7 @@ def test_positions_agree_in_their_coordinates(field):
         return xr.DataArray([0.1, 0.2], dims="point", coords={"point": places})
 
     for other in (positions([1, 2]), positions([1, 0]), xr.DataArray([0.1] * 3, dims="point")):
-        with pytest.raises(StudyError, match="x, y, z: found DataArrays that do not fit together"):
-            field(positions([0, 1]), other, 0.1)
+        refused("x, y, z: found DataArrays that do not fit together", field, positions([0, 1]), other, 0.1)
     across = xr.DataArray([0.3, 0.4, 0.5], dims="other")
     spanned = field(positions([0, 1]), across, 0.1)
     assert spanned.sizes["point"] == 2
@@ -382,8 +381,7 @@ def test_there_is_no_field_without_equilibrium(field):
     """Friction carries up to the normal force: what is left of a larger one is no solution."""
     places = ([0.5],) if field is swtstudy.slip_map else ([0.5], 0.0, 0.0)
     forces = {"normal_force_amplitude": 0.0, "tangential_force_amplitude": 1.2}
-    with pytest.raises(StudyError, match=r"^tangential_force_amplitude: found 1.2, at which the body slides"):
-        field(*places, **forces)
+    refused(r"^tangential_force_amplitude: found 1.2, at which the body slides", field, *places, **forces)
     assert field(*places, **(forces | {"tangential_force_amplitude": 0.9})).sizes
 
 

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from real import ALLOY, ALUMINIUM
+from study.told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, physical
@@ -115,8 +116,7 @@ def test_distances_without_a_life_are_not_tried(rig, monkeypatch):
     monkeypatch.setattr(fitting, "_lives", ending)
     assert float(swtstudy.fit(rig[0], tests).critical_distance) == pytest.approx(0.05, rel=1e-3)
     end[0] = 0.0
-    with pytest.raises(StudyError, match="no finite life of test 5; allowed"):
-        swtstudy.fit(rig[0], tests)
+    refused("no finite life of test 5; allowed", swtstudy.fit, rig[0], tests)
 
 
 def test_friction_is_fitted_beside_it(rig, monkeypatch):
@@ -295,8 +295,7 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     ],
 )
 def test_wrong_tables_are_named(rig, tests, words):
-    with pytest.raises(StudyError, match=words):
-        swtstudy.fit(rig[0], tests)
+    refused(words, swtstudy.fit, rig[0], tests)
 
 
 def test_a_table_of_pandas_is_one_of_tests(rig, monkeypatch):
@@ -321,27 +320,22 @@ def test_mistakes_in_a_file_of_tests_are_named_by_file_and_line(rig, tmp_path):
         ("", "found no tests; allowed: a row for each"),
     ):
         path.write_text(f"tangential_force_amplitude,life,runout\n\n{rows}\n")
-        with pytest.raises(StudyError, match=f"^{re.escape(str(path))}: {words}"):
-            swtstudy.fit(rig[0], path)
+        refused(f"^{re.escape(str(path))}: {words}", swtstudy.fit, rig[0], path)
 
 
 def test_a_table_of_tests_is_told_no_keys_that_it_has_not(rig, tmp_path):
     path = tmp_path / "tests.csv"
     path.write_bytes("tangential_force_amplitude;life;by\n30;1e5;Müller\n60;1e6;Müller\n".encode("latin-1"))
-    with pytest.raises(StudyError, match=r"that are not UTF-8; allowed: the file saved as UTF-8$"):
-        swtstudy.fit(rig[0], path)
+    refused(r"that are not UTF-8; allowed: the file saved as UTF-8$", swtstudy.fit, rig[0], path)
     path.write_text("tangential_force_amplitude;Nf\n30;1e5\n")
-    with pytest.raises(StudyError, match=r"line 1: found the columns .*; allowed: a header with life$"):
-        swtstudy.fit(rig[0], path)
+    refused(r"line 1: found the columns .*; allowed: a header with life$", swtstudy.fit, rig[0], path)
 
 
 def test_mistakes_in_a_file_of_tests_name_it(rig, tmp_path):
     path = tmp_path / "tests.csv"
     path.write_text("normal_forc,tangential_force_amplitude,life\n200,60,1e6\n200,80,1e5\n")
-    with pytest.raises(StudyError, match=r"tests\.csv: normal_forc: found unknown parameter"):
-        swtstudy.fit(rig[0], path)
-    with pytest.raises(StudyError, match=r"tests\.csv: found a table of values \(CSV\); allowed: a study"):
-        swtstudy.fit(path, rig[0])
+    refused(r"tests\.csv: normal_forc: found unknown parameter", swtstudy.fit, rig[0], path)
+    refused(r"tests\.csv: found a table of values \(CSV\); allowed: a study", swtstudy.fit, path, rig[0])
 
 
 def test_all_mistakes_of_a_table_are_named_as_its_own(rig):
@@ -360,21 +354,16 @@ def test_all_mistakes_of_a_table_are_named_as_its_own(rig):
 
 def test_wrong_requests_are_named(rig, tmp_path):
     tests = {"tangential_force_amplitude": [30, 60], "life": [1e5, 1e6]}
-    with pytest.raises(StudyError, match="y: found 'cycles'"):
-        swtstudy.fit(rig[0], tests, y="cycles")
-    with pytest.raises(StudyError, match=r"y: found 'FS_cycles'; allowed: .*FS_cycles_volume"):
-        swtstudy.fit(rig[0], tests, y="FS_cycles")
-    with pytest.raises(
-        StudyError, match="y: found 'FS_cycles_volume'; allowed: one of cycles_volume, cycles_p"
-    ):
-        swtstudy.fit(rig[0], tests, y="FS_cycles_volume")
+    refused("y: found 'cycles'", swtstudy.fit, rig[0], tests, y="cycles")
+    refused(r"y: found 'FS_cycles'; allowed: .*FS_cycles_volume", swtstudy.fit, rig[0], tests, y="FS_cycles")
+    words = "y: found 'FS_cycles_volume'; allowed: one of cycles_volume, cycles_p"
+    refused(words, swtstudy.fit, rig[0], tests, y="FS_cycles_volume")
     other = tmp_path / "other.toml"
     other.write_text(STUDY.replace("friction = 0.5", "friction = 5"), encoding="utf-8")
     three = {"tangential_force_amplitude": [30, 60, 80], "life": [1e5, 1e6, 1e7]}
     with pytest.raises(StudyError, match="friction: found 5; allowed: a positive number below 3"):
         swtstudy.fit(other, three, friction=True)
-    with pytest.raises(StudyError, match="confidence: found 2"):
-        swtstudy.fit(rig[0], tests, confidence=2)
+    refused("confidence: found 2", swtstudy.fit, rig[0], tests, confidence=2)
     plain = tmp_path / "plain.toml"
     plain.write_text('title = "t"', encoding="utf-8")
     with pytest.raises(StudyError, match=r"a study with \[units\] and the constants"):
@@ -488,14 +477,12 @@ def test_usual_moduli_are_not():
     ],
 )
 def test_wrong_properties_are_named(lines, words):
-    with pytest.raises(StudyError, match=words):
-        Study.from_text(with_material(*lines))
+    refused(words, Study.from_text, with_material(*lines))
 
 
 def test_a_distance_beside_them_is_one_too_many():
     text = with_material(*RANGES).replace("radius = 50", "radius = 50\ncritical_distance = 0.05")
-    with pytest.raises(StudyError, match="a threshold and a fatigue limit beside a critical_distance"):
-        Study.from_text(text)
+    refused("a threshold and a fatigue limit beside a critical_distance", Study.from_text, text)
 
 
 def test_properties_of_a_file_and_alone(tmp_path):

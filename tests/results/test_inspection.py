@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy.results.inspection import marked_instants
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -135,18 +134,17 @@ def test_mistakes_are_named():
         swtstudy.inspect(phase=[0, 1])
 
 
-def test_instants_near_to_one_another_are_one_also_across_the_end_of_the_cycle():
-    share = np.linspace(0.0, 1.0, 101)
-    curves = {"depth": 1.0 + 0.0 * share, "displacement": np.sin(2.0 * np.pi * share)}
-    curves["normal_stress"] = np.where(np.arange(101) == 2, 1.0, 0.0)
-    curves["normal_strain"] = np.where(np.arange(101) == 97, -1.0, 0.0)
-    index, reasons = marked_instants(share, curves)
-    # 0.02 and 0.97 are 0.05 of a cycle apart.
-    assert "ε_n smallest" not in reasons
-    assert 2 in index
-    curves["normal_strain"] = np.where(np.arange(101) == 80, -1.0, 0.0)
-    index, reasons = marked_instants(share, curves)
-    assert dict(zip(reasons, index.tolist(), strict=True))["ε_n smallest"] == 80
+@pytest.mark.parametrize("phase", [0.0, 0.1, 0.3, 2.9, 3.1, 6.2])
+@pytest.mark.parametrize("ratio", ["1", "3/2"])
+def test_instants_near_to_one_another_are_one_also_across_the_end_of_the_cycle(phase, ratio):
+    """Next to 0 and 2π the extremes of σ_n and ε_n are on both sides of where the cycle begins."""
+    point = swtstudy.inspect_point(normal_amplitude=0.6, phase=phase, frequency_ratio=ratio)
+    period = float(point.time.max() - point.time.min())
+    share = np.sort(point.instant_time.values) / period
+    assert np.diff(np.append(share, share[0] + 1.0)).min() >= 0.079
+    largest = point.normal_stress.argmax("time")
+    at = float(point.instant_time[point.reason.values.tolist().index("σ_n largest")])
+    assert at == pytest.approx(float(point.time[largest]), abs=1e-9)
 
 
 def test_where_nothing_moves_one_instant_is_shown():

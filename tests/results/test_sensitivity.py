@@ -1,14 +1,16 @@
+import shutil
+from pathlib import Path
+
 import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from click.testing import CliRunner
+from command import call
+from folders import RESULTS
 from solved import REGIMES
+from study.told import refused
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
-from swtstudy.cli import main
-from swtstudy.figures.statistics import draw_sensitivity
-from swtstudy.paper.markdown import table
 
 STUDY = """
 title = "Ishigami"
@@ -48,8 +50,23 @@ TOTAL = (PARTS + np.array([BOTH, 0.0, BOTH])) / VARIANCE
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
     path = tmp_path_factory.mktemp("r") / "ishigami.nc"
-    run(Study.from_text(STUDY.format(size=1024)), path, workers=1, solver=ishigami)
-    return open_results(path)
+    path.with_suffix(".toml").write_text(STUDY.format(size=1024))
+    run(Study.from_toml(path.with_suffix(".toml")), path, workers=1, solver=ishigami)
+    return open_results(path).assign_attrs(path=path)
+
+
+@pytest.fixture
+def told(monkeypatch):
+    """What `swtstudy sensitivity` prints of a study, and the figure that it draws."""
+    drawn = []
+    monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, path: drawn.append(figure))
+
+    def command(study, *options):
+        result = call("sensitivity", study, "--results", Path(study).parent, "--workers", 1, *options)
+        assert result.exit_code == 0, result.output
+        return result.output, drawn[-1]
+
+    return command
 
 
 @pytest.fixture(scope="module")
@@ -127,20 +144,17 @@ def test_points_without_a_number_are_refused_by_name(results):
     ],
 )
 def test_wrong_arguments_are_named(results, given, words):
-    with pytest.raises(StudyError, match=words):
-        sensitivity(results, **given)
+    refused(words, sensitivity, results, **given)
 
 
 @pytest.mark.parametrize("given", ["sensitivity.nc", Study.from_text('title = "t"\naxes.phase = [0, 1]\n')])
 def test_only_results_have_indices(given):
-    with pytest.raises(StudyError, match=r"^dataset: found .*; allowed: results, as of swtstudy.run or"):
-        sensitivity(given)
+    refused(r"^dataset: found .*; allowed: results, as of swtstudy.run or", sensitivity, given)
 
 
 def test_other_samples_are_refused(results, tmp_path):
     for part in (results.isel(sample=slice(100)), results.isel(sample=slice(None, None, -1))):
-        with pytest.raises(StudyError, match=r"^sample: found .*; allowed: all points of a saltelli design"):
-            sensitivity(part)
+        refused(r"^sample: found .*; allowed: all points of a saltelli design", sensitivity, part)
     other = Study.from_text(STUDY.format(size=8).replace("saltelli", "sobol"))
     with pytest.raises(StudyError, match=r"sample.design: found the design sobol"):
         sensitivity(run(other, tmp_path / "a.nc", workers=1, solver=ishigami))
@@ -150,8 +164,8 @@ def test_other_samples_are_refused(results, tmp_path):
 
 
 @pytest.mark.usefixtures("unwrapped")
-def test_the_bars_are_the_indices(indices):
-    figure = draw_sensitivity(indices)
+def test_the_bars_are_the_indices(indices, results, told):
+    text, figure = told(results.path.with_suffix(".toml"), "--y", "s", "--y", "critical_x")
     panels = np.array(figure.axes).reshape(2, 2)
     for row, quantity in enumerate(("s", "critical_x")):
         for column in range(2):
@@ -168,40 +182,35 @@ def test_the_bars_are_the_indices(indices):
     assert panels[0, 1].get_title(loc="left") == r"$\delta_A/\delta_0$ = 0.5"
     assert [text.get_text() for text in panels[1, 0].get_xticklabels()][:2] == [r"$\mu$", r"$\nu$"]
 
-
-def test_the_table_has_what_the_paper_says(indices):
-    lines = table(indices, of_paper=True).splitlines()
+    (line, *_) = (line for line in text.splitlines() if "ν poisson_ratio" in line)
     of_s = indices.sel(quantity="s").isel(normal_amplitude=0)
-    line = next(line for line in lines if "ν poisson_ratio" in line)
     assert f"| {float(of_s.first_order[1]):.3f} |" in line
+    assert "the paper says" not in text  # of a study that is not its
+    assert "## critical_x, normal_amplitude = 0.5" in text.splitlines()
+
+
+def test_the_table_has_what_the_paper_says(tmp_path):
+    shutil.copy2(RESULTS / "sensitivity.nc", tmp_path)
+    result = call("sensitivity", "sensitivity", "--results", tmp_path)
+    assert result.exit_code == 0, result.output
+    (line, *_) = (line for line in result.output.splitlines() if "ν poisson_ratio" in line)
     assert line.endswith("| weak but intricate (section 4.1) |")
-    assert "## critical_x, normal_amplitude = 0.5" in lines
-    turned = indices.drop_vars("phase").rename(normal_amplitude="phase")
-    turned = turned.assign_coords(phase=("phase", [0.0, np.pi / 2], {"units": "rad"}))
-    assert "## s, phase = π/2" in table(turned, of_paper=False).splitlines()
-    # Of a parameter that it does not have it says nothing.
-    other = table(
-        indices.assign_coords(parameter=["friction", "poisson_ratio", "walker_exponent"]), of_paper=True
-    ).splitlines()
-    assert next(line for line in other if "walker_exponent" in line).endswith("|  |")
 
 
 def test_the_command_computes_and_writes(tmp_path):
     text = STUDY.format(size=2).replace("tangential_amplitude = [0, 2]", "").replace("[0.25, 0.5]", "[0.25]")
     (tmp_path / "mine.toml").write_text("rtol = 1e-2\n" + text)
-    command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
-    result = CliRunner().invoke(main, [*command, "--y", "s", "--y", "s_surface"])
+    command = ["sensitivity", tmp_path / "mine.toml", "--results", tmp_path, "--workers", 1]
+    result = call(*command, "--y", "s", "--y", "s_surface")
     assert result.exit_code == 0, result.output
     assert "| μ friction |" in result.output
-    assert "the paper says" not in result.output  # of a study that is not its
     for name in ("mine.nc", *(f"mine_indices_s_s_surface{end}" for end in (".nc", ".md", ".png"))):
         assert (tmp_path / name).stat().st_size > 0
     # Another quantity does not take the place of these.
-    result = CliRunner().invoke(main, command)
-    assert "## s, " in result.output
+    assert "## s, " in call(*command).output
     assert (tmp_path / "mine_indices.md").exists()
     (tmp_path / "mine.toml").write_text(text.replace("saltelli", "sobol"))
-    result = CliRunner().invoke(main, command)
+    result = call(*command)
     assert result.exit_code == 2
     assert 'found the design sobol; allowed: "saltelli"' in result.output
 
@@ -222,16 +231,11 @@ normal_force_amplitude = [0, 20]
 """
 
 
-def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
-    drawn = []
+def test_a_study_with_units_has_its_own_symbols(tmp_path, told):
     (tmp_path / "mine.toml").write_text(RIG)
-    monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, path: drawn.append(figure))
-    command = ["sensitivity", str(tmp_path / "mine.toml"), "--results", str(tmp_path), "--workers", "1"]
-    result = CliRunner().invoke(main, command)
-    assert result.exit_code == 0, result.output
-    assert "## SWT, normal_force_amplitude = 20 N, body = 2\n" in result.output
-    assert "| F0 normal_force |" in result.output
-    (figure,) = drawn
+    text, figure = told(tmp_path / "mine.toml")
+    assert "## SWT, normal_force_amplitude = 20 N, body = 2\n" in text
+    assert "| F0 normal_force |" in text
     figure.draw_without_rendering()
     axes = figure.axes[0]
     assert [text.get_text() for text in axes.get_xticklabels()] == ["$F_0$", "$Q_A$"]
@@ -239,20 +243,16 @@ def test_a_study_with_units_has_its_own_symbols(tmp_path, monkeypatch):
     box = figure._suptitle.get_window_extent()
     assert box.x0 >= 0.0
     assert box.x1 <= figure.bbox.width
-    narrow = draw_sensitivity(open_indices(tmp_path).isel(normal_force_amplitude=0, body=0))
+    one_axis = RIG.replace("normal_force_amplitude = [0, 20]", "body = [1]")
+    (tmp_path / "narrow.toml").write_text(one_axis)
+    _, narrow = told(tmp_path / "narrow.toml")
     narrow.draw_without_rendering()
     box = narrow._suptitle.get_window_extent()
     assert box.x0 >= 0.0
     assert box.x1 <= narrow.bbox.width
 
 
-def open_indices(folder):
-    with xr.open_dataset(folder / "mine_indices.nc") as file:
-        return file.load()
-
-
 def test_one_parameter_has_no_share():
     design = {"design": "saltelli", "parameters": "friction", "size": 2}
     dataset = xr.Dataset(coords={"sample": ("sample", np.arange(6), design)})
-    with pytest.raises(StudyError, match=r"^sample\.ranges: found friction; allowed: at least two par"):
-        sensitivity(dataset)
+    refused(r"^sample\.ranges: found friction; allowed: at least two par", sensitivity, dataset)

@@ -9,18 +9,12 @@ import pytest
 import stand_in
 from numpy.testing import assert_allclose
 from real import ALUMINIUM, BODIES, STUDY, plain, without
+from study.told import RIG
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
 
-CONTACT = {
-    "young_modulus": 73.1e3,
-    "poisson_ratio": 0.33,
-    "radius": 50.0,
-    "friction": 0.5,
-    "normal_force": [200.0],
-    "tangential_amplitude": 1.5e-3,
-}
+CONTACT = RIG | {"normal_force": [200.0], "tangential_amplitude": 1.5e-3}
 
 
 def lives(**given):
@@ -122,9 +116,6 @@ def test_without_a_material_nothing_is_counted() -> None:
 def test_next_to_nothing_is_counted_too(size: float) -> None:
     """No plane of the search is then worse than the critical one."""
     load = LoadPath.harmonic_sum("small", [(1, size, 0.0)], [(1, size, 0.3)])
-    steel = FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
     forces = {"normal_force": 200, "normal_force_amplitude": 1, "tangential_force_amplitude": 1}
-    contact = swtstudy.physical(
-        young_modulus=73.1e3, poisson_ratio=0.33, radius=50, friction=0.6, load=load, **forces
-    )
-    assert (contact.solve(rtol=1e-3, constants=steel).cycles > 1e30).all()
+    contact = swtstudy.physical(**RIG | {"friction": 0.6}, load=load, **forces)
+    assert (contact.solve(rtol=1e-3, constants=ALUMINIUM).cycles > 1e30).all()

@@ -195,22 +195,18 @@ def test_a_criterion_is_a_dimension() -> None:
     assert "beneath the surface" in alone.s.attrs["comment"]
 
 
+FINDLEY = {"criterion": "findley", "normal_sensitivity": 0.3}
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
         ({"criterion": "findley"}, "normal_sensitivity: found nothing"),
         ({"normal_sensitivity": 0.3}, "normal_sensitivity: found a value with the criterion swt"),
+        (FINDLEY | {"walker_exponent": 0.4}, "walker_exponent: found"),
         (
-            {"criterion": "findley", "normal_sensitivity": 0.3, "walker_exponent": 0.4},
-            "walker_exponent: found",
-        ),
-        (
-            {
-                "criterion": ["swt", "findley"],
-                "normal_sensitivity": 0.3,
-                "profile": "truncated_paraboloid",
-                "flat_radius": 0.3,
-            },
+            FINDLEY
+            | {"criterion": ["swt", "findley"], "profile": "truncated_paraboloid", "flat_radius": 0.3},
             "profile: found truncated_paraboloid with the criterion findley",
         ),
         ({"criterion": "tresca"}, "criterion: found 'tresca'"),
@@ -300,13 +296,8 @@ def test_criteria_with_units() -> None:
     strong = both.solve(1e-5, constants=constants)
     for body, strength in ((1, 400.0), (2, 500.0)):
         fs = strong.sel(body=body, criterion="fatemi_socie")
-        alone = swtstudy.solve(
-            **given,
-            criterion="fatemi_socie",
-            normal_sensitivity=0.3 * stress / strength,
-            poisson_ratio=0.3,
-            rtol=1e-5,
-        )
+        own = {"criterion": "fatemi_socie", "normal_sensitivity": 0.3 * stress / strength}
+        alone = swtstudy.solve(**given, **own, poisson_ratio=0.3, rtol=1e-5)
         np.testing.assert_allclose(fs.s, alone.s, rtol=1e-6)
         np.testing.assert_allclose(fs.FS, alone.s * stress / (210e3 / 2.6), rtol=1e-6)
         life = swtstudy.ShearConstants.estimated(constants[0], 0.3)

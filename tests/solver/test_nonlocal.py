@@ -1,10 +1,12 @@
 """Means of swt over critical distances: their quadrature and their values."""
 
 from dataclasses import dataclass, replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from body import DOWN, opened
+from recorded import recorded
 from scenes import points
 from scipy.integrate import simpson
 from solved import solve_points
@@ -198,58 +200,33 @@ def worn():
     return TabulatedProfile("worn", r, height)
 
 
-def with_bulk(batch):
-    bulk = {"bulk_stress_mean": np.array([0.05]), "bulk_stress_amplitude": np.array([0.05])}
-    return replace(batch, **bulk)
+def scene(profile="paraboloid", frequency_ratio="1", **given):
+    """A recorded point as a batch; "worn" is the table."""
+    bulk = {name: np.array([given.pop(name)]) for name in [*given] if name.startswith("bulk")}
+    p, q = Fraction(frequency_ratio).as_integer_ratio()
+    batch = points("paraboloid" if profile == "worn" else profile, **given, p=p, q=q)
+    return replace(batch, **bulk, **({"profile": worn()} if profile == "worn" else {}))
 
 
 #: ℓ, and means over the half sphere, at ℓ/2 and over 0 … 2ℓ straight down, of the field with many instants
 #: common to a circle and all planes searched at each place, by Gauss's rule in cylindrical coordinates
 #: about the axis (10 × 4 × 14 places on either side; of the power law 14 × 4 × 18 with 24 instants on each
 #: stretch: with 10 it is 1.3e-3 low) and by Simpson's rule (25 places).
-KNOWN = [
-    (points(phase=2.5, normal_amplitude=0.25), 0.1, 0.0454978, 0.0297589, 0.0215015),
-    (points("rounded_punch", phase=0.7, p=1, q=2, flat_radius=0.5), 0.05, 0.0875051, 0.0716282, 0.0575010),
-    (
-        points("truncated_paraboloid", phase=1.0, tangential_amplitude=1.2, flat_radius=0.3),
-        0.08,
-        0.0649775,
-        0.0479510,
-        0.0367803,
-    ),
-    (
-        with_bulk(
-            points(
-                "wavy_paraboloid", phase=4.0, normal_amplitude=0.4, waviness_amplitude=0.02, wavelength=5.0
-            )
-        ),
-        0.1,
-        0.0773251,
-        0.0560010,
-        0.0447141,
-    ),
-    (
-        points("power_law", phase=1.0, normal_amplitude=0.5, tangential_amplitude=0.3, exponent=3.0),
-        0.1,
-        0.0155144,
-        0.00457419,
-        0.00605643,
-    ),
-    (
-        replace(points(phase=5.0, normal_amplitude=0.5, tangential_amplitude=0.6), profile=worn()),
-        0.06,
-        0.0553035,
-        0.0399547,
-        0.0292321,
-    ),
-]
+KNOWN = recorded("""
+δ=0.25 ψ=2.5 : 0.1 0.0454978 0.0297589 0.0215015
+rounded_punch ψ=0.7 ω=1/2 b=0.5 : 0.05 0.0875051 0.0716282 0.0575010
+truncated_paraboloid u=1.2 ψ=1.0 b=0.3 : 0.08 0.0649775 0.0479510 0.0367803
+wavy_paraboloid δ=0.4 ψ=4.0 h=0.02 λ=5.0 Bm=0.05 B=0.05 : 0.1 0.0773251 0.0560010 0.0447141
+power_law δ=0.5 u=0.3 ψ=1.0 n=3.0 : 0.1 0.0155144 0.00457419 0.00605643
+worn δ=0.5 u=0.6 ψ=5.0 : 0.06 0.0553035 0.0399547 0.0292321
+""")
 
 
-@pytest.mark.parametrize("known", KNOWN, ids=lambda known: str(known[0].profile))
+@pytest.mark.parametrize("known", KNOWN, ids=lambda known: known[0].get("profile", "paraboloid"))
 def test_known_means(known):
     """In gross slip and partial slip, with bulk stress, of a table: as claimed."""
-    batch, distance, *expected = known
-    _, found = means_about(batch, distance)
+    given, distance, *expected = known
+    _, found = means_about(scene(**given), distance)
     values, errors = np.array([found.volume, found.point[0], found.line[0]]).T
     off = np.abs(values - expected) / expected
     # The critical place is a smooth maximum, known to 1e-4; beneath it swt falls by 1e-3 over that.
@@ -260,66 +237,30 @@ def test_known_means(known):
 
 
 #: ℓ, and swt at ℓ/2 in both directions, of the field with 60 instants on each stretch and six looks closer.
-RIVALS = [
-    (
-        points(
-            "power_law",
-            poisson_ratio=0.094,
-            friction=0.131,
-            normal_amplitude=0.814,
-            p=1,
-            q=2,
-            tangential_amplitude=0.143,
-            phase=3.327,
-            exponent=3.447,
-        ),
-        0.07,
-        (0.01240658, 0.01240052),
-    ),
-    (
-        replace(
-            points(
-                poisson_ratio=0.379,
-                friction=0.161,
-                normal_amplitude=0.393,
-                p=2,
-                q=1,
-                tangential_amplitude=1.13,
-                phase=0.949,
-            ),
-            profile=worn(),
-        ),
-        0.129,
-        (0.00524621, 0.00509572),
-    ),
-]
+RIVALS = recorded("""
+power_law ν=0.094 μ=0.131 δ=0.814 u=0.143 ψ=3.327 ω=1/2 n=3.447 : 0.07 0.01240658 0.01240052
+worn ν=0.379 μ=0.161 δ=0.393 u=1.13 ψ=0.949 ω=2 : 0.129 0.00524621 0.00509572
+""")
 
 
-@pytest.mark.parametrize("known", RIVALS, ids=lambda known: str(known[0].profile))
-def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(known):
+@pytest.mark.parametrize(("given", "distance", "down", "along"), RIVALS)
+def test_planes_that_are_not_the_highest_at_first_have_instants_of_their_own(given, distance, down, along):
     """Their peaks are narrower than the gaps between the instants; swt was 1 % low without."""
-    batch, distance, expected = known
-    found = [value for value, _ in means_about(batch, distance)[1].point]
-    np.testing.assert_allclose(found, expected, rtol=3e-4)
+    found = [value for value, _ in means_about(scene(**given), distance)[1].point]
+    np.testing.assert_allclose(found, [down, along], rtol=3e-4)
 
 
 def test_planes_that_take_turns_straight_down_are_all_found():
     """Against the field with 20 instants on each stretch, four looks."""
-    batch = points(
-        poisson_ratio=0.45,
-        friction=0.369,
-        normal_amplitude=0.321,
-        p=1,
-        q=3,
-        tangential_amplitude=0.085,
-        phase=3.153,
-    )
-    batch, distance = replace(batch, profile=worn()), 0.059
+    ((given, distance, *expected),) = recorded("""
+worn ν=0.45 μ=0.369 δ=0.321 u=0.085 ψ=3.153 ω=1/3 : 0.059 0.00516506 0.00124483 0.00013743
+""")
+    batch = scene(**given)
     x = float(solve_points(batch, 1e-6).critical_x[0])
     places = np.array([[x, 0.0, share * distance] for share in (0.1, 0.2, 0.3)])
     found = criterion_at(opened(batch), places, 1e-4)[0]
     # The critical place is known to 1e-4, over which the first value changes by 3e-3.
-    np.testing.assert_allclose(found, [0.00516506, 0.00124483, 0.00013743], rtol=2e-3)
+    np.testing.assert_allclose(found, expected, rtol=2e-3)
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
 from scenes import plane_points
 from solved import solve_points
+from study.told import refused
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile
@@ -46,10 +47,8 @@ def test_a_table_says_how_far_it_goes() -> None:
     again = TabulatedProfile.of_content("again", table.content())
     assert again.geometry == "plane"
     assert again.code == table.code != TabulatedProfile("disc", x, 0.5 * x**2).code
-    with pytest.raises(
-        StudyError, match=r"wrong\.geometry: found 'round'; allowed: one of axisymmetric, plane"
-    ):
-        TabulatedProfile("wrong", x, 0.5 * x**2, geometry="round")
+    words = r"wrong\.geometry: found 'round'; allowed: one of axisymmetric, plane"
+    refused(words, TabulatedProfile, "wrong", x, 0.5 * x**2, geometry="round")
 
 
 def test_slope_of_a_cubic() -> None:
@@ -129,13 +128,8 @@ def test_boundary_elements_marched_in_time(name: str, b: float) -> None:
     """The normal load varies; the march knows neither a superposition nor a memory."""
     loop, mu, elements, per_side = np.array(LOOPS[name]), 0.5, 150, 24
     shape = {"profile": "rounded_flat", "flat_half_width": b} if b else {"profile": "cylinder"}
-    given = shape | {
-        "poisson_ratio": 0.3,
-        "friction": mu,
-        "load": LoadPath(name, loop - [1.0, 0.0]),
-        "normal_force_amplitude": 1.0,
-        "tangential_force_amplitude": 1.0,
-    }
+    given = shape | {"poisson_ratio": 0.3, "friction": mu, "load": LoadPath(name, loop - [1.0, 0.0])}
+    given |= {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0}
     reach = 1.05 * float(swtstudy.solve(**given, rtol=1e-3, quantities=["contact_radius"]).contact_radius)
     strip = StripMarch(lambda x: 0.5 * np.maximum(x - b, 0.0) ** 2, reach, elements, mu)
     x = strip.x[::7]
@@ -257,22 +251,10 @@ def test_a_loop_with_a_constant_normal_load_needs_no_normal_force_amplitude() ->
 
 
 def test_it_shares_an_axis_with_discs() -> None:
-    both = swtstudy.solve(
-        profile=["cylinder", "paraboloid"],
-        normal_force_amplitude=0.3,
-        tangential_force_amplitude=0.4,
-        phase=1.0,
-    )
+    load = {"normal_force_amplitude": 0.3, "tangential_force_amplitude": 0.4, "phase": 1.0}
+    both = swtstudy.solve(profile=["cylinder", "paraboloid"], **load)
     for name in both.profile.values:
-        alone = swtstudy.solve(
-            profile=str(name), normal_force_amplitude=0.3, tangential_force_amplitude=0.4, phase=1.0
-        )
+        alone = swtstudy.solve(profile=str(name), **load)
         assert float(both.s.sel(profile=name)) == float(alone.s)
-    plain = swtstudy.solve(
-        profile="power_law_cylinder",
-        exponent=2,
-        normal_force_amplitude=0.3,
-        tangential_force_amplitude=0.4,
-        phase=1,
-    )
+    plain = swtstudy.solve(profile="power_law_cylinder", exponent=2, **load)
     assert float(plain.s) == float(both.s.sel(profile="cylinder"))

@@ -17,16 +17,9 @@ every_exponent = pytest.mark.parametrize("n", EXPONENTS)
 def test_radius_force_and_pressure_of_a_real_contact(n: float) -> None:
     """f = c rⁿ has δ0 = κ c aⁿ, κ = √π Γ(n/2 + 1)/Γ((n + 1)/2), and F = 2 E* n/(n + 1) δ0 a."""
     R, depth, young, ν = 30.0, 0.02, 73.1e3, 0.33
-    contact = swtstudy.physical(
-        young_modulus=young,
-        poisson_ratio=ν,
-        radius=R,
-        depth=depth,
-        friction=0.5,
-        tangential_amplitude=1e-3,
-        profile="power_law",
-        exponent=n,
-    )
+    own = {"young_modulus": young, "poisson_ratio": ν, "radius": R, "friction": 0.5}
+    own |= {"tangential_amplitude": 1e-3, "profile": "power_law", "exponent": n}
+    contact = swtstudy.physical(**own, depth=depth)
     effective, c = 0.5 * young / (1.0 - ν**2), 1.0 / (n * R ** (n - 1.0))
     κ = np.sqrt(np.pi) * gamma(0.5 * n + 1.0) / gamma(0.5 * (n + 1.0))
     a = (depth / (c * κ)) ** (1.0 / n)
@@ -38,16 +31,7 @@ def test_radius_force_and_pressure_of_a_real_contact(n: float) -> None:
     # The mean pressure is that of the distribution.
     if n <= 2.0:
         assert contact.peak_pressure == pytest.approx(effective * depth / a * n / (n - 1.0) / np.pi, rel=1e-7)
-    again = swtstudy.physical(
-        young_modulus=young,
-        poisson_ratio=ν,
-        radius=R,
-        normal_force=force,
-        friction=0.5,
-        tangential_amplitude=1e-3,
-        profile="power_law",
-        exponent=n,
-    )
+    again = swtstudy.physical(**own, normal_force=force)
     assert again.depth == pytest.approx(depth, rel=1e-12)
 
 

@@ -5,8 +5,7 @@ import sys
 
 import numpy as np
 import pytest
-from scenes import points
-from solved import solve_points
+from recorded import recorded
 
 import swtstudy
 
@@ -14,142 +13,42 @@ NARROW_SLIP = {"normal_amplitude": 0.5, "tangential_amplitude": 0.1, "phase": 0.
 
 
 #: With what `dense_circle` of studies/checks/off_line.py finds there.
-CIRCLES = [
-    # A bulk stress: other instants than the line's.
-    (
-        {
-            "normal_amplitude": 0.17947362,
-            "tangential_amplitude": 0.0248599,
-            "phase": 1.2546567,
-            "poisson_ratio": 0.4987338,
-            "friction": 0.4127386,
-            "bulk_stress_amplitude": 0.004575401,
-            "bulk_stress_mean": -0.01078477,
-            "bulk_stress_phase": 5.0540309,
-        },
-        "3",
-        0.005518343,
-    ),
-    # Instants that four steps of a stretch do not tell apart.
-    (
-        {
-            "profile": "wavy_paraboloid",
-            "waviness_amplitude": 0.094358728,
-            "wavelength": 9.7104941,
-            "normal_amplitude": 0.30861073,
-            "tangential_amplitude": 0.05299352,
-            "phase": 2.0605469,
-            "poisson_ratio": 0.47024462,
-            "friction": 0.83081176,
-        },
-        "3",
-        0.05644375,
-    ),
-    # A ridge beside a higher one, whose planes are 10° from it.
-    (
-        {
-            "normal_force_amplitude": 0.047248676,
-            "tangential_force_amplitude": 0.17364532,
-            "phase": 4.3070632,
-            "poisson_ratio": 0.4989036,
-            "friction": 0.84880752,
-        },
-        "2",
-        0.14391736,
-    ),
-    # Two planes close to one another, each with instants of its own.
-    (
-        {
-            "profile": "wavy_paraboloid",
-            "waviness_amplitude": 0.055907132,
-            "wavelength": 5.337221,
-            "normal_amplitude": 0.018785796,
-            "tangential_amplitude": 0.085610956,
-            "phase": 0.24791074,
-            "poisson_ratio": 0.47431964,
-            "friction": 0.5486751,
-        },
-        "3",
-        0.03796671,
-    ),
-    # The higher one of two maxima is the lower one at the first angles.
-    (
-        {
-            "profile": "truncated_paraboloid",
-            "flat_radius": 1.3394178,
-            "normal_amplitude": 0.052659046,
-            "tangential_amplitude": 0.39145783,
-            "phase": 4.3890133,
-            "poisson_ratio": 0.45549385,
-            "friction": 0.56359335,
-        },
-        "1",
-        0.29500192,
-    ),
-    # Two instants at which the normal strain is least, the lower one between two nodes of a short stretch.
-    (
-        {
-            "profile": "wavy_paraboloid",
-            "waviness_amplitude": 0.064670071,
-            "wavelength": 7.1832622,
-            "normal_amplitude": 0.054366492,
-            "tangential_amplitude": 0.006378438,
-            "phase": 2.1908372,
-            "poisson_ratio": 0.49466201,
-            "friction": 0.67285351,
-        },
-        "3",
-        0.00345027832,
-    ),
-    # The same: what is seen of either tells the wrong one.
-    (
-        {
-            "profile": "rounded_punch",
-            "flat_radius": 0.33066515,
-            "normal_amplitude": 0.12218225,
-            "tangential_amplitude": 0.0095301119,
-            "phase": 5.2195242,
-            "poisson_ratio": 0.4679046,
-            "friction": 0.82916397,
-        },
-        "3",
-        0.00463082464,
-    ),
-    # Ridges whose planes are 2° from one another.
-    (
-        {
-            "profile": "rounded_punch",
-            "flat_radius": 1.4102593,
-            "normal_amplitude": 0.022873104,
-            "tangential_amplitude": 0.34318169,
-            "phase": 4.5312632,
-            "poisson_ratio": 0.47954282,
-            "friction": 0.91714728,
-        },
-        "4/3",
-        0.23364991705,
-    ),
-]
+CIRCLES = recorded("""
+# A bulk stress: other instants than the line's.
+ν=0.4987338 μ=0.4127386 δ=0.17947362 u=0.0248599 ψ=1.2546567 ω=3 B=0.004575401 Bm=-0.01078477 Bψ=5.0540309
+    : 0.005518343
+# A ridge that is lower where it is first seen, and goes farther than the first steps.
+ν=0.48356659824250975 μ=0.933354169353668 δ=0.012078575610872095 u=0.1320909533233835 ψ=3.422809004373904
+    : 0.189634188
+# Instants that four steps of a stretch do not tell apart.
+wavy_paraboloid ν=0.47024462 μ=0.83081176 δ=0.30861073 u=0.05299352 ψ=2.0605469 ω=3 h=0.094358728
+    λ=9.7104941 : 0.05644375
+# A ridge beside a higher one, whose planes are 10° from it.
+ν=0.4989036 μ=0.84880752 F=0.047248676 Q=0.17364532 ψ=4.3070632 ω=2 : 0.14391736
+# Two planes close to one another, each with instants of its own.
+wavy_paraboloid ν=0.47431964 μ=0.5486751 δ=0.018785796 u=0.085610956 ψ=0.24791074 ω=3 h=0.055907132
+    λ=5.337221 : 0.03796671
+# The higher one of two maxima is the lower one at the first angles.
+truncated_paraboloid ν=0.45549385 μ=0.56359335 δ=0.052659046 u=0.39145783 ψ=4.3890133 b=1.3394178
+    : 0.29500192
+# Two instants at which the normal strain is least, the lower one between two nodes of a short stretch.
+wavy_paraboloid ν=0.49466201 μ=0.67285351 δ=0.054366492 u=0.006378438 ψ=2.1908372 ω=3 h=0.064670071
+    λ=7.1832622 : 0.00345027832
+# The same: what is seen of either tells the wrong one.
+rounded_punch ν=0.4679046 μ=0.82916397 δ=0.12218225 u=0.0095301119 ψ=5.2195242 ω=3 b=0.33066515
+    : 0.00463082464
+# Ridges whose planes are 2° from one another.
+rounded_punch ν=0.47954282 μ=0.91714728 δ=0.022873104 u=0.34318169 ψ=4.5312632 ω=4/3 b=1.4102593
+    : 0.23364991705
+""")
 
 
-@pytest.mark.quick(5)
-@pytest.mark.parametrize(("point", "ratio", "highest"), CIRCLES)
-def test_no_maximum_of_the_circle_is_overlooked(point, ratio, highest):
-    solved = swtstudy.solve(**point, frequency_ratio=ratio)
+@pytest.mark.quick(6)
+@pytest.mark.parametrize(("point", "highest"), CIRCLES)
+def test_no_maximum_of_the_circle_is_overlooked(point, highest):
+    solved = swtstudy.solve(**point)
     assert float(solved.s_surface) == pytest.approx(highest, rel=1e-4)
     assert float(solved.s_surface) > 1.001 * float(solved.s)
-
-
-def test_a_ridge_is_followed_farther_than_the_first_steps_go():
-    """Where it is first seen it is lower; the value is that of `dense_circle`."""
-    point = points(
-        poisson_ratio=0.48356659824250975,
-        friction=0.933354169353668,
-        normal_amplitude=0.012078575610872095,
-        tangential_amplitude=0.1320909533233835,
-        phase=3.422809004373904,
-    )
-    assert solve_points(point).s_surface[0] == pytest.approx(0.189634188, rel=1e-4)
 
 
 def test_circles_do_not_know_of_one_another():
@@ -190,12 +89,9 @@ def test_a_loop_and_its_mirror_image_have_the_same_where_the_line_has_none():
 
 def test_the_first_circle_of_a_process_is_that_of_its_point():
     """The first one compiles what circles need; the points at hand stay as they are."""
-    point, ratio, highest = CIRCLES[0]
-    lines = [f"point, ratio = {point!r}, {ratio!r}", "import swtstudy"]
-    lines += ["print(float(swtstudy.solve(**point, frequency_ratio=ratio).s_surface))"]
-    done = subprocess.run(
-        [sys.executable, "-c", "\n".join(lines)], capture_output=True, text=True, check=True
-    )
+    point, highest = CIRCLES[0]
+    code = f"import swtstudy; print(float(swtstudy.solve(**{point!r}).s_surface))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert float(done.stdout) == pytest.approx(highest, rel=1e-4)
 
 
@@ -221,66 +117,24 @@ def test_beside_the_singular_edge_of_a_face_the_circle_has_no_bound():
 
 #: Highest on a circle between those of the least and the largest contact radius, or beside that of s: what a
 #: dense search of the surface by `swtstudy.swt_field` has, confirmed by tests/oracles/circle.py.
-BETWEEN_CIRCLES = {
-    "a compressive bulk stress": (
-        {
-            "poisson_ratio": 0.40733219922801944,
-            "friction": 0.08754683876406814,
-            "profile": "rounded_punch",
-            "flat_radius": 1.3370989577190642,
-            "phase": 4.526449224803094,
-            "frequency_ratio": "1/2",
-            "normal_force_amplitude": 0.5676274974756472,
-            "tangential_force_amplitude": 0.19057321310153524,
-            "bulk_stress_amplitude": 0.025462564697210376,
-            "bulk_stress_mean": -0.08794579295473688,
-            "bulk_stress_phase": 5.568612644399586,
-            "walker_exponent": 0.5256303366271905,
-        },
-        1.28363e-3,
-    ),
-    "the same at a low ν": (
-        {
-            "poisson_ratio": 0.2748378535260868,
-            "friction": 0.3552906083113567,
-            "phase": 3.707635810002869,
-            "normal_force_amplitude": 0.47451159599711656,
-            "tangential_force_amplitude": 0.03624178913360803,
-            "bulk_stress_mean": -0.15453053791167254,
-            "bulk_stress_amplitude": 0.011934184832296092,
-            "bulk_stress_phase": 4.132403792521639,
-        },
-        0.0105349,
-    ),
-    "shear": (
-        {
-            "poisson_ratio": 0.02591782625833705,
-            "friction": 0.6027707058703032,
-            "profile": "rounded_punch",
-            "flat_radius": 1.9781085174126507,
-            "phase": 0.7459202463932626,
-            "normal_amplitude": 0.7098622889175545,
-            "tangential_amplitude": 0.4076855922967507,
-            "criterion": "fatemi_socie",
-            "normal_sensitivity": 0.8284780578019395,
-        },
-        0.20059,
-    ),
-    "no bulk stress": (
-        {
-            "poisson_ratio": 0.5,
-            "friction": 1.5763012527988831,
-            "phase": 2.128901457600617,
-            "normal_force_amplitude": 0.3216852075987185,
-            "tangential_force_amplitude": 0.24091095730600143,
-            "walker_exponent": 0.7982557662700376,
-        },
-        0.600495,
-    ),
-}
+BETWEEN_CIRCLES = recorded("""
+# A compressive bulk stress.
+rounded_punch ν=0.40733219922801944 μ=0.08754683876406814 F=0.5676274974756472 Q=0.19057321310153524
+    ψ=4.526449224803094 ω=1/2 b=1.3370989577190642 γ=0.5256303366271905 B=0.025462564697210376
+    Bm=-0.08794579295473688 Bψ=5.568612644399586 : 1.28363e-3
+# The same at a low ν.
+ν=0.2748378535260868 μ=0.3552906083113567 F=0.47451159599711656 Q=0.03624178913360803 ψ=3.707635810002869
+    B=0.011934184832296092 Bm=-0.15453053791167254 Bψ=4.132403792521639 : 0.0105349
+# Shear.
+rounded_punch criterion=fatemi_socie ν=0.02591782625833705 μ=0.6027707058703032
+    δ=0.7098622889175545 u=0.4076855922967507 ψ=0.7459202463932626 b=1.9781085174126507
+    k=0.8284780578019395 : 0.20059
+# No bulk stress.
+ν=0.5 μ=1.5763012527988831 F=0.3216852075987185 Q=0.24091095730600143 ψ=2.128901457600617
+    γ=0.7982557662700376 : 0.600495
+""")
 
 
-@pytest.mark.parametrize("name", BETWEEN_CIRCLES)
-def test_the_highest_circle_is_found(name):
-    given, right = BETWEEN_CIRCLES[name]
-    assert float(swtstudy.solve(**given).s_surface) == pytest.approx(right, rel=2e-4)
+@pytest.mark.parametrize(("point", "highest"), BETWEEN_CIRCLES)
+def test_the_highest_circle_is_found(point, highest):
+    assert float(swtstudy.solve(**point).s_surface) == pytest.approx(highest, rel=2e-4)

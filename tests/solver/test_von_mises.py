@@ -67,14 +67,9 @@ def test_off_the_line_and_far_away():
 
 
 def test_a_mirrored_load_has_the_same():
+    given = {"friction": 0.6, "phase": 0.7, "normal_amplitude": 0.5, "tangential_amplitude": 0.8}
     one, other = (
-        largest(
-            friction=0.6,
-            phase=0.7,
-            load=swtstudy.LoadPath("way", vertices),
-            normal_amplitude=0.5,
-            tangential_amplitude=0.8,
-        )
+        largest(load=swtstudy.LoadPath("way", vertices), **given)
         for vertices in ([[0, -0.5], [1, -0.2], [0.5, 1]], [[0, 0.5], [1, 0.2], [0.5, -1]])
     )
     assert one == pytest.approx(other, rel=5e-3)

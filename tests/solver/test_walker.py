@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scenes import PROFILE_NAMES, points, random_points, take
 from solved import Points, solve_points
+from study.told import refused
 from test_values import ALIGNED
 
 import swtstudy
@@ -105,7 +106,6 @@ def test_fields_and_means_have_the_exponent() -> None:
 @pytest.mark.parametrize("exponent", [0.0, 0.95, -1.0, "many"])
 def test_exponents_that_are_none(exponent: object) -> None:
     allowed = r"walker_exponent: found .*; allowed: a number in \(0, 0.9\]"
-    with pytest.raises(swtstudy.StudyError, match=allowed):
-        swtstudy.solve(walker_exponent=exponent)
+    refused(allowed, swtstudy.solve, walker_exponent=exponent)
     with pytest.raises(swtstudy.StudyError, match=allowed):
         swtstudy.swt_of_history(np.ones((3, 6)), 0.3, walker_exponent=exponent)  # type: ignore[arg-type]

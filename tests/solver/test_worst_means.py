@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from asking import study
 from body import DOWN, opened
 from numpy.testing import assert_allclose
+from recorded import recorded
 from scenes import FORCES, plane_points, points
 from solved import results_of
+from study.told import RIG
 
 import swtstudy
 from swtstudy.kernel.field import direction_at, largest_radius, mean_about
@@ -41,14 +43,7 @@ def jump(count: int) -> tuple[np.ndarray, float, float]:
 
 #: Where the critical point is a narrow peak, and where the mean is largest far from it.
 ELSEWHERE = {
-    "no peak of swt": points(
-        "power_law",
-        poisson_ratio=0.2,
-        friction=0.4,
-        normal_amplitude=0.5,
-        tangential_amplitude=0.3,
-        exponent=3.0,
-    ),
+    "no peak of swt": points("power_law", 0.2, 0.4, 0.5, 0.3, exponent=3.0),
     "two sines": points(normal_amplitude=0.14, tangential_amplitude=0.05, p=3, phase=0.077),
     "bulk stress": replace(points(phase=2.0), bulk_stress_amplitude=np.array([0.05])),
     "cylinder": plane_points("cylinder", 0.3, 0.6, 0.0, 0.5),
@@ -77,41 +72,23 @@ def test_no_mean_about_another_place_is_larger(name: str) -> None:
 #: Lines along critical planes whose largest means a climb from the highest columns misses: a point under
 #: forces, distance, and |x| of a larger mean. At the first x the plane jumps by 9°, and the mean by 9 %; the
 #: second x is 12 distances away from the largest swt.
-FAR_UP = {
-    "a jump of the plane": (
-        {
-            "poisson_ratio": 0.24284715473846144,
-            "friction": 0.9611761727360726,
-            "normal_amplitude": 0.04798008223827599,
-            "tangential_amplitude": 0.011610114371583085,
-            "phase": 5.097211208027318,
-        },
-        0.1,
-        1.0047,
-    ),
-    "a short distance": (
-        {
-            "profile": "wavy_cylinder",
-            "poisson_ratio": 0.031747101407745004,
-            "friction": 0.12279971581768893,
-            "normal_amplitude": 0.009168158397763616,
-            "tangential_amplitude": 0.00021097958983853495,
-            "phase": 4.978690902693223,
-            "waviness_amplitude": 1.490739356207924,
-            "wavelength": 25.29467524878663,
-        },
-        1e-4,
-        0.96983,
-    ),
-}
+FAR_UP = recorded("""
+# A jump of the plane.
+ν=0.24284715473846144 μ=0.9611761727360726 F=0.04798008223827599 Q=0.011610114371583085 ψ=5.097211208027318
+    : 0.1 1.0047
+# A short distance.
+wavy_cylinder ν=0.031747101407745004 μ=0.12279971581768893 F=0.009168158397763616 Q=0.00021097958983853495
+    ψ=4.978690902693223 h=1.490739356207924 λ=25.29467524878663 : 1e-4 0.96983
+""")
 
 
-@pytest.mark.parametrize("name", FAR_UP)
-def test_the_largest_line_mean_is_found_where_no_climb_leads(name: str) -> None:
-    point, distance, x = FAR_UP[name]
-    forces = {re.sub("(normal|tangential)_a", r"\1_force_a", key): value for key, value in point.items()}
+@pytest.mark.parametrize(("forces", "distance", "x"), FAR_UP)
+def test_the_largest_line_mean_is_found_where_no_climb_leads(
+    forces: dict[str, Any], distance: float, x: float
+) -> None:
     found = swtstudy.solve(critical_distance=distance, **forces).s_line.sel(direction="critical_plane")
-    cycle = opened(replace(points(**point), control=FORCES))
+    batch = points(**{name.replace("force_", ""): value for name, value in forces.items()})
+    cycle = opened(replace(batch, control=FORCES))
     for place in (-x, x):
         way = direction_at(cycle, place)
         assert mean_about(cycle, LINE, place, way, distance, 0.0, 1e-2)[0] < 1.003 * found
@@ -153,15 +130,8 @@ def test_places_go_with_their_points(tmp_path: Path) -> None:
 
 
 def test_with_units_places_are_lengths() -> None:
-    found = swtstudy.physical(
-        young_modulus=73.1e3,
-        poisson_ratio=0.33,
-        radius=50.0,
-        friction=0.5,
-        normal_force=[200.0],
-        tangential_amplitude=1.5e-3,
-        normal_amplitude=2e-3,
-    ).solve(rtol=1e-3, critical_distance=0.02)
+    loads = {"normal_force": [200.0], "tangential_amplitude": 1.5e-3, "normal_amplitude": 2e-3}
+    found = swtstudy.physical(**RIG, **loads).solve(rtol=1e-3, critical_distance=0.02)
     scale = found.critical_position / found.critical_x
     assert_allclose(found.volume_position, found.volume_x * scale)
     assert found.point_position.dims == found.s_point.dims
@@ -169,89 +139,30 @@ def test_with_units_places_are_lengths() -> None:
 
 #: Where the largest mean is on the other side than s, or far from it: parameters, ℓ, the kind, and the mean
 #: by dense quadrature of `swtstudy.swt_field` at the best of many places.
-OTHER_SIDE = {
-    "a face": (
-        {
-            "poisson_ratio": 0.4290054069106033,
-            "friction": 0.2510905565853494,
-            "phase": 2.188729636405885,
-            "frequency_ratio": "1/2",
-            "profile": "rounded_punch",
-            "flat_radius": 2.7499617721211624,
-            "normal_amplitude": 0.41618232486968004,
-            "tangential_amplitude": 1.0642785805551385,
-            "bulk_stress_amplitude": 0.001643950460093716,
-            "bulk_stress_mean": 0.04246563813836979,
-        },
-        0.7135493172308853,
-        "volume",
-        4.6154e-3,
-    ),
-    "a depth": (
-        {
-            "poisson_ratio": 0.08791883657191985,
-            "friction": 0.10000040713551234,
-            "phase": 0.38069330322667455,
-            "frequency_ratio": "2",
-            "normal_force_amplitude": 0.0,
-            "tangential_force_amplitude": 0.93292755565194,
-        },
-        1.2780682490318287,
-        "point",
-        5.0296e-5,
-    ),
-    "narrow peaks of a cylinder": (
-        {
-            "poisson_ratio": 0.3686354697424958,
-            "friction": 0.1260765339221826,
-            "phase": 1.339304538495359,
-            "frequency_ratio": "2",
-            "profile": "power_law_cylinder",
-            "exponent": 2.7088163387060913,
-            "normal_force_amplitude": 0.1531586644420875,
-            "tangential_force_amplitude": 0.28047464948789,
-            "walker_exponent": 0.3734164121908062,
-        },
-        0.19482310877100084,
-        "line",
-        5.650e-5,
-    ),
-    "far to the side": (
-        {
-            "poisson_ratio": 0.05666541044868523,
-            "friction": 0.17952337369047577,
-            "phase": 3.563095155126401,
-            "profile": "cylinder",
-            "normal_force_amplitude": 0.5880613246492014,
-            "tangential_force_amplitude": 0.3829723136736593,
-        },
-        2.013980672659584,
-        "point",
-        7.712e-6,
-    ),
-    "waves": (
-        {
-            "poisson_ratio": 0.2711632507420737,
-            "friction": 1.8123768074564504,
-            "phase": 4.440129350060274,
-            "profile": "wavy_paraboloid",
-            "waviness_amplitude": 0.03,
-            "wavelength": 8.245725125264961,
-            "normal_force_amplitude": 0.4091980362444771,
-            "tangential_force_amplitude": 0.4099344484944497,
-        },
-        5.061843947214405,
-        "line",
-        0.0063753,
-    ),
-}
+OTHER_SIDE = recorded("""
+# A face.
+rounded_punch ν=0.4290054069106033 μ=0.2510905565853494 δ=0.41618232486968004 u=1.0642785805551385
+    ψ=2.188729636405885 ω=1/2 b=2.7499617721211624 B=0.001643950460093716 Bm=0.04246563813836979
+    : 0.7135493172308853 volume 4.6154e-3
+# A depth.
+ν=0.08791883657191985 μ=0.10000040713551234 F=0.0 Q=0.93292755565194 ψ=0.38069330322667455 ω=2
+    : 1.2780682490318287 point 5.0296e-5
+# Narrow peaks of a cylinder.
+power_law_cylinder ν=0.3686354697424958 μ=0.1260765339221826 F=0.1531586644420875 Q=0.28047464948789
+    ψ=1.339304538495359 ω=2 n=2.7088163387060913 γ=0.3734164121908062 : 0.19482310877100084 line 5.650e-5
+# Far to the side.
+cylinder ν=0.05666541044868523 μ=0.17952337369047577 F=0.5880613246492014 Q=0.3829723136736593
+    ψ=3.563095155126401 : 2.013980672659584 point 7.712e-6
+# Waves.
+wavy_paraboloid ν=0.2711632507420737 μ=1.8123768074564504 F=0.4091980362444771 Q=0.4099344484944497
+    ψ=4.440129350060274 h=0.03 λ=8.245725125264961 : 5.061843947214405 line 0.0063753
+""")
 
 
 @pytest.mark.quick(3)
-@pytest.mark.parametrize("name", OTHER_SIDE)
-def test_the_largest_mean_on_the_other_side_is_found(name):
-    given, distance, kind, right = OTHER_SIDE[name]
-    found = swtstudy.solve(**given, critical_distance=distance)
+@pytest.mark.parametrize(("point", "distance", "kind", "right"), OTHER_SIDE)
+def test_the_largest_mean_on_the_other_side_is_found(point, distance, kind, right):
+    found = swtstudy.solve(**point, critical_distance=distance)
     value, error = (found[f"s_{kind}{ending}"].values.ravel()[0] for ending in ("", "_error"))
     assert value + error >= right
 
@@ -259,19 +170,11 @@ def test_the_largest_mean_on_the_other_side_is_found(name):
 @pytest.mark.slow
 def test_a_mean_over_a_large_half_sphere_is_within_its_error():
     """Spheres that hold whole circles of the contact; by rings about the axis, 1 % at most of it unknown."""
-    given = {
-        "poisson_ratio": 0.23127316673926523,
-        "friction": 1.2388217703347266,
-        "phase": 2.86342614466779,
-        "frequency_ratio": "1/2",
-        "profile": "wavy_paraboloid",
-        "waviness_amplitude": 0.03,
-        "wavelength": 5.687980565892781,
-        "normal_force_amplitude": 0.5726911372126302,
-        "tangential_force_amplitude": 0.2740099241718394,
-        "bulk_stress_amplitude": 0.023352350085960663,
-        "bulk_stress_mean": 0.07748685781334842,
-    }
-    found = swtstudy.solve(**given, critical_distance=1.379874836510213)
-    assert float(found.s_volume + found.s_volume_error) >= 0.01343
-    assert float(found.s_volume - found.s_volume_error) <= 0.01356
+    ((point, distance, least, most),) = recorded("""
+wavy_paraboloid ν=0.23127316673926523 μ=1.2388217703347266 F=0.5726911372126302 Q=0.2740099241718394
+    ψ=2.86342614466779 ω=1/2 h=0.03 λ=5.687980565892781 B=0.023352350085960663 Bm=0.07748685781334842
+    : 1.379874836510213 0.01343 0.01356
+""")
+    found = swtstudy.solve(**point, critical_distance=distance)
+    assert float(found.s_volume + found.s_volume_error) >= least
+    assert float(found.s_volume - found.s_volume_error) <= most

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from real import CONTACT, CRITERIA
+from study.told import refused
 
 from swtstudy import StudyError, inspect_point
 from swtstudy.cli import main
@@ -53,14 +54,11 @@ def test_a_profile_of_an_axis_has_its_own_shape_alone() -> None:
 
 
 def test_every_axis_and_every_sampled_parameter_needs_a_value() -> None:
-    with pytest.raises(
-        StudyError, match=r"several values of frequency_ratio, friction, .*, flat_radius; allow"
-    ):
-        one_of_study("sensitivity", {})
+    words = r"several values of frequency_ratio, friction, .*, flat_radius; allow"
+    refused(words, one_of_study, "sensitivity", {})
     given = {"frequency_ratio": "1/2", "friction": "0.3", "poisson_ratio": "0.3", "phase": "1"}
     given |= {"normal_amplitude": "0.5", "tangential_amplitude": "0.5"}
-    with pytest.raises(StudyError, match="several values of flat_radius; allowed: one of each"):
-        one_of_study("sensitivity", given)
+    refused("several values of flat_radius; allowed: one of each", one_of_study, "sensitivity", given)
     assert one_of_study("sensitivity", {**given, "flat_radius": "0.5"}).size == 1
     # The profile alone does not depend on the others.
     drawn = one_of_study("sensitivity", {"flat_radius": "0.5"}, at_rest=True)
@@ -78,10 +76,7 @@ def test_the_contact_of_one_load_of_blocks(tmp_path: Path) -> None:
     one = file_of(tmp_path, CONTACT + BLOCKS)
     assert str(one_of_study(one, {}).fixed["load"]) == "gentle"
     both = file_of(tmp_path, CONTACT + BLOCKS + MORE)
-    with pytest.raises(
-        StudyError, match="several values of load; allowed: one of each, such as --load VALUE"
-    ):
-        one_of_study(both, {})
+    refused("several values of load; allowed: one of each, such as --load VALUE", one_of_study, both, {})
     contact = PhysicalContact(one_of_study(both, {"load": "rough"}))
     assert str(contact.parameters()["load"]) == "rough"
 
@@ -91,8 +86,7 @@ def test_the_contact_of_one_load_of_blocks(tmp_path: Path) -> None:
     [("axes = 3", "axes: found 3"), ("blocks = 3", "blocks: found 3"), ("material = 3", "material: found 3")],
 )
 def test_a_study_that_is_no_study_is_told_as_elsewhere(tmp_path: Path, wrong: str, words: str) -> None:
-    with pytest.raises(StudyError, match=words):
-        one_of_study(file_of(tmp_path, f'title = "t"\n{wrong}\n'), {"criterion": "swt"})
+    refused(words, one_of_study, file_of(tmp_path, f'title = "t"\n{wrong}\n'), {"criterion": "swt"})
 
 
 def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(
@@ -121,8 +115,7 @@ def test_each_axis_of_a_study_has_an_option(tmp_path: Path) -> None:
     rig = file_of(
         tmp_path, f"{text}tangential_force_amplitude = 40\nbulk_stress_amplitude = 9\n[axes]\n{axes}"
     )
-    with pytest.raises(StudyError, match=r"several values of young_modulus.*such as --young-modulus VALUE"):
-        one_of_study(rig, {})
+    refused(r"several values of young_modulus.*such as --young-modulus VALUE", one_of_study, rig, {})
     options = [word for name, value in sizes.items() for word in (f"--{name.replace('_', '-')}", str(value))]
     done = CliRunner().invoke(main, ["show", rig, *options, "-o", str(tmp_path / "a.png")])
     assert done.exit_code == 0, done.stderr
@@ -154,8 +147,7 @@ def test_without_equilibrium_the_forces_are_said_in_the_units_of_the_study(tmp_p
         lambda: contact.stress_field(0, 0, 0),
         lambda: contact.swt_field(0, 0, 0),
     ):
-        with pytest.raises(StudyError, match="tangential_force_amplitude 120 N exceeds"):
-            inspect()
+        refused("tangential_force_amplitude 120 N exceeds", inspect)
 
 
 def test_what_is_sampled_in_units_is_in_the_ranges_of_these(tmp_path: Path) -> None:

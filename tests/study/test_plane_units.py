@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy import StudyError, TabulatedProfile, run
-from swtstudy.study.definition import Study
+from swtstudy import Study, StudyError, TabulatedProfile, run
 
 E, NU, R, P, MU = 205e3, 0.3, 80.0, 795.0, 0.8
 GIVEN: dict[str, Any] = {

@@ -5,19 +5,13 @@ import pytest
 import stand_in
 from real import ALUMINIUM, STUDY, plain, without
 from scipy import constants
+from study import told
+from study.told import merged, refused
 
 import swtstudy
-from swtstudy import FatigueConstants, Study, StudyError, open_results, physical, run
-from swtstudy.archive.recall import grid_of
-from swtstudy.study.units.rows import KNOWN
+from swtstudy import FatigueConstants, Study, open_results, physical, run
 
-RIG = {
-    "young_modulus": 73.1e3,
-    "poisson_ratio": 0.33,
-    "radius": 50.0,
-    "friction": 0.5,
-    "normal_amplitude": 2e-3,
-}
+RIG = told.RIG | {"normal_amplitude": 2e-3}
 
 
 @pytest.mark.slow
@@ -67,18 +61,14 @@ def test_an_axis_of_contacts_without_effect_is_warned_of():
 )
 def test_mistakes_in_arrays_are_named(changes, words):
     given = {**RIG, "tangential_amplitude": 1e-3, "normal_force": [150, 200], **changes}
-    with pytest.raises(StudyError) as error:
-        physical(**given)
-    assert str(error.value).splitlines()[0].startswith(words)
+    assert str(refused("", physical, **given)).splitlines()[0].startswith(words)
 
 
 def test_mistakes_in_what_is_asked_of_arrays_are_named_at_once():
     contacts = physical(**RIG, tangential_amplitude=1e-3, normal_force=[150, 200])
-    with pytest.raises(StudyError) as error:
-        contacts.solve(2.0, quantities=["x"], critical_distance=-1, constants=3)
-    assert [each.key for each in error.value.mistakes] == [
-        *("rtol", "critical_distance", "quantities[0]", "constants")
-    ]
+    error = refused("", contacts.solve, 2.0, quantities=["x"], critical_distance=-1, constants=3)
+    keys = ["rtol", "critical_distance", "quantities[0]", "constants"]
+    assert [each.key for each in error.mistakes] == keys
 
 
 def test_a_contact_in_a_notebook():
@@ -112,17 +102,13 @@ def test_the_columns_of_a_loop_are_in_newtons_and_megapascals(tmp_path):
     assert (numbers["bulk_strain_share"] == [1.0, -1.0]).all()  # that of the first body
     found = run(study, tmp_path / "loop.nc", workers=1)
     vertices = np.array([[0, -60, 10], [20, -60, 30], [20, 60, 30], [0, 60, -10]])
-    alone = physical(
-        **{name: value for name, value in RIG.items() if name != "normal_amplitude"},
-        normal_force=200.0,
-        load=swtstudy.LoadPath("cycle", vertices),
-        normal_force_amplitude=1.0,
-        tangential_force_amplitude=1.0,
-        bulk_stress_amplitude=1.0,
+    factors = dict.fromkeys(
+        ("normal_force_amplitude", "tangential_force_amplitude", "bulk_stress_amplitude"), 1.0
     )
+    alone = physical(**told.RIG, normal_force=200.0, load=swtstudy.LoadPath("cycle", vertices), **factors)
     np.testing.assert_allclose(found.SWT[1], alone.solve(1e-3).SWT, rtol=1e-6)
-    with pytest.raises(StudyError, match="1 if the column normal of the loop is in mm; or normal_force_amp"):
-        Study.from_text(text.replace("[axes]", loop.replace("normal_force_amplitude = 1\n", "")) + LOOP)
+    lacking = text.replace("[axes]", loop.replace("normal_force_amplitude = 1\n", "")) + LOOP
+    refused("1 if the column normal of the loop is in mm; or normal_force_amp", Study.from_text, lacking)
 
 
 PAD = """
@@ -143,8 +129,7 @@ def test_a_table_in_lengths_is_a_profile(tmp_path):
         np.testing.assert_allclose(found[name], like[name], rtol=1e-4, atol=1e-9, err_msg=name)
     assert open_results(tmp_path / "pad.nc").identical(found)
     both = text.replace("profile = 'pad'", "profile = 'pad'\nradius = 50")
-    with pytest.raises(StudyError, match=r"fixed\.radius: found a radius; allowed: nothing"):
-        Study.from_text(both + PAD)
+    refused(r"fixed\.radius: found a radius; allowed: nothing", Study.from_text, both + PAD)
 
 
 def test_a_sample_of_what_is_known_badly(tmp_path):
@@ -167,7 +152,8 @@ normal_force = { distribution = "normal", mean = 200, deviation = 20 }
     assert found.normal_force.attrs["units"] == "N"
     e_star = 73.1e3 / (2 * (1 - 0.33**2))
     np.testing.assert_allclose(found.contact_radius**3, 0.75 * found.normal_force * 50 / e_star)
-    assert grid_of(open_results(tmp_path / "sample.nc")).samples == study.grid.samples
+    again = Study.from_text(merged(tmp_path / "sample.nc").attrs["study"])
+    assert again.grid.samples == study.grid.samples
 
 
 MATERIALS = """
@@ -209,36 +195,33 @@ def test_materials_come_by_name_from_a_file(tmp_path):
         ('name = "weak"', "material.file: found nothing; allowed: a TOML file with a table"),
         ('file = "materials.toml"\nname = "weak"\nstrength = 1', "material: found a name and strength;"),
     ):
-        with pytest.raises(StudyError) as error:
-            study(table)
-        assert str(error.value).startswith(f"mine.toml: {words}"), error.value
-        assert len(error.value.mistakes) == 1
+        error = refused("", study, table)
+        assert str(error).startswith(f"mine.toml: {words}"), error
+        assert len(error.mistakes) == 1
 
 
-def test_known_units_are_those_of_scipy():
-    prefixes = {
-        "k": 1e3,
-        "M": 1e6,
-        "G": 1e9,
-        "c": 1e-2,
-        "m": 1e-3,
-        "µ": 1e-6,
-        "μ": 1e-6,
-        "u": 1e-6,
-        "n": 1e-9,
-    }
-    others = {
-        "in": constants.inch,
-        "lbf": constants.lbf,
-        "kip": 1e3 * constants.lbf,
-        "kgf": constants.kgf,
-        "ft": constants.foot,
-        "N/mm²": 1e6,
-        "N/mm2": 1e6,
-        "psi": constants.psi,
-        "ksi": 1e3 * constants.psi,
-    }
-    for kind, base in (("length", "m"), ("force", "N"), ("stress", "Pa")):
-        for label, value in KNOWN[kind].items():
-            scaled = 1.0 if label == base else prefixes.get(label.removesuffix(base), np.nan)
-            assert value == pytest.approx(others.get(label, scaled), rel=1e-9), label
+#: Units in m, N and Pa.
+PREFIXES = {"k": 1e3, "M": 1e6, "G": 1e9, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "μ": 1e-6, "u": 1e-6, "n": 1e-9}
+INCHES = {"in": constants.inch, "ft": constants.foot}
+POUNDS = {"lbf": constants.lbf, "kip": 1e3 * constants.lbf, "kgf": constants.kgf}
+STRESSES = {"N/mm²": 1e6, "N/mm2": 1e6, "psi": constants.psi, "ksi": 1e3 * constants.psi}
+
+
+@pytest.mark.parametrize(
+    ("length", "force", "stress", "value"),
+    [
+        *((f"{letter}m", "N", "Pa", size**-2.0) for letter, size in PREFIXES.items() if letter not in "kMG"),
+        *((name, "N", "Pa", size**-2.0) for name, size in INCHES.items()),
+        *(("m", f"{letter}N", "Pa", PREFIXES[letter]) for letter in "kMm"),
+        *(("m", name, "Pa", size) for name, size in POUNDS.items()),
+        *(("m", "N", f"{letter}Pa", 1.0 / PREFIXES[letter]) for letter in "kMG"),
+        *(("m", "N", name, 1.0 / size) for name, size in STRESSES.items()),
+    ],
+)
+def test_known_units_are_those_of_scipy(length, force, stress, value):
+    """A set that is not consistent is told with its ratio, to three digits."""
+    text = STUDY
+    for old, new in (("mm", length), ("N", force), ("MPa", stress)):
+        text = text.replace(f'= "{old}"', f'= "{new}"')
+    told = str(refused(f"units: found {force} over {length}², which is", Study.from_text, text))
+    assert f"which is {value:.3g} {stress}; allowed: a consistent set" in told

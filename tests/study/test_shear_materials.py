@@ -6,14 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from click.testing import CliRunner
+from command import call
 from drawn import draw
 from real import UNITS
+from study.told import merged, refused
 
 import swtstudy
-from swtstudy import Study, StudyError, open_results, run
-from swtstudy.cli import main
-from swtstudy.study.writing import to_toml
+from swtstudy import Study, open_results, run
 
 LIMIT = "findley_limit = 150"
 TENSILE = "strength = 900\nstrength_exponent = -0.1\nductility = 0.5\nductility_exponent = -0.6"
@@ -163,45 +162,42 @@ def test_properties_of_shear_of_a_contact_in_python():
             "unknown key 'shear_ductilty'; allowed: did you mean shear_ductility",
         ),
         ([SHEAR], "swt", "material: found shear constants alone; allowed: the criterion fatemi_socie"),
-        ([SHEAR], "findley", "material: found constants with the criterion findley alone; allowed: none"),
-        ([TENSILE], "findley", "material: found constants with the criterion findley alone; allowed: none"),
+        *(
+            ([each], "findley", "material: found constants with the criterion findley alone; allowed: none")
+            for each in (SHEAR, TENSILE)
+        ),
         (["findley_limit = 0"], "findley", "material.findley_limit: found 0; allowed: a positive stress in"),
         (["findley_limt = 9"], "findley", "unknown key 'findley_limt'; allowed: did you mean findley_limit"),
     ],
 )
 def test_wrong_properties_of_shear_have_one_message(lines, criterion, words):
-    with pytest.raises(StudyError, match=words) as error:
-        study(*lines, criterion=f'"{criterion}"')
-    assert len(error.value.mistakes) == 1
+    assert len(refused(words, study, *lines, criterion=f'"{criterion}"').mistakes) == 1
 
 
 def test_a_shear_modulus_needs_the_other_constants_of_shear():
-    with pytest.raises(StudyError, match=r"material.shear_strength: found nothing") as error:
-        study("shear_modulus = 80e3", criterion='"fatemi_socie"')
-    assert len(error.value.mistakes) == 4
+    error = refused("material.shear_strength: found nothing", study, "shear_modulus = 80e3")
+    assert len(error.mistakes) == 4
 
 
 def test_a_shear_modulus_is_asked_for_where_the_bodies_have_none(tmp_path):
     several = FIXED.replace("poisson_ratio = 0.3", "").replace("0.3", '0.3\ncriterion = "fatemi_socie"')
     text = f'title = "t"\n{UNITS}[material]\nyield_strength = 400\n{SHEAR}\n[fixed]\n{several}\n'
     text += "[axes]\npoisson_ratio = [0.3, 0.4]\n"
-    with pytest.raises(StudyError, match=r"material.shear_modulus: found nothing; .*since that of"):
-        Study.from_text(text)
+    refused("material.shear_modulus: found nothing; .*since that of", Study.from_text, text)
     Study.from_text(text.replace(SHEAR, f"shear_modulus = 80e3\n{SHEAR}"))
     (tmp_path / "materials.toml").write_text(
         f"[a]\nyield_strength = 400\n{SHEAR}\n[b]\nyield_strength = 400\n"
     )
     named = text.replace(f"yield_strength = 400\n{SHEAR}", 'file = "materials.toml"\nname = ["a", "b"]')
-    with pytest.raises(StudyError, match="shear_strength: found that of one body; allowed: that of both"):
-        Study.from_text(named, "s", tmp_path)
+    words = "shear_strength: found that of one body; allowed: that of both"
+    refused(words, Study.from_text, named, "s", tmp_path)
 
 
 def test_wrong_properties_of_shear_in_python():
     own = OWN | {"criterion": "findley"}
-    with pytest.raises(StudyError, match="findley_limit: found -1; allowed: a positive stress"):
-        swtstudy.physical(**own, findley_limit=-1)
-    with pytest.raises(StudyError, match="shear_constants: found 3; allowed: a ShearConstants, or a pair"):
-        swtstudy.physical(**own, shear_constants=3)
+    refused("findley_limit: found -1; allowed: a positive stress", swtstudy.physical, **own, findley_limit=-1)
+    words = "shear_constants: found 3; allowed: a ShearConstants, or a pair"
+    refused(words, swtstudy.physical, **own, shear_constants=3)
 
 
 def test_a_limit_in_another_unit_is_warned_of():
@@ -230,31 +226,30 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
         f'criterion = ["fatemi_socie", "findley"]{FIGURE}'
     )
     (tmp_path / "t.toml").write_text(text, encoding="utf-8")
-    runner = CliRunner()
 
-    def call(*words: object) -> str:
-        done = runner.invoke(main, [*map(str, words)])
+    def told(*words: object) -> str:
+        done = call(*words)
         assert done.exit_code == 0, done.output
         return done.output
 
-    call("run", tmp_path / "t.toml", "--results", tmp_path, "--workers", "1")
+    told("run", tmp_path / "t.toml", "--results", tmp_path, "--workers", 1)
     found = open_results(tmp_path / "t.nc")
     for each in ("FS_cycles", "findley_usage"):
         assert found[each].notnull().sum() == 2
-    info = call("info", tmp_path / "t.nc")
+    info = told("info", tmp_path / "t.nc")
     assert "Findley limit" in info
     assert "150 MPa" in info
     assert "shear_modulus 80769.2, strength 530" in info
     upper, lower = draw(found).axes
     assert upper.get_ylabel() == r"load cycles to a crack, $N_\mathrm{FS}$"
     assert lower.get_ylabel() == r"Findley stress over its limit, $f/f_\mathrm{lim}$"
-    call("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
+    told("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
     page = (tmp_path / "t.html").read_text(encoding="utf-8")
     assert "Strain-life constants in torsion" in page
     kept = Study.from_text(found.attrs["study"]).grid
     assert kept.findley_limits == (150.0, 150.0)
     assert kept.shear_materials == (swtstudy.ShearConstants(210e3 / 2.6, 530.0, -0.09, 0.8, -0.55),) * 2
-    again = Study.from_text(to_toml("t", 1e-3, kept, None)).grid
+    again = Study.from_text(merged(tmp_path / "t.nc").attrs["study"]).grid
     assert (again.findley_limits, again.shear_materials) == (kept.findley_limits, kept.shear_materials)
     short = found.assign(FS_cycles=found.FS_cycles.where(found.FS_cycles.isnull(), 12.0))
     assert any(line.startswith("FS_cycles extrapolated at ") for line in short.swt.validity())
@@ -262,5 +257,5 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
 
 def test_constants_are_estimated_for_a_poisson_ratio_that_a_body_can_have():
     tensile = swtstudy.FatigueConstants(200e3, 1000.0, -0.1, 0.5, -0.6)
-    with pytest.raises(StudyError, match=r"poisson_ratio: found 0.7; allowed: a number in \(-1, 0.5\]"):
-        swtstudy.ShearConstants.estimated(tensile, 0.7)
+    words = r"poisson_ratio: found 0.7; allowed: a number in \(-1, 0.5\]"
+    refused(words, swtstudy.ShearConstants.estimated, tensile, 0.7)

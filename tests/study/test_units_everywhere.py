@@ -2,30 +2,32 @@
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
-from matplotlib.figure import Figure
+from command import call
 from real import ALUMINIUM, UNITS
+from study import told
+from study.told import merged, refused, written
 
 import swtstudy
-from swtstudy import Study, StudyError, physical
-from swtstudy.archive.describe import describe
-from swtstudy.archive.recall import grid_of
-from swtstudy.cli import main
-from swtstudy.faces.contacts import PhysicalContact
-from swtstudy.study.definition import one_of_study
-from swtstudy.study.writing import to_toml
+from swtstudy import Study, physical
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
 
-RIG = {
-    "young_modulus": 73.1e3,
-    "poisson_ratio": 0.33,
-    "radius": 50.0,
-    "friction": 0.5,
-    "normal_force": 200.0,
-    "tangential_force_amplitude": 60.0,
-}
+RIG = told.RIG | {"normal_force": 200.0, "tangential_force_amplitude": 60.0}
+
+
+@pytest.fixture
+def shown(monkeypatch):
+    """Show a study's point by the command, and the title of the figure."""
+    figures = []
+    monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, *_: figures.append(figure))
+
+    def show(*words):
+        done = call("show", *words)
+        assert done.exit_code == 0, done.stderr
+        return figures[-1].get_suptitle().replace("\n", " ")
+
+    return show
 
 
 @pytest.fixture(scope="module")
@@ -45,22 +47,21 @@ def test_extrema_of_any_quantity(solved):
     np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
     assert "cycles" in found.minimum.attrs["long_name"]
     assert solved.swt.extrema("normal_force", "SWT").maximum.attrs["units"] == "unit of stress"
-    with pytest.raises(StudyError, match="whose values are flags"):
-        solved.swt.extrema("normal_force", "regime")
-    with pytest.raises(ValueError, match="not a dimension of SWT"):
-        solved.swt.extrema("phase", "SWT")
-    with pytest.raises(ValueError, match="not a quantity"):
-        solved.swt.extrema("normal_force", "SWOT")
+    for dim, y, words in (
+        ("normal_force", "regime", "whose values are flags"),
+        ("phase", "SWT", "not a dimension of SWT"),
+        ("normal_force", "SWOT", "not a quantity"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            solved.swt.extrema(dim, y)
 
 
 def test_the_stress_field_is_in_lengths_and_stresses(rig):
     """Hertz's pressure, in MPa, at places in mm."""
     a, p0 = rig.contact_radius, rig.peak_pressure
     x = np.array([0.0, 0.5 * a])
-    with pytest.raises(StudyError, match=r"z: found -0.1; allowed: depths z ≥ 0"):
-        rig.stress_field(x, 0.0, -0.1)
-    with pytest.raises(StudyError, match="x: found 'a'; allowed: finite positions, which are lengths"):
-        rig.swt_field("a", 0.0, 0.0)
+    refused("z: found -0.1; allowed: depths z ≥ 0", rig.stress_field, x, 0.0, -0.1)
+    refused("x: found 'a'; allowed: finite positions, which are lengths", rig.swt_field, "a", 0.0, 0.0)
     field = rig.stress_field(x, 0.0, 0.0, time=0.0)
     np.testing.assert_allclose(field.x, x, rtol=1e-12)
     np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
@@ -81,8 +82,7 @@ def test_a_point_of_a_study_is_a_contact(solved):
     contact = point.swt.contact()
     assert contact.grid.fixed["normal_force"] == 200.0
     assert contact.parameters() == physical(**RIG).parameters()
-    with pytest.raises(StudyError, match="results without units"):
-        swtstudy.solve(rtol=1e-2).swt.contact()
+    refused("results without units", swtstudy.solve(rtol=1e-2).swt.contact)
 
 
 def test_an_inspected_contact_is_in_forces_and_stresses(rig):
@@ -120,18 +120,14 @@ def test_the_best_life_is_the_longest(rig):
 
 
 def test_wrong_optima_are_named(rig):
-    with pytest.raises(StudyError, match="minimise: found 'cycles'"):
-        rig.optimise({"phase": (0, 1)}, "cycles")
-    with pytest.raises(StudyError, match=r"over.phasee: found not a parameter that is a number"):
-        rig.optimise({"phasee": (0, 1)})
-    with pytest.raises(StudyError, match=r"over.radius\[0\]: found -1"):
-        rig.optimise({"radius": (-1, 1)})
-    with pytest.raises(StudyError, match=r"over.radius: found \(60, 40\); allowed: the lower end first"):
-        rig.optimise({"radius": (60, 40)})
-    with pytest.raises(StudyError, match="critical_distance: found several"):
-        rig.optimise({"radius": (40, 60)}, critical_distance=[0.1, 0.2])
-    with pytest.raises(StudyError, match="several contacts"):
-        physical(**{**RIG, "radius": [40.0, 50.0]}).optimise({"phase": (0, 1)})
+    refused("minimise: found 'cycles'", rig.optimise, {"phase": (0, 1)}, "cycles")
+    refused("over.phasee: found not a parameter that is a number", rig.optimise, {"phasee": (0, 1)})
+    refused(r"over.radius\[0\]: found -1", rig.optimise, {"radius": (-1, 1)})
+    words = r"over.radius: found \(60, 40\); allowed: the lower end first"
+    refused(words, rig.optimise, {"radius": (60, 40)})
+    words = "critical_distance: found several"
+    refused(words, rig.optimise, {"radius": (40, 60)}, critical_distance=[0.1, 0.2])
+    refused("several contacts", physical(**RIG | {"radius": [40.0, 50.0]}).optimise, {"phase": (0, 1)})
 
 
 STUDY = f"""
@@ -160,35 +156,32 @@ def test_bodies_have_names(tmp_path):
     found = swtstudy.run(Study.from_text(STUDY), tmp_path / "pad.nc", workers=1)
     assert found.body.values.tolist() == [1, 2]
     assert found.body.attrs["flag_meanings"] == "test_piece pad"
-    assert "  axis           body: test piece, pad" in describe(found)
+    assert "  axis           body: test piece, pad" in repr(found.swt).splitlines()
     figure = found.swt.figure()
     legends = [*figure.legends, *(axes.get_legend() for axes in figure.axes if axes.get_legend())]
     assert [text.get_text() for text in legends[0].get_texts()] == ["test piece", "pad"]
-    assert grid_of(found).body_names == ("test piece", "pad")
+    again = Study.from_text(merged(tmp_path / "pad.nc").attrs["study"])
+    assert again.grid.body_names == ("test piece", "pad")
     lines = found.assign(radius_ratio=found.radius_ratio + 0.2 * (found.body == 2)).swt.validity()
     assert any(line.startswith("contact too large") and line.endswith("body = pad") for line in lines)
     assert found.swt.to_table().body.tolist() == ["test_piece", "pad"] * 2
     first = found.swt.slice(body="test piece")
     assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
-    with pytest.raises(StudyError, match=r"body: found 'rod' .*; allowed: test piece, pad"):
-        found.swt.slice(body="rod")
-    with pytest.raises(
-        StudyError, match=r"fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'"
-    ):
-        Study.from_text(STUDY.replace("bodies =", 'body = "rod"\nbodies ='))
+    refused("body: found 'rod' .*; allowed: test piece, pad", found.swt.slice, body="rod")
+    rod = STUDY.replace("bodies =", 'body = "rod"\nbodies =')
+    refused("fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'", Study.from_text, rod)
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0
-    again = Study.from_text(to_toml("t", 1e-2, one.grid, None))
+    again = written(one, tmp_path)
     assert (again.grid.body_names, again.grid.fixed["body"]) == (("test piece", "pad"), 2.0)
 
 
 @pytest.mark.parametrize("bodies", ['["pad"]', '"pad"', '["pad", "pad"]', '["pad", 2]', '["", "pad"]'])
 def test_wrong_names_are_refused(bodies):
-    with pytest.raises(StudyError, match=r"fixed.bodies: found .*; allowed: two names"):
-        Study.from_text(STUDY.replace('["test piece", "pad"]', bodies))
-    with pytest.raises(StudyError, match="unknown parameter"):
-        Study.from_text('title = "t"\n[fixed]\nbodies = ["a", "b"]')
+    wrong = STUDY.replace('["test piece", "pad"]', bodies)
+    refused("fixed.bodies: found .*; allowed: two names", Study.from_text, wrong)
+    refused("unknown parameter", Study.from_text, 'title = "t"\n[fixed]\nbodies = ["a", "b"]')
 
 
 def test_names_in_python():
@@ -233,68 +226,59 @@ def test_all_panels_of_a_contact_have_its_units(rig):
     assert words.endswith(" unit of work")
 
 
-def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path):
+def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path, shown):
     file = tmp_path / "pad.toml"
     strength = "[material]\nyield_strength = 150\n[fixed]"
     file.write_text(STUDY.replace("[fixed]", strength), encoding="utf-8")
-    contact = PhysicalContact(one_of_study(str(file), {"phase": "90 deg"}))
-    words = contact.inspect(body=1).get_suptitle().replace("\n", " ")
+    words = shown(file, "--phase", "90 deg")
     for given in ("$F_0$ = 200 N", "$R$ = 50 mm", r"$Q_A$ = 60 N", r"$\sigma_{B,A}$ = 30 MPa"):
         assert given in words
     assert "a_H" not in words
     assert "beyond first yield: largest von Mises stress over the yield strength up to" in words
-    assert "sigma" not in contact._headlines(2)[0]  # the other body carries no bulk stress
+    # The other body carries no bulk stress.
+    assert "sigma_{B" not in shown(file, "--phase", "90 deg", "--body", "2")
 
 
-def test_the_command_shows_a_study(tmp_path, monkeypatch):
+def test_the_command_shows_a_study(tmp_path, shown):
     file = tmp_path / "pad.toml"
     file.write_text(STUDY, encoding="utf-8")
-    picture = tmp_path / "pad.png"
-    given = ["show", str(file), "-o", str(picture)]
-    done = CliRunner().invoke(main, given)
+    done = call("show", file, "-o", tmp_path / "pad.png")
     assert done.exit_code == 2
     assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
-    shown = {}
-
-    def inspect(contact, body, style, width):
-        shown.update(contact.parameters(body), body=body)
-        return Figure()
-
-    monkeypatch.setattr(PhysicalContact, "inspect", inspect)
-    done = CliRunner().invoke(
-        main, [*given, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2"]
-    )
-    assert done.exit_code == 0, done.stderr
-    assert picture.exists()
-    assert (shown["phase"], shown["body"]) == (np.pi / 2, 2)
-    assert "tangential_amplitude" in shown
-    assert CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "pad"]).exit_code == 0
-    assert shown["body"] == "pad"
-    done = CliRunner().invoke(main, [*given, "--phase", "90 deg", "--body", "rod"])
+    words = shown(file, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2")
+    for given in (r"$\psi$ = π/2", "$u_A$ = 0.001 mm", "pad"):
+        assert given in words
+    assert "Q_A" not in words
+    assert "pad" in shown(file, "--phase", "90 deg", "--body", "pad")
+    done = call("show", file, "--phase", "90 deg", "--body", "rod")
     assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
-    done = CliRunner().invoke(main, ["show", "plane_contacts", "--profile", "paraboloid", "--body", "1"])
+    done = call("show", "plane_contacts", "--profile", "paraboloid", "--body", "1")
     assert "body: found '1'; allowed: no body in a study without units" in done.stderr
 
 
+def title(contact, body=1):
+    return contact.inspect(body=body).get_suptitle().replace("\n", " ")
+
+
+@pytest.mark.slow
 def test_titles_leave_out_the_factors_of_a_measured_load():
     """F_A = 1 N was said of forces of 60 N, and ψ and ω2/ω1 of a loop that has neither."""
     load = swtstudy.LoadPath("rig", [[60.0, 200.0], [-60.0, 190.0]], mean_normal=200.0)
-    given = {name: value for name, value in RIG.items() if not name.endswith(("amplitude", "normal_force"))}
-    words = physical(**given, load=load)._headlines(1)[0]
+    words = title(physical(**told.RIG, load=load))
     assert "$F_0$ = 200" in words
     assert "rig" in words
     assert not any(symbol in words for symbol in ("F_A", "Q_A", "omega", "psi"))
-    twice = physical(**given, load=load, tangential_force_amplitude=2.0, normal_force_amplitude=1.0)
-    assert "$Q_A$ = 2" in twice._headlines(1)[0]
+    twice = {"tangential_force_amplitude": 2.0, "normal_force_amplitude": 1.0}
+    assert "$Q_A$ = 2" in title(physical(**told.RIG, load=load, **twice))
     loop = swtstudy.LoadPath("loop", [[1.0, 0.0], [-1.0, 0.0]])
-    factors = {"normal_force_amplitude": 1.0, "tangential_force_amplitude": 1.0}
-    words = physical(**given, normal_force=200.0, load=loop, **factors)._headlines(1)[0]
+    given = told.RIG | {"normal_force": 200.0, "load": loop, "tangential_force_amplitude": 1.0}
+    words = title(physical(**given, normal_force_amplitude=1.0))
     assert "$Q_A$ = 1" in words
     assert "psi" not in words
-    with pytest.raises(StudyError, match=r"normal_amplitude: .* in lengths; or .*, 1 if it is in forces"):
-        physical(**given, normal_force=200.0, load=loop, tangential_force_amplitude=1.0)
+    refused("normal_amplitude: .* in lengths; or .*, 1 if it is in forces", physical, **given)
 
 
+@pytest.mark.slow
 def test_titles_name_the_body():
     named = physical(**RIG, bulk_stress_amplitude=10.0, bodies=["pad", "specimen"])
-    assert [named._headlines(body)[0].rpartition(",  ")[2] for body in (1, 2)] == ["pad", "specimen"]
+    assert [title(named, body).rpartition(",  ")[2] for body in (1, 2)] == ["pad", "specimen"]

@@ -1,0 +1,38 @@
+"""What tests of several rooms ask of studies and archives as a user does: by calls, files and commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import stand_in
+import xarray as xr
+from command import call
+
+from swtstudy import Study, StudyError, open_results, run
+
+#: A sphere of aluminium on its like, in newtons and millimetres; its loads are to follow.
+RIG: dict[str, Any] = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
+
+
+def refused(words: str, function: Callable[..., Any], *arguments: Any, **given: Any) -> StudyError:
+    """The error with which a call is refused, in which the words are found; any without words."""
+    with pytest.raises(StudyError, match=words or None) as caught:
+        function(*arguments, **given)
+    return caught.value
+
+
+def merged(*archives: Path, more: tuple[str, ...] = ()) -> xr.Dataset:
+    """What `swtstudy merge` makes of archives; its study is written anew from their values."""
+    target = archives[0].with_name("merged.nc")
+    done = call("merge", *archives, "-o", target, *more)
+    assert done.exit_code == 0, done.output
+    return open_results(target)
+
+
+def written(study: Study, folder: Path) -> Study:
+    """The study that an archive of it keeps when it is merged."""
+    run(study, folder / "kept.nc", workers=1, solver=stand_in.smooth)
+    return Study.from_text(merged(folder / "kept.nc").attrs["study"])
