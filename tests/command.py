@@ -1,12 +1,28 @@
-"""The command in this process."""
+"""The command in this process, and what it says of archives."""
 
 from __future__ import annotations
 
+import re
+
+import pytest
 from click.testing import CliRunner, Result
 
 from swtstudy.cli import main as main
 
 
-def call(*arguments: object) -> Result:
-    """What the command does with arguments."""
-    return CliRunner().invoke(main, list(map(str, arguments)))
+def call(*arguments: object, **options: object) -> Result:
+    """What the command does with arguments; options are those of click's ``invoke``, such as color."""
+    return CliRunner().invoke(main, list(map(str, arguments)), **options)  # type: ignore[arg-type]
+
+
+def ends(*arguments: object) -> int:
+    """The exit code of the command in the streams that are there."""
+    with pytest.raises(SystemExit) as ended:
+        main(list(map(str, arguments)))
+    return int(ended.value.code or 0)
+
+
+def saved(archive: object, kind: str = "unfinished") -> int:
+    """How many distinct points are beside an archive: of an unfinished run, or "kept" of other studies."""
+    found = re.search(rf"^  {kind} +(\d+) distinct points", call("info", archive).output, re.MULTILINE)
+    return int(found[1]) if found else 0

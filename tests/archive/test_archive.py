@@ -8,15 +8,11 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from click.testing import CliRunner
+from command import call
 from stand_in import Points, Solution
 
 import swtstudy
 from swtstudy import Study, open_results, run
-from swtstudy.archive.paths import LockedError
-from swtstudy.cli import main
-from swtstudy.vocabulary.files import check_writable, replacing
-from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 def test_a_round_trip_keeps_values_and_names(small, tmp_path):
@@ -156,27 +152,25 @@ def test_cf_rules(small, tmp_path):
     assert {"title", "history", "source", "Conventions"} <= dataset.attrs.keys()
     for name, variable in dataset.variables.items():
         assert variable.attrs["long_name"]
-        if name in PARAMETERS:
-            assert variable.attrs["symbol"] == PARAMETERS[name].symbol
         if name not in ("regime", "status", "profile", "control"):
             assert variable.attrs.get("units", "rad") in ("rad", "degree")
     assert all(name in dataset for name in dataset.s.attrs["ancillary_variables"].split())
     assert dataset.regime.attrs["flag_values"].dtype == dataset.regime.dtype
 
 
-def test_a_failed_write_leaves_the_old_file(tmp_path):
-    target = tmp_path / "file.txt"
-    target.write_text("old")
+def test_a_failed_write_leaves_the_old_file(small, tmp_path, monkeypatch):
+    path = tmp_path / "small.nc"
+    run(small, path, solver=stand_in.smooth)
+    before = path.read_bytes()
 
-    def fail():
-        with replacing(target) as temporary:
-            temporary.write_text("half")
-            raise RuntimeError
+    def fail(*_, **__):
+        raise OSError(28, "No space left on device")
 
-    with pytest.raises(RuntimeError):
-        fail()
-    assert target.read_text() == "old"
-    assert list(tmp_path.iterdir()) == [target]
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", fail)
+    with pytest.raises(OSError, match="No space left on device"):
+        run(Study.from_text(f"{small.text}\n# changed"), path, solver=None)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_an_unwritable_folder_is_found_out_before(small, tmp_path):
@@ -188,7 +182,7 @@ def test_an_unwritable_folder_is_found_out_before(small, tmp_path):
     with pytest.raises(OSError, match="cannot write into the folder"):
         run(small, tmp_path / "results" / "small.nc", solver=never)
     with pytest.raises(OSError, match="is a folder"):
-        check_writable(tmp_path)
+        run(small, tmp_path, solver=never)
 
 
 @pytest.mark.parametrize(
@@ -210,10 +204,10 @@ def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as writer:
         assert writer.stdout.readline() == b"open\n"
-        with pytest.raises(LockedError, match=f"^{path} is locked: another program has it open for writing$"):
+        with pytest.raises(OSError, match=f"^{path} is locked: another program has it open for writing$"):
             open_results(path)
         for arguments in (["info", path], ["run", tmp_path / "small.toml", "--results", tmp_path]):
-            result = CliRunner().invoke(main, [*map(str, arguments)])
+            result = call(*arguments)
             assert result.exit_code == 2
             assert result.stderr == f"Error: {path} is locked: another program has it open for writing\n"
         writer.communicate(b"\n")

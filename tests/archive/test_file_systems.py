@@ -11,11 +11,9 @@ import netCDF4
 import numpy as np
 import pytest
 import stand_in
-from click.testing import CliRunner
-from command import call
+from command import call, ends
 
 from swtstudy import Study, open_results, run, solve
-from swtstudy.cli import main
 
 fcntl = pytest.importorskip("fcntl")
 STUDY = Study.from_text('title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.25]\n')
@@ -141,12 +139,11 @@ def test_consoles_without_greek_letters(words, encoding, monkeypatch):
     streams = {name: io.TextIOWrapper(io.BytesIO(), encoding) for name in ("stdout", "stderr")}
     for name, stream in streams.items():
         monkeypatch.setattr(sys, name, stream)
-    with pytest.raises(SystemExit) as ended:
-        main(words)
+    code = ends(*words)
     for stream in streams.values():
         stream.flush()
     out, errors = (stream.buffer.getvalue() for stream in streams.values())
-    assert (ended.value.code, errors) == (0, b"")
+    assert (code, errors) == (0, b"")
     assert out
 
 
@@ -155,7 +152,7 @@ def test_a_title_cannot_command_the_terminal(tmp_path):
     run(Study.from_toml(tmp_path / "t.toml"), tmp_path / "t.nc", solver=stand_in.smooth)
     for words in (("info", tmp_path / "t.nc"), ("plan", tmp_path / "t.toml", "--results", tmp_path)):
         # With colours, as on a terminal: click removes such commands from what goes elsewhere.
-        found = CliRunner().invoke(main, [*map(str, words)], color=True)
+        found = call(*words, color=True)
         assert found.exit_code == 0
         assert "red" in found.stdout
         assert "\x1b" not in found.stdout
@@ -166,9 +163,7 @@ def test_a_closed_output_is_no_error(monkeypatch):
     closed = f'exec "{sys.executable}" -m swtstudy solve --help >&-'
     assert subprocess.run(closed, shell=True, timeout=300, stderr=subprocess.PIPE).stderr == b""
     monkeypatch.setattr(sys, "stdout", None)
-    with pytest.raises(SystemExit) as ended:
-        main(["list"])
-    assert ended.value.code == 0
+    assert ends("list") == 0
 
 
 def test_heights_below_a_flat_face_are_named(tmp_path):
