@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
+import xarray as xr
 from click.testing import CliRunner, Result
 
+import swtstudy
 from swtstudy.cli import main as main
 
 
@@ -26,3 +29,12 @@ def saved(archive: object, kind: str = "unfinished") -> int:
     """How many distinct points are beside an archive: of an unfinished run, or "kept" of other studies."""
     found = re.search(rf"^  {kind} +(\d+) distinct points", call("info", archive).output, re.MULTILINE)
     return int(found[1]) if found else 0
+
+
+def merged(*archives: Path, sparse: bool = False, name: str = "merged.nc") -> xr.Dataset:
+    """Archives as one, beside the first of them; a ValueError with the words of the command if it refuses."""
+    target = archives[0].with_name(name)
+    done = call("merge", *archives, "-o", target, *["--sparse"] * sparse)
+    if done.exit_code:
+        raise ValueError(done.stderr.removeprefix("Error: ").strip())
+    return swtstudy.open_results(target)
