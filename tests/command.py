@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 
@@ -23,6 +24,22 @@ def ends(*arguments: object) -> int:
     with pytest.raises(SystemExit) as ended:
         main(list(map(str, arguments)))
     return int(ended.value.code or 0)
+
+
+class Terminal(io.StringIO):
+    """A stream that says it is a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def shown(columns: int, *arguments: object) -> list[str]:
+    """The lines that the command shows on a terminal of so many columns."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("COLUMNS", str(columns))
+        patch.setattr("sys.stdout", terminal := Terminal())
+        assert ends(*arguments) == 0
+    return terminal.getvalue().splitlines()
 
 
 def saved(archive: object, kind: str = "unfinished") -> int:
