@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
 
 import swtstudy
@@ -103,6 +104,24 @@ def test_slip(cattaneo, axes):
     np.testing.assert_array_equal(
         np.asarray(mesh.get_array()).reshape(cattaneo.state.T.shape), cattaneo.state.T
     )
+
+
+def test_cells_of_the_slip_map(axes):
+    """A cell goes half way to its neighbours, also where these are not equally far."""
+    states = swtstudy.slip_map([0.2, 0.9, 1.4], time=[0.0, 1.0, 2.0, 3.0], phase=0.5)
+    patches = panels.draw_slip_map(axes, states)
+    canvas = FigureCanvasAgg(axes.figure)
+    axes.set(ylim=(0.0, 1.65), autoscale_on=False)
+    axes.lines[0].set_visible(False)  # the edge of the contact
+    canvas.draw()
+    seen = np.asarray(canvas.buffer_rgba())
+    for r, row in ((0.02, 0), (0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
+        for column in (1, 2):
+            across, up = axes.transData.transform((column + 0.3, r))
+            colour = seen[seen.shape[0] - 1 - round(up), round(across)] / 255.0
+            code = int(states.state.transpose("r", "time")[row, column])
+            assert colour == pytest.approx(to_rgba(patches[code].get_facecolor()), abs=0.01)
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), states.contact_radius)
 
 
 def test_springs(cattaneo, axes):

@@ -2,14 +2,13 @@
 
 import numpy as np
 import pytest
+from asking import EVERY
 from curves import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
 
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import QUANTITIES
-from swtstudy.vocabulary.variables import ATTRIBUTES
+import swtstudy
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -26,8 +25,15 @@ WORDS = {
 REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium"]
 
 
+@pytest.fixture(scope="module")
+def solved():
+    """A point with all quantities, whose variables say what they are."""
+    given = {"critical_distance": 0.1, "flat_radius": 0.5, "profile": "rounded_punch"}
+    return swtstudy.solve(rtol=1e-1, quantities=EVERY, **given)
+
+
 @pytest.fixture
-def dataset():
+def dataset(solved):
     """Each variable over ψ and μ is another function, of which a sum of the two parameters is a part."""
     found = made_up(lambda phase, friction: 2 + phase + 5 * friction, phase=PHASE, friction=FRICTION)
     found = found.assign(s_surface=3 * found.s, s_error=1e-9 * found.s, critical_x=found.s - 4)
@@ -36,13 +42,15 @@ def dataset():
     codes[4:], codes[8:, 1:] = 1, 2
     found["regime"] = ("phase", "friction"), codes
     for name, values in found.data_vars.items():
-        values.attrs = dict(ATTRIBUTES[name])
+        values.attrs = dict(solved[name].attrs)
     return found
 
 
-def test_every_symbol_is_a_formula():
-    for row in (*PARAMETERS.values(), *QUANTITIES.values()):
-        assert MathTextParser("path").parse(f"${row.symbol}$").width > 0
+def test_every_symbol_is_a_formula(solved):
+    symbols = {values.attrs["symbol"] for values in solved.variables.values() if "symbol" in values.attrs}
+    assert len(symbols) > 20
+    for symbol in symbols:
+        assert MathTextParser("path").parse(f"${symbol}$").width > 0
 
 
 @pytest.mark.parametrize("name", WORDS)
@@ -253,6 +261,10 @@ def test_long_ranges_are_logarithmic_where_values_allow_it():
         ({"y": []}, "empty list"),
         ({"hue": "phase"}, "figure.hue: found 'phase', also used for x; allowed: each axis once"),
         ({"hue": None}, "no place for the axis friction"),
+        ({"hue": None, "kind": "contour"}, "vertical: found nothing"),
+        ({"kind": "heatmap", "vertical": "friction"}, "hue"),
+        ({"vertical": "friction"}, "vertical"),
+        ({"kind": "pie"}, "found 'pie'"),
         ({"title": "$x^2^3$"}, "figure.title: .*Double superscript"),
         ({"regimes": True}, "figure.regimes"),
     ],

@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import real
-from click.testing import CliRunner
+from command import call
 
 from swtstudy import Study, StudyError, draw_load, read_signal
-from swtstudy.cli import main
 
 RIG = f"""{real.RIG}[loads.rig]
 file = "rig.csv"
@@ -72,12 +71,12 @@ def test_cycles_that_are_the_same_do_not_scatter(tmp_path: Path) -> None:
 
 def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig: Path) -> None:
     picture = rig.with_name("rig.png")
-    done = CliRunner().invoke(main, ["show", "--load", "rig", str(rig), "-o", str(picture)])
+    done = call("show", "--load", "rig", rig, "-o", picture)
     assert done.exit_code == 0, done.output
     assert done.output.startswith("rig: 3 cycles of 4 samples; mean normal load 203.")
     assert "scatter by 0.1" in done.output
     assert picture.stat().st_size > 10_000
-    done = CliRunner().invoke(main, ["show", "--load", "rg", str(rig)])
+    done = call("show", "--load", "rg", rig)
     assert done.exit_code == 2
     assert "did you mean rig" in done.output
 
