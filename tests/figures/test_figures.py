@@ -32,17 +32,6 @@ def one_panel(panels):
     return panels.isel(phase=0)
 
 
-def test_lines_ticks_and_legend(small, tmp_path):
-    figure = draw(run(small, tmp_path / "small.nc", solver=stand_in.smooth))
-    (axes,) = figure.axes
-    assert len(axes.lines) == 2
-    assert axes.get_xlabel() == r"$\psi$ (rad)"
-    assert axes.get_ylabel() == r"$s = \mathrm{SWT}/\mathrm{SWT}_0$"
-    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["0", "π/2", "π", "3π/2", "2π"]
-    texts = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert texts == [r"$\delta_A/\delta_0$ = 0.25", r"$\delta_A/\delta_0$ = 8/9"]
-
-
 @pytest.mark.usefixtures("unwrapped")
 def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
     figure = draw(panels)
