@@ -15,10 +15,17 @@ from command import call
 
 from swtstudy import Study, open_results, run
 
-NAMED = (
-    'title = "t"\nrtol = 1e-2\n[fixed]\nfriction = 0.37\nnormal_amplitude = 0.71\nflat_radius = 0.53\n'
-    '[axes]\nprofile = ["rounded_punch", "truncated_paraboloid"]\nphase = [0.11, 1.3]\n'
-)
+ONE = """title = "t"
+rtol = 1e-2
+[fixed]
+friction = 0.37
+normal_amplitude = 0.71
+flat_radius = 0.53
+profile = "rounded_punch"
+phase = 1.3
+"""
+SEVERAL = '[axes]\nprofile = ["rounded_punch", "truncated_paraboloid"]\nphase = [0.11, 1.3]\n'
+NAMED = ONE[: ONE.index("profile")] + SEVERAL
 
 
 def flipped(content: bytes, sought: bytes) -> Iterator[bytes]:
@@ -37,11 +44,7 @@ def flipped(content: bytes, sought: bytes) -> Iterator[bytes]:
 @pytest.mark.parametrize("single", [False, True])
 def test_a_flipped_bit_is_noticed(tmp_path, name, value, single):
     path = tmp_path / "small.nc"
-    text = NAMED.replace("[axes]\n", "").replace(
-        '["rounded_punch", "truncated_paraboloid"]', '"rounded_punch"'
-    )
-    text = text.replace("[0.11, 1.3]", "1.3") if single else NAMED
-    dataset = run(Study.from_text(text), path, solver=stand_in.smooth, workers=1)
+    dataset = run(Study.from_text(ONE if single else NAMED), path, solver=stand_in.smooth, workers=1)
     if value is None and not single:
         with netCDF4.Dataset(path) as file:
             assert all(

@@ -43,6 +43,20 @@ def numbers(axes):
     return {int(text.get_text()): text.get_position() for text in axes.texts if text.get_text().isdigit()}
 
 
+def dot_of(axes):
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    return dot
+
+
+def curves_of(axes, count):
+    """Curves of so many points: those of the instants, and two bounds for each of them."""
+    curves = [line for line in axes.lines if len(line.get_xdata()) == count]
+    named = [line for line in curves if line.get_label().isdigit()]
+    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
+    assert len(bounds) == 2 * len(named)
+    return named, list(zip(bounds[::2], bounds[1::2], strict=True))
+
+
 def test_load_path(moving, axes):
     panels.draw_load(axes, moving)
     time = moving.time.values  # ω1 t; ω2/ω1 = 1/2
@@ -129,12 +143,9 @@ def test_springs(cattaneo, axes):
     panels.draw_springs(axes, cattaneo)
     radius = cattaneo.r.values
     w = np.maximum(1.0 - radius**2, 0.0)
-    curves = [line for line in axes.lines if len(line.get_xdata()) == len(radius)]
-    assert len(curves) == 3 * cattaneo.sizes["instant"]
-    named = [line for line in curves if line.get_label().isdigit()]
+    named, bounds = curves_of(axes, len(radius))
     assert [line.get_label() for line in named] == [str(number) for number in cattaneo.instant.values]
-    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
-    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
+    for upper, lower in bounds:
         np.testing.assert_allclose(upper, w, atol=1e-12)
         np.testing.assert_allclose(lower, -w, atol=1e-12)
     turning = 0
@@ -152,14 +163,12 @@ def test_tractions(cattaneo, axes):
     panels.draw_tractions(axes, cattaneo)
     x = cattaneo.x.values
     p = 2 / np.pi * np.sqrt(np.maximum(1.0 - x**2, 0.0))
-    curves = [line for line in axes.lines if len(line.get_xdata()) == len(x)]
-    named = [line for line in curves if line.get_label().isdigit()]
-    bounds = [line for line in curves if not line.get_label().isdigit()]
-    for line in curves:
+    named, bounds = curves_of(axes, len(x))
+    for line in named:
         np.testing.assert_array_equal(line.get_xdata(), x)
-    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
-        np.testing.assert_allclose(upper.get_ydata(), 0.5 * p, atol=1e-9)
-        np.testing.assert_allclose(lower.get_ydata(), -0.5 * p, atol=1e-9)
+    for upper, lower in bounds:
+        np.testing.assert_allclose(upper, 0.5 * p, atol=1e-9)
+        np.testing.assert_allclose(lower, -0.5 * p, atol=1e-9)
     less = 2 / np.pi * np.sqrt(np.maximum(0.64 - x**2, 0.0))
     turning = 0
     for time, line in zip(cattaneo.instant_time.values, named, strict=True):
@@ -182,7 +191,7 @@ def test_stress_cycle(moving):
     np.testing.assert_array_equal(axes.lines[0].get_data(), (time, stress))
     (curve,) = (line for line in other.lines if len(line.get_xdata()) == len(time))
     np.testing.assert_array_equal(curve.get_data(), (time, strain))
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_ydata() == [stress.max()]
     assert dot.get_xdata() == [time[stress.argmax()]]
     assert levels(other, False) == [strain.min(), strain.max()]
@@ -221,7 +230,7 @@ def test_what_always_sticks_is_shaded(cattaneo, axes):
 def test_swt_along_the_surface(moving, axes):
     panels.draw_swt(axes, moving)
     np.testing.assert_array_equal(axes.lines[0].get_data(), (moving.x, moving.s_local))
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_data() == (pytest.approx([float(moving.critical_x)]), pytest.approx([float(moving.s)]))
     # a of the paraboloid: √δ, δ from 0.5 to 1.5.
     low, high = np.sqrt([0.5, 1.5])
@@ -260,7 +269,7 @@ def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
     assert np.isnan(point.s)
     panels.draw_swt(axes, point)
     assert axes.get_title("left") == "swt along the surface; dot: largest sampled"
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_ydata() == [float(point.s_local.max())]
     assert dot.get_xdata() == [float(point.x[int(point.s_local.values.argmax())])]
     panels.draw_stress(Figure().subplots(), point)
