@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import stand_in
 from command import call, main
-from curves import curves, whole
+from drawn import curves, whole
 from folders import STUDIES
 from solved import MISSING
 from soundness import SHAPES

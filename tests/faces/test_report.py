@@ -95,6 +95,16 @@ def study(
     return swtstudy.run(swtstudy.Study.from_text(text + hue), folder / "small.nc")
 
 
+def plain(html: object) -> str:
+    """Words without tags."""
+    return re.sub("<[^>]*>", "", str(html))
+
+
+def told(dataset: xr.Dataset) -> list[str]:
+    """The sentences about results, as words."""
+    return [plain(each) for each in sentences(dataset)]
+
+
 def read_multiple(words: str) -> float:
     """A multiple of π such as 0.86π, π/18 or 0."""
     number, _, below = words.partition("π")
@@ -162,7 +172,7 @@ def test_the_sentence_is_that_of_the_extrema() -> None:
     dataset = swtstudy.open_results(RESULTS / "figure3.nc")
     extremes = dataset.swt.extrema("phase")
     most = extremes.isel(normal_amplitude=int(extremes.ratio.argmax("normal_amplitude")))
-    first = re.sub("<[^>]*>", "", sentences(dataset)[0])
+    first = told(dataset)[0]
     assert f"changes s by a factor of {float(most.ratio):.3g} at δA/δ0 = 8/9" in first
     said = re.search(r"best at (.*), worst at (.*)\.$", first)
     assert said
@@ -180,7 +190,7 @@ def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points:
     dataset = swtstudy.open_results(RESULTS / "sphere_on_flat.nc")
     extremes = {word: float(one.cycles) for word, one in extreme_points(dataset).items()}
     assert extremes == {"best": float(dataset.cycles.max()), "worst": float(dataset.cycles.min())}
-    said = [re.sub("<[^>]*>", "", each) for each in sentences(dataset)]
+    said = told(dataset)
     assert all("changes the life N by a factor of" in each for each in said[:3])
     assert said[0].startswith("The phase")  # which the figure is over
     assert "400 N" in said[0]
@@ -234,7 +244,7 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path, without_points:
     still = swtstudy.run(Study.from_text(f"{CRITERIA}phase = [0, 1]\n"), tmp_path / "still.nc")
     values = {"SWT": " MPa", "f": " MPa", "FS": ""}
     names = dict(zip(values, ("SWT", "findley_stress", "FS"), strict=True))
-    said = [re.sub("<[^>]*>", "", each) for each in sentences(still)]
+    said = told(still)
     for line, (symbol, unit), criterion in zip(said, values.items(), still.criterion.values, strict=False):
         own = f"{float(still[names[symbol]].sel(criterion=criterion)[0]):.4g}"
         word = criterion.replace("_", " ")
@@ -254,7 +264,7 @@ def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(
     text = CRITERIA.replace("tangential_force_amplitude = 60\n", "")
     text += "tangential_force_amplitude = [40, 60]\n"
     both = swtstudy.run(Study.from_text(text), tmp_path / "both.nc")
-    said = re.sub("<[^>]*>", "", sentences(both)[0])
+    said = told(both)[0]
     assert " QA changes SWT by a factor of " in said
     assert said.endswith(" for criterion swt: best at 40 N, worst at 60 N.")
     rows = re.findall(r"<tr>(.*?)</tr>", said_in(both, "extremes"))[1:]
@@ -380,7 +390,7 @@ def test_the_sentence_of_odd_studies(
     small: xr.Dataset, values: list[float], said: str, without_points: None
 ) -> None:
     dataset = constant(small, values)
-    (sentence,) = (re.sub("<[^>]*>", "", each) for each in sentences(dataset))
+    (sentence,) = told(dataset)
     assert sentence.startswith(said)
     missing = int(np.isnan(values).sum())
     assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", said_in(dataset, "head"))
@@ -412,7 +422,7 @@ def test_bodies_are_called_by_their_names() -> None:
         young_modulus=[210e3, 150e3], poisson_ratio=0.3, radius=10.0, friction=0.5, normal_force=100.0,
         tangential_force_amplitude=[10.0, 20.0], bodies=["test_piece", "pad"],
     )  # fmt: skip
-    words = re.sub("<.*?>", "", " ".join(sentences(contacts.solve(rtol=1e-2))))
+    words = " ".join(told(contacts.solve(rtol=1e-2)))
     assert "changes SWT by a factor of 1.88 for body test piece: best at 10, worst at 20." in words
     assert (
         "The body changes SWT by a factor of 1.4 at QA = 10: lowest for test piece, highest for pad." in words
@@ -470,10 +480,8 @@ def test_one_point_with_units_is_said_as_at_the_end_of_its_run() -> None:
 def test_the_headline_is_about_the_quantity_of_the_figure(small: xr.Dataset) -> None:
     layout = replace(FigureLayout.from_json(small.attrs["figure"]), y=("critical_x", "work"))
     found = small.assign(work=(2.0 + small.phase + 0.0 * small.s).assign_attrs(symbol="W"))
-    first = sentences(found.assign_attrs(figure=layout.to_json()))[0]
-    assert re.sub("<.*?>", "", first).endswith(
-        "ψ changes W by a factor of 2 at δA/δ0 = 0.25: best at 0, worst at 0.637π."
-    )
+    first = told(found.assign_attrs(figure=layout.to_json()))[0]
+    assert first.endswith("ψ changes W by a factor of 2 at δA/δ0 = 0.25: best at 0, worst at 0.637π.")
 
 
 def test_a_study_may_have_its_own_message(tmp_path: Path, without_points: None) -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from asking import EVERY
-from curves import curves, whole
+from drawn import curves, whole
 from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
@@ -70,6 +70,7 @@ def test_a_heat_map_is_the_values(dataset, name):
     figure = dataset.swt.panels("friction", vertical="phase", kind="heatmap", y=name)
     axes, bar = figure.axes
     (mesh,) = axes.collections
+    assert figure.get_size_inches() == pytest.approx((5.5, 3.2))
     np.testing.assert_array_equal(mesh.get_array(), dataset[name])  # rows are phases
     assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset[name].min(), dataset[name].max())
     assert mesh.get_cmap().name == "cividis"
