@@ -23,12 +23,6 @@ def test_a_round_trip_keeps_values_and_names(small, tmp_path):
     assert np.isfinite(again.s).all()
 
 
-def test_plain_xarray_reads_it(small, tmp_path):
-    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
-    with xr.open_dataset(tmp_path / "small.nc") as dataset:
-        assert dataset.s.sel(phase=np.pi, normal_amplitude=0.25, method="nearest").item() > 0
-
-
 #: What stands beside the numbers of an archive, and makes sense of them: units, long name and symbol.
 SAID = {
     "s": (None, "SWT parameter SWT/SWT0", "s"),
@@ -122,17 +116,6 @@ def test_provenance(small, tmp_path):
     assert attributes["wall_time_seconds"] > 0
 
 
-def test_cf_rules(small, tmp_path):
-    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
-    assert {"title", "history", "source", "Conventions"} <= dataset.attrs.keys()
-    for name, variable in dataset.variables.items():
-        assert variable.attrs["long_name"]
-        if name not in ("regime", "status", "profile", "control"):
-            assert variable.attrs.get("units", "rad") in ("rad", "degree")
-    assert all(name in dataset for name in dataset.s.attrs["ancillary_variables"].split())
-    assert dataset.regime.attrs["flag_values"].dtype == dataset.regime.dtype
-
-
 def test_a_failed_write_leaves_the_old_file(small, tmp_path, monkeypatch):
     path = tmp_path / "small.nc"
     run(small, path, solver=stand_in.smooth)
@@ -160,14 +143,45 @@ def test_an_unwritable_folder_is_found_out_before(small, tmp_path):
         run(small, tmp_path, solver=never)
 
 
+def holding(content):
+    return lambda path, _: path.write_bytes(content)
+
+
+def without(name):
+    return lambda path, dataset: dataset.drop_vars(name).to_netcdf(path)
+
+
 @pytest.mark.parametrize(
-    "content", [b"", b"CDF", b"not a netCDF file at all", b"\x89HDF\r\n\x1a\n" + bytes(90)]
+    ("replace", "words"),
+    [
+        (holding(b""), "not a readable netCDF archive"),
+        (holding(b"CDF"), "not a readable netCDF archive"),
+        (holding(b"not a netCDF file at all"), "not a readable netCDF archive"),
+        (holding(b"\x89HDF\r\n\x1a\n" + bytes(90)), "not a readable netCDF archive"),
+        (lambda path, _: xr.Dataset({"t": ("x", [1.0])}).to_netcdf(path), "not an archive of swtstudy"),
+        (without("s"), r"an archive changed by another program \(no s\)"),
+        (without("status"), r"an archive changed by another program \(no status"),
+        (without("s_surface"), "s_surface: found nothing; allowed: .*"),
+        (
+            lambda path, _: swtstudy.solve(rtol=1e-2).to_netcdf(path),
+            "results without a study, as of solve; xarr",
+        ),
+    ],
 )
-def test_other_files_are_refused(tmp_path, content):
-    path = tmp_path / "other.nc"
-    path.write_bytes(content)
-    with pytest.raises(ValueError, match="not a readable netCDF archive"):
+def test_what_is_no_archive_is_refused_and_not_replaced(small, tmp_path, replace, words):
+    path = tmp_path / "small.nc"
+    replace(path, run(small, path, solver=stand_in.smooth))
+    content = path.read_bytes()
+    with pytest.raises(ValueError, match=rf"^{path}: .*{words}"):
         open_results(path)
+    with pytest.raises(ValueError, match=rf"^{path}: .*{words}.*; move it away to start anew"):
+        run(small, path, solver=stand_in.smooth)
+    assert path.read_bytes() == content
+
+
+def test_an_archive_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="no such archive"):
+        open_results(tmp_path / "absent.nc")
 
 
 def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_path):
@@ -187,14 +201,6 @@ def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_
             assert result.stderr == f"Error: {path} is locked: another program has it open for writing\n"
         writer.communicate(b"\n")
     assert open_results(path).s.shape == small.grid.shape
-
-
-def test_other_netcdf_files_are_refused(tmp_path):
-    xr.Dataset({"t": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc")
-    with pytest.raises(ValueError, match="not an archive of swtstudy"):
-        open_results(tmp_path / "other.nc")
-    with pytest.raises(FileNotFoundError, match="no such archive"):
-        open_results(tmp_path / "absent.nc")
 
 
 def test_coordinates_have_no_fill_value(small, tmp_path):

@@ -409,19 +409,6 @@ def test_workers_end_with_their_parent(tmp_path):
     gone(children)
 
 
-def test_an_archive_without_one_of_the_variables_says_so(line, path):
-    run(line, path, solver=stand_in.smooth, workers=1).drop_vars("s_surface").to_netcdf(path)
-    with pytest.raises(ValueError, match=r"line.nc: s_surface: found nothing; allowed: .*; move"):
-        run(line, path, solver=stand_in.smooth, workers=1)
-
-
-def test_a_file_that_is_no_archive_is_not_replaced(line, path):
-    path.write_bytes(b"precious")
-    with pytest.raises(ValueError, match="move it away"):
-        run(line, path, solver=stand_in.smooth, workers=1)
-    assert path.read_bytes() == b"precious"
-
-
 def test_partial_results_of_an_extension(path, line):
     half = Study.from_text(LINE.replace("stop = 4, num = 400", "stop = 2, num = 200"))
     old = run(half, path, solver=stand_in.smooth, workers=1)

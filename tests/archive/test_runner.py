@@ -125,11 +125,6 @@ def test_one_failure_is_one_point(tmp_path, solver):
     assert np.flatnonzero(np.isnan(dataset.s)).tolist() == [2]
 
 
-def test_the_name_of_a_study_is_no_study(tmp_path):
-    with pytest.raises(StudyError, match="study: found 'figure3'; allowed: a Study"):
-        run("figure3", tmp_path / "figure3.nc")
-
-
 def test_a_run_shows_its_name_and_how_far_it_is_on_a_terminal(small, tmp_path, monkeypatch):
     monkeypatch.setattr("sys.stderr", terminal := Terminal())
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
@@ -285,12 +280,17 @@ def test_workers_start_without_scipy_and_archives_are_written_without_distribute
     assert np.isfinite(xr.open_dataset(tmp_path / "a.nc").s)
 
 
-def test_a_client_is_one_of_dask(wide, tmp_path):
-    with pytest.raises(StudyError, match=r"^client: found 'tcp://host:8786'; allowed: a Client of dask"):
-        run(wide, tmp_path / "none.nc", client="tcp://host:8786")
-
-
-@pytest.mark.parametrize("workers", [0, -5, 1.5, "two"])
-def test_there_must_be_workers(wide, tmp_path, workers):
-    with pytest.raises(StudyError, match=r"^workers: found .*; allowed: a number of workers, from 1 on"):
-        run(wide, tmp_path / "none.nc", workers=workers)
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"client": "tcp://host:8786"}, "client: found 'tcp://host:8786'; allowed: a Client of dask"),
+        *(
+            ({"workers": n}, "workers: found .*; allowed: a number of workers, from 1 on")
+            for n in (0, 1.5, "two")
+        ),
+        ({"study": "figure3"}, "study: found 'figure3'; allowed: a Study"),
+    ],
+)
+def test_what_a_run_cannot_use_is_named(wide, tmp_path, options, words):
+    with pytest.raises(StudyError, match=f"^{words}"):
+        run(**{"study": wide, "path": tmp_path / "none.nc", **options})
