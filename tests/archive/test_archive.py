@@ -162,10 +162,6 @@ def without(name):
         (without("s"), r"an archive changed by another program \(no s\)"),
         (without("status"), r"an archive changed by another program \(no status"),
         (without("s_surface"), "s_surface: found nothing; allowed: .*"),
-        (
-            lambda path, _: swtstudy.solve(rtol=1e-2).to_netcdf(path),
-            "results without a study, as of solve; xarr",
-        ),
     ],
 )
 def test_what_is_no_archive_is_refused_and_not_replaced(small, tmp_path, replace, words):

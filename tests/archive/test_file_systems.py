@@ -13,7 +13,7 @@ import pytest
 import stand_in
 from command import call, ends
 
-from swtstudy import Study, open_results, run
+from swtstudy import Study, open_results, run, solve
 
 fcntl = pytest.importorskip("fcntl")
 STUDY = Study.from_text('title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.25]\n')
@@ -98,6 +98,12 @@ def test_a_file_that_claims_more_than_it_holds_is_not_read(tmp_path):
         file.createVariable("crafted", "f8", ("endless",), chunksizes=(1000,))
     with pytest.raises(ValueError, match=r"claims to hold 3.2e\+10 bytes"):
         open_results(path)
+
+
+def test_results_of_solve_are_no_archive(tmp_path):
+    solve(rtol=1e-2).to_netcdf(tmp_path / "s.nc")
+    with pytest.raises(ValueError, match=r"s\.nc: results without a study, as of solve; xarray.open_dataset"):
+        open_results(tmp_path / "s.nc")
 
 
 def test_archives_and_studies_are_told_apart(tmp_path):
