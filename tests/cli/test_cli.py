@@ -372,8 +372,8 @@ def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
     assert all(
         "friction=0.2" in line and "ZeroDivisionError: an injected failure" in line for line in failed[:5]
     )
-    assert failed[5] == f"failed: 3 more, see swtstudy info {tmp_path / 'small.nc'}"
-    assert "8 points failed; --retry-failed recomputes them" in result.stderr
+    assert failed[5] == f"failed: 13 more, see swtstudy info {tmp_path / 'small.nc'}"
+    assert "18 points failed; --retry-failed recomputes them" in result.stderr
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     assert call("run", study, "--results", tmp_path).exit_code == 3
     assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
