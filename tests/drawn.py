@@ -1,11 +1,14 @@
-"""Figures of results through the accessor, by the keys of a study's ``[figure]``."""
+"""Figures of results through the accessor, by the keys of a study's ``[figure]``, and what they draw."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 
 def keys(
@@ -19,3 +22,14 @@ def keys(
 def draw(dataset: xr.Dataset, layout: dict[str, Any] | None = None, **look: Any) -> Figure:
     """A figure with these keys, by default that of the study."""
     return dataset.swt.figure(**look) if layout is None else dataset.swt.panels(**layout, **look)
+
+
+def curves(axes: Axes) -> list[Line2D]:
+    """The curves, without the marks at their jumps."""
+    return [line for line in axes.lines if line.get_linestyle() != "None"]
+
+
+def whole(line: Line2D) -> np.ndarray:
+    """Abscissae and values of a curve, shape (2, n)."""
+    values = np.array([line.get_xdata(), line.get_ydata()], dtype=float)
+    return values[:, np.isfinite(values[0])]

@@ -8,9 +8,16 @@ from collections.abc import Iterator
 
 from real import ALLOY
 
-_STUDIES = """title = "t"
-rtol = 1e-2
-[fixed]
+_HEAD = 'title = "t"\nrtol = 1e-2\n'
+#: A contact with units, without its load.
+_RIG = f"""
+{ALLOY}[fixed]
+young_modulus = 73.1e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+"""
+_STUDIES = """[fixed]
 profile = "rounded_punch"
 flat_radius = 0.5
 [axes]
@@ -21,8 +28,6 @@ x = "phase"
 hue = "frequency_ratio"
 y = ["s", "s/s(phase=0)"]
 ====
-title = "t"
-rtol = 1e-2
 quantities = ["dissipation"]
 [fixed]
 profile = "wavy_paraboloid"
@@ -38,8 +43,6 @@ x = "friction"
 hue = "critical_distance"
 y = "s_volume"
 ====
-title = "t"
-rtol = 1e-2
 [sample]
 design = "sobol"
 size = 4
@@ -57,8 +60,6 @@ kind = "scatter"
 x = "sample"
 hue = "profile"
 ====
-title = "t"
-rtol = 1e-2
 [loads.a]
 vertices = [[0, -0.5, -0.1], [0.4, -0.5, -0.1], [0.4, 0.5, 0.1]]
 [loads.b]
@@ -72,8 +73,6 @@ bulk_stress_mean = 0.1
 [axes]
 load = ["a", "b"]
 ====
-title = "t"
-rtol = 1e-2
 [profiles.worn]
 radius = [0, 0.4, 0.8, 1.2, 1.6, 2, 2.4, 2.8, 3.2]
 smoothing = 0
@@ -84,15 +83,7 @@ normal_amplitude = 0.2
 profile = ["worn", "paraboloid"]
 phase = [0, 1]
 ====
-title = "t"
-rtol = 1e-2
-
-{ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
+{RIG}normal_force = 200
 tangential_amplitude = 2e-3
 bulk_stress_amplitude = 30
 bulk_stress_ratio = -1
@@ -106,29 +97,13 @@ hue = "normal_amplitude"
 panels = "body"
 y = ["SWT", "cycles"]
 ====
-title = "t"
-rtol = 1e-2
-
-{ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
+{RIG}normal_force = 200
 tangential_force_amplitude = 40
 profile = "rounded_punch"
 flat_radius = 0.2
 phase = 1
 ====
-title = "t"
-rtol = 1e-2
-
-{ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
+{RIG}normal_force = 200
 normal_force_amplitude = 1
 tangential_force_amplitude = 1
 load = "rig"
@@ -137,8 +112,6 @@ vertices = [[0, -60, 10], [20, -60, 30], [20, 60, 30], [0, 60, -10]]
 [axes]
 body = [1, 2]
 ====
-title = "t"
-rtol = 1e-2
 
 {ALLOY}[fixed]
 young_modulus = 73.1e3
@@ -151,15 +124,7 @@ profile = "pad"
 radius = [0, 0.2, 0.4, 0.6, 0.8, 1, 1.2, 1.4, 1.6]
 height = [0, 4e-4, 1.6e-3, 3.6e-3, 6.4e-3, 1e-2, 1.44e-2, 1.96e-2, 2.56e-2]
 ====
-title = "t"
-rtol = 1e-2
-
-{ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 2000
+{RIG}normal_force = 2000
 contact_length = 10
 normal_force_amplitude = 100
 bulk_stress_amplitude = 30
@@ -174,8 +139,6 @@ hue = "profile"
 panels = "body"
 y = ["SWT", "cycles_volume"]
 ====
-title = "t"
-rtol = 1e-2
 quantities = ["dissipation", "stick_radius"]
 [profiles.pad]
 geometry = "plane"
@@ -192,77 +155,16 @@ profile = ["pad", "rounded_flat", "wavy_cylinder", "power_law_cylinder"]
 tangential_force_amplitude = {start = 0.1, stop = 0.5, num = 2, also = [0.3]}
 """
 _VALUES = """
-0
--1
-1
-2
-3.7
-1e-300
-1e300
--1e300
-5e-324
-nan
-inf
--inf
-true
--0.0
-1e20
-""
-"a\\u0000b"
-"$$"
-"pi/0"
-"1/3"
-"2*pi"
-"sqrt(-1)"
-1979-05-27
-[]
-{}
-[1]
-[[1]]
-[1, 1]
-["1", 2.5]
-[0, 1, 2]
-[1e300, 2]
-[nan]
-{start = 0, stop = 1, num = 3}
-{start = 0, stop = 1, num = 3, also = [0.2, "2/3"]}
-{start = 0, stop = 1, num = 3, also = [nan, 0.5]}
-{start = "pi/0", stop = 1, num = 3}
-{start = 1, stop = 1, num = 2}
-{start = 1, stop = 1e9, num = 3, spacing = 'log'}
-{start = 0, stop = 1, num = 1000001}
-1e-9
-1e9
-0.5
-"paraboloid"
-"rounded_punch"
-"truncated_paraboloid"
-"cylinder"
-"rounded_flat"
-"wavy_cylinder"
-"plane"
-"harmonic"
-"a"
-"worn"
-"body"
-"sample"
-"s"
-"SWT"
-"cycles"
-"s/s(flat_radius=0)"
-"s/s(phase=pi/0)"
-"s/s(load=a)"
-"lines"
-"contour"
-"life"
-"histogram"
-"saltelli"
-"lognormal"
-"/dev/zero"
-"."
-[1, 2]
-[0.2, 0.3, 0.4]
-64
+0 ; -1 ; 1 ; 2 ; 3.7 ; 1e-300 ; 1e300 ; -1e300 ; 5e-324 ; nan ; inf ; -inf ; true ; -0.0 ; 1e20 ; "" ;
+"a\\u0000b" ; "$$" ; "pi/0" ; "1/3" ; "2*pi" ; "sqrt(-1)" ; 1979-05-27 ; [] ; {} ; [1] ; [[1]] ; [1, 1] ;
+["1", 2.5] ; [0, 1, 2] ; [1e300, 2] ; [nan] ; {start = 0, stop = 1, num = 3} ;
+{start = 0, stop = 1, num = 3, also = [0.2, "2/3"]} ; {start = 0, stop = 1, num = 3, also = [nan, 0.5]} ;
+{start = "pi/0", stop = 1, num = 3} ; {start = 1, stop = 1, num = 2} ;
+{start = 1, stop = 1e9, num = 3, spacing = 'log'} ; {start = 0, stop = 1, num = 1000001} ; 1e-9 ; 1e9 ;
+0.5 ; "paraboloid" ; "rounded_punch" ; "truncated_paraboloid" ; "cylinder" ; "rounded_flat" ;
+"wavy_cylinder" ; "plane" ; "harmonic" ; "a" ; "worn" ; "body" ; "sample" ; "s" ; "SWT" ; "cycles" ;
+"s/s(flat_radius=0)" ; "s/s(phase=pi/0)" ; "s/s(load=a)" ; "lines" ; "contour" ; "life" ; "histogram" ;
+"saltelli" ; "lognormal" ; "/dev/zero" ; "." ; [1, 2] ; [0.2, 0.3, 0.4] ; 64
 """
 _KEYS = """
 young_modulus poisson_ratio radius depth normal_force friction normal_amplitude phase
@@ -272,9 +174,10 @@ bulk_stress_ratio bulk_stress_phase walker_exponent critical_distance similar x 
 vertical regimes file size seed frictoin rtol quantities flat_half_width contact_length geometry also
 """
 #: What the changes begin with: each part of a study is in one of them.
-STUDIES = _STUDIES.replace("{ALLOY}", ALLOY).split("====\n")
+_WHOLE = _STUDIES.replace("{RIG}", _RIG).replace("{ALLOY}", ALLOY)
+STUDIES = [f"{_HEAD}{text}" for text in _WHOLE.split("====\n")]
 #: What may stand where a value stood, and where a key stood.
-VALUES = ("9" * 400, "0x" + "f" * 300, "[" * 60 + "]" * 60, *_VALUES.strip().splitlines())
+VALUES = ("9" * 400, "0x" + "f" * 300, "[" * 60 + "]" * 60, *(each.strip() for each in _VALUES.split(";")))
 KEYS = _KEYS.split()
 _LINE = re.compile(r"^(?!title|rtol)(\w+) = (.+)$", re.MULTILINE)
 _NUMBER = re.compile(r"(?<![\w.\"-])-?\d[\d.]*(?:e-?\d+)?(?![\w.\"])")

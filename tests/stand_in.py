@@ -16,6 +16,8 @@ from swtstudy import Study, run
 
 #: Where a stand-in goes when there is no argument for it: on the command line and in a search.
 SOLVER = "swtstudy.solver.points.solve_points"
+#: Where one for the quantities on request goes.
+QUANTITIES = "swtstudy.solver.quantities.quantities_of"
 
 
 #: What a solver is asked for: arrays by the names of the parameters.

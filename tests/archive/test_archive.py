@@ -8,15 +8,11 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from click.testing import CliRunner
+from command import call
 from stand_in import Points, Solution
 
 import swtstudy
 from swtstudy import Study, open_results, run
-from swtstudy.archive.paths import LockedError
-from swtstudy.cli import main
-from swtstudy.vocabulary.files import check_writable, replacing
-from swtstudy.vocabulary.parameters import PARAMETERS
 
 
 def test_a_round_trip_keeps_values_and_names(small, tmp_path):
@@ -27,54 +23,28 @@ def test_a_round_trip_keeps_values_and_names(small, tmp_path):
     assert np.isfinite(again.s).all()
 
 
-def test_plain_xarray_reads_it(small, tmp_path):
-    run(small, tmp_path / "small.nc", solver=stand_in.smooth)
-    with xr.open_dataset(tmp_path / "small.nc") as dataset:
-        assert dataset.s.sel(phase=np.pi, normal_amplitude=0.25, method="nearest").item() > 0
-
-
-#: What stands beside the numbers of an archive, and makes sense of them; None for what has no dimension.
-UNITS = {
-    "s": None,
-    "s_error": None,
-    "s_surface": None,
-    "critical_x": None,
-    "critical_angle": "degree",
-    "run": None,
-    "phase": "rad",
-    "normal_amplitude": None,
-    "frequency_ratio": None,
-    "friction": None,
-}
-
-#: Labels of xarray's own plots.
-LONG_NAMES = {
-    "s": "SWT parameter SWT/SWT0",
-    "s_error": "absolute error of s",
-    "s_surface": "s on the surface circle",
-    "critical_x": "critical point x/a_H",
-    "critical_angle": "critical plane angle",
-    "regime": "regime of the contact",
-    "status": "state of the point",
-    "run": "run that made the value",
-    "phase": "phase",
-}
-SYMBOLS = {
-    "s": "s",
-    "s_error": r"\Delta s",
-    "s_surface": r"s_\mathrm{surface}",
-    "critical_x": "x/a_H",
-    "critical_angle": r"\varphi",
-    "phase": r"\psi",
-    "friction": r"\mu",
-    "frequency_ratio": r"\omega_2/\omega_1",
+#: What stands beside the numbers of an archive, and makes sense of them: units, long name and symbol.
+SAID = {
+    "s": (None, "SWT parameter SWT/SWT0", "s"),
+    "s_error": (None, "absolute error of s", r"\Delta s"),
+    "s_surface": (None, "s on the surface circle", r"s_\mathrm{surface}"),
+    "critical_x": (None, "critical point x/a_H", "x/a_H"),
+    "critical_angle": ("degree", "critical plane angle", r"\varphi"),
+    "regime": (None, "regime of the contact", None),
+    "status": (None, "state of the point", None),
+    "run": (None, "run that made the value", None),
+    "phase": ("rad", "phase", r"\psi"),
+    "normal_amplitude": (None, "normal amplitude", r"\delta_A/\delta_0"),
+    "frequency_ratio": (None, "frequency ratio", r"\omega_2/\omega_1"),
+    "friction": (None, "coefficient of friction", r"\mu"),
 }
 
 
 def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
     run(small, tmp_path / "small.nc", solver=stand_in.smooth)
     with netCDF4.Dataset(tmp_path / "small.nc") as file:
-        assert {name: getattr(file[name], "units", None) for name in UNITS} == UNITS
+        for name, said in SAID.items():
+            assert tuple(getattr(file[name], key, None) for key in ("units", "long_name", "symbol")) == said
         regime, status = file["regime"], file["status"]
         assert regime.flag_meanings == "stick partial_slip gross_slip lift_off not_finite no_equilibrium"
         assert list(regime.flag_values) == [0, 1, 2, 3, 4, 5]
@@ -83,13 +53,8 @@ def test_what_is_written_says_what_the_numbers_mean(small, tmp_path):
         assert "message" not in file.variables
         assert file["s"].ancillary_variables == "s_error regime s_surface status run"
         assert file["frequency_ratio"].fractions == "1"
-        assert file["normal_amplitude"].symbol == r"\delta_A/\delta_0"
-        assert file["critical_x"].long_name == "critical point x/a_H"
         assert "a_H = sqrt(R delta0)" in file["critical_x"].comment
-        assert file["critical_angle"].units == "degree"
         assert "against the x axis" in file["critical_angle"].comment
-        assert {name: file[name].long_name for name in LONG_NAMES} == LONG_NAMES
-        assert {name: file[name].symbol for name in SYMBOLS} == SYMBOLS
 
 
 def test_every_number_of_the_solver_comes_back_from_the_file(tmp_path):
@@ -151,32 +116,19 @@ def test_provenance(small, tmp_path):
     assert attributes["wall_time_seconds"] > 0
 
 
-def test_cf_rules(small, tmp_path):
-    dataset = run(small, tmp_path / "small.nc", solver=stand_in.smooth)
-    assert {"title", "history", "source", "Conventions"} <= dataset.attrs.keys()
-    for name, variable in dataset.variables.items():
-        assert variable.attrs["long_name"]
-        if name in PARAMETERS:
-            assert variable.attrs["symbol"] == PARAMETERS[name].symbol
-        if name not in ("regime", "status", "profile", "control"):
-            assert variable.attrs.get("units", "rad") in ("rad", "degree")
-    assert all(name in dataset for name in dataset.s.attrs["ancillary_variables"].split())
-    assert dataset.regime.attrs["flag_values"].dtype == dataset.regime.dtype
+def test_a_failed_write_leaves_the_old_file(small, tmp_path, monkeypatch):
+    path = tmp_path / "small.nc"
+    run(small, path, solver=stand_in.smooth)
+    before = path.read_bytes()
 
+    def fail(*_, **__):
+        raise OSError(28, "No space left on device")
 
-def test_a_failed_write_leaves_the_old_file(tmp_path):
-    target = tmp_path / "file.txt"
-    target.write_text("old")
-
-    def fail():
-        with replacing(target) as temporary:
-            temporary.write_text("half")
-            raise RuntimeError
-
-    with pytest.raises(RuntimeError):
-        fail()
-    assert target.read_text() == "old"
-    assert list(tmp_path.iterdir()) == [target]
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", fail)
+    with pytest.raises(OSError, match="No space left on device"):
+        run(Study.from_text(f"{small.text}\n# changed"), path, solver=None)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
 
 
 def test_an_unwritable_folder_is_found_out_before(small, tmp_path):
@@ -188,17 +140,44 @@ def test_an_unwritable_folder_is_found_out_before(small, tmp_path):
     with pytest.raises(OSError, match="cannot write into the folder"):
         run(small, tmp_path / "results" / "small.nc", solver=never)
     with pytest.raises(OSError, match="is a folder"):
-        check_writable(tmp_path)
+        run(small, tmp_path, solver=never)
+
+
+def holding(content):
+    return lambda path, _: path.write_bytes(content)
+
+
+def without(name):
+    return lambda path, dataset: dataset.drop_vars(name).to_netcdf(path)
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"CDF", b"not a netCDF file at all", b"\x89HDF\r\n\x1a\n" + bytes(90)]
+    ("replace", "words"),
+    [
+        (holding(b""), "not a readable netCDF archive"),
+        (holding(b"CDF"), "not a readable netCDF archive"),
+        (holding(b"not a netCDF file at all"), "not a readable netCDF archive"),
+        (holding(b"\x89HDF\r\n\x1a\n" + bytes(90)), "not a readable netCDF archive"),
+        (lambda path, _: xr.Dataset({"t": ("x", [1.0])}).to_netcdf(path), "not an archive of swtstudy"),
+        (without("s"), r"an archive changed by another program \(no s\)"),
+        (without("status"), r"an archive changed by another program \(no status"),
+        (without("s_surface"), "s_surface: found nothing; allowed: .*"),
+    ],
 )
-def test_other_files_are_refused(tmp_path, content):
-    path = tmp_path / "other.nc"
-    path.write_bytes(content)
-    with pytest.raises(ValueError, match="not a readable netCDF archive"):
+def test_what_is_no_archive_is_refused_and_not_replaced(small, tmp_path, replace, words):
+    path = tmp_path / "small.nc"
+    replace(path, run(small, path, solver=stand_in.smooth))
+    content = path.read_bytes()
+    with pytest.raises(ValueError, match=rf"^{path}: .*{words}"):
         open_results(path)
+    with pytest.raises(ValueError, match=rf"^{path}: .*{words}.*; move it away to start anew"):
+        run(small, path, solver=stand_in.smooth)
+    assert path.read_bytes() == content
+
+
+def test_an_archive_that_is_not_there_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="no such archive"):
+        open_results(tmp_path / "absent.nc")
 
 
 def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_path):
@@ -210,22 +189,14 @@ def test_an_archive_that_someone_writes_is_called_locked(small, small_text, tmp_
         [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE
     ) as writer:
         assert writer.stdout.readline() == b"open\n"
-        with pytest.raises(LockedError, match=f"^{path} is locked: another program has it open for writing$"):
+        with pytest.raises(OSError, match=f"^{path} is locked: another program has it open for writing$"):
             open_results(path)
         for arguments in (["info", path], ["run", tmp_path / "small.toml", "--results", tmp_path]):
-            result = CliRunner().invoke(main, [*map(str, arguments)])
+            result = call(*arguments)
             assert result.exit_code == 2
             assert result.stderr == f"Error: {path} is locked: another program has it open for writing\n"
         writer.communicate(b"\n")
     assert open_results(path).s.shape == small.grid.shape
-
-
-def test_other_netcdf_files_are_refused(tmp_path):
-    xr.Dataset({"t": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc")
-    with pytest.raises(ValueError, match="not an archive of swtstudy"):
-        open_results(tmp_path / "other.nc")
-    with pytest.raises(FileNotFoundError, match="no such archive"):
-        open_results(tmp_path / "absent.nc")
 
 
 def test_coordinates_have_no_fill_value(small, tmp_path):

@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 import stand_in
-from click.testing import CliRunner
+from command import call
 
 from swtstudy import StudyError, run
-from swtstudy.cli import main
 
 
 @pytest.mark.parametrize(
@@ -41,7 +40,7 @@ def test_a_name_that_no_archive_can_have_is_found_out_before(
         ["audit", f"{stem}.toml"],
         ["merge", "good.nc", "-o", f"{stem}.nc"],
     ):
-        result = CliRunner().invoke(main, arguments)
+        result = call(*arguments)
         assert result.exit_code == 2
         (line,) = result.stderr.splitlines()
         assert words.split(" of ")[0] in line
@@ -53,7 +52,7 @@ def test_the_longest_name_leaves_archive_and_figure(small_text, tmp_path, monkey
     stem = "n" * 241
     Path(f"{stem}.toml").write_text(small_text)
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
-    result = CliRunner().invoke(main, ["run", f"{stem}.toml"])
+    result = call("run", f"{stem}.toml")
     assert result.exit_code == 0, result.output
     assert {path.name for path in Path("results").iterdir()} == {f"{stem}.nc", f"{stem}.png"}
 
@@ -62,6 +61,6 @@ def test_a_file_in_place_of_the_results_is_found_out_by_plan(small_text, tmp_pat
     monkeypatch.chdir(tmp_path)
     Path("small.toml").write_text(small_text)
     Path("results").write_text("")
-    result = CliRunner().invoke(main, ["plan", "small.toml", "--results", "results/deeper"])
+    result = call("plan", "small.toml", "--results", "results/deeper")
     assert result.exit_code == 2
     assert "which is a file; allowed: a folder for archives" in result.stderr

@@ -11,11 +11,9 @@ import netCDF4
 import numpy as np
 import pytest
 import stand_in
-from click.testing import CliRunner
-from command import call
+from command import call, ends
 
 from swtstudy import Study, open_results, run, solve
-from swtstudy.cli import main
 
 fcntl = pytest.importorskip("fcntl")
 STUDY = Study.from_text('title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.25]\n')
@@ -66,10 +64,11 @@ def test_a_disk_that_refuses_a_lock_says_what_to_do(tmp_path, monkeypatch):
         run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
 
 
-def test_a_lock_that_is_a_link_is_left_alone(tmp_path):
+@pytest.mark.parametrize("make", [os.mkfifo, lambda lock: lock.symlink_to(lock.parents[1] / "precious")])
+def test_a_lock_that_is_a_pipe_or_a_link_is_left_alone(tmp_path, make):
     (tmp_path / "precious").write_text("precious")
     (tmp_path / "t.nc.parts").mkdir()
-    (tmp_path / "t.nc.parts" / "lock").symlink_to(tmp_path / "precious")
+    make(tmp_path / "t.nc.parts" / "lock")
     with pytest.raises(OSError, match=r"lock is no file of ours \(.*\); remove it"):
         run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
     assert (tmp_path / "precious").read_text() == "precious"
@@ -91,13 +90,6 @@ def test_what_is_no_part_is_left_out(tmp_path, kind):
     assert os.path.lexists(part)
 
 
-def test_a_lock_that_is_a_pipe_is_refused(tmp_path):
-    (tmp_path / "t.nc.parts").mkdir()
-    os.mkfifo(tmp_path / "t.nc.parts" / "lock")
-    with pytest.raises(OSError, match="lock is no file of ours"):
-        run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
-
-
 def test_a_file_that_claims_more_than_it_holds_is_not_read(tmp_path):
     path = tmp_path / "t.nc"
     run(STUDY, path, solver=stand_in.smooth)
@@ -105,15 +97,6 @@ def test_a_file_that_claims_more_than_it_holds_is_not_read(tmp_path):
         file.createDimension("endless", 4_000_000_000)
         file.createVariable("crafted", "f8", ("endless",), chunksizes=(1000,))
     with pytest.raises(ValueError, match=r"claims to hold 3.2e\+10 bytes"):
-        open_results(path)
-
-
-@pytest.mark.parametrize("name", ["status", "s"])
-def test_an_archive_that_another_program_has_changed_says_so(tmp_path, name):
-    path = tmp_path / "t.nc"
-    run(STUDY, path, solver=stand_in.smooth)
-    open_results(path).drop_vars(name).to_netcdf(path)
-    with pytest.raises(ValueError, match=rf"t\.nc: an archive changed by another program \(no {name}"):
         open_results(path)
 
 
@@ -141,12 +124,11 @@ def test_consoles_without_greek_letters(words, encoding, monkeypatch):
     streams = {name: io.TextIOWrapper(io.BytesIO(), encoding) for name in ("stdout", "stderr")}
     for name, stream in streams.items():
         monkeypatch.setattr(sys, name, stream)
-    with pytest.raises(SystemExit) as ended:
-        main(words)
+    code = ends(*words)
     for stream in streams.values():
         stream.flush()
     out, errors = (stream.buffer.getvalue() for stream in streams.values())
-    assert (ended.value.code, errors) == (0, b"")
+    assert (code, errors) == (0, b"")
     assert out
 
 
@@ -155,7 +137,7 @@ def test_a_title_cannot_command_the_terminal(tmp_path):
     run(Study.from_toml(tmp_path / "t.toml"), tmp_path / "t.nc", solver=stand_in.smooth)
     for words in (("info", tmp_path / "t.nc"), ("plan", tmp_path / "t.toml", "--results", tmp_path)):
         # With colours, as on a terminal: click removes such commands from what goes elsewhere.
-        found = CliRunner().invoke(main, [*map(str, words)], color=True)
+        found = call(*words, color=True)
         assert found.exit_code == 0
         assert "red" in found.stdout
         assert "\x1b" not in found.stdout
@@ -166,9 +148,7 @@ def test_a_closed_output_is_no_error(monkeypatch):
     closed = f'exec "{sys.executable}" -m swtstudy solve --help >&-'
     assert subprocess.run(closed, shell=True, timeout=300, stderr=subprocess.PIPE).stderr == b""
     monkeypatch.setattr(sys, "stdout", None)
-    with pytest.raises(SystemExit) as ended:
-        main(["list"])
-    assert ended.value.code == 0
+    assert ends("list") == 0
 
 
 def test_heights_below_a_flat_face_are_named(tmp_path):

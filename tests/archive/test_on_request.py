@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
 import subprocess
 import sys
 import time
@@ -15,22 +13,14 @@ import pytest
 import stand_in
 import xarray as xr
 from asking import EVERY, VARIABLES, study
-from click.testing import CliRunner
+from command import call, merged, saved
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.merge import GapsError, merge
-from swtstudy.archive.netcdf import save
-from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
-from swtstudy.cli import main
-from swtstudy.solver import quantities
 
 
 def test_a_study_without_them_neither_computes_nor_stores_any(tmp_path: Path, monkeypatch) -> None:
-    def never(*_: object) -> None:
-        raise AssertionError
-
-    monkeypatch.setattr(quantities, "quantities_of", never)
+    monkeypatch.setattr(stand_in.QUANTITIES, None)
     found = run(study(), tmp_path / "a.nc", workers=1)
     assert not {*found.data_vars} & {*VARIABLES}
     assert "quantities" not in found.attrs["runs"]
@@ -56,28 +46,20 @@ def test_an_archive_gets_what_it_lacks_and_keeps_s(tmp_path: Path) -> None:
     assert never.points == 0
 
 
-def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path, monkeypatch) -> None:
+def test_an_extension_computes_them_at_the_new_points_alone(tmp_path: Path) -> None:
     path, asked = tmp_path / "a.nc", ("contact_radius", "force_ratio")
     run(study(axes="phase = [0.5, 1.0]", quantities=asked), path, workers=1)
-    counted: list[int] = []
-
-    def counting(points, items, solution):
-        counted.append(len(points))
-        return quantities_of(points, items, solution)
-
-    quantities_of = quantities.quantities_of
-    monkeypatch.setattr(quantities, "quantities_of", counting)
     grown = run(study(quantities=asked), path, workers=1)
-    assert sum(counted) == 2
+    assert "2 of 4 distinct points computed" in grown.attrs["history"].splitlines()[0]
     assert np.isfinite(grown.force_ratio).all()
     # What is asked no more is kept, not computed again.
     fewer = run(study(quantities=asked[:1]), path, workers=1)
     assert "force_ratio" not in fewer
-    assert points_saved(kept_folder(path)) == 4
+    assert saved(path, "kept") == 4
     again = run(study(quantities=asked), path, workers=1)
-    assert sum(counted) == 2
+    assert "0 of 4 distinct points computed" in again.attrs["history"].splitlines()[0]
     xr.testing.assert_equal(again.drop_vars("run"), grown.drop_vars("run"))
-    assert not kept_folder(path).exists()
+    assert [*tmp_path.iterdir()] == [path]
 
 
 @pytest.mark.slow
@@ -89,12 +71,11 @@ def test_a_killed_run_goes_on_with_its_quantities(tmp_path: Path) -> None:
     running = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     path = tmp_path / "a.nc"
     deadline = time.monotonic() + 60.0
-    while not points_saved(parts_folder(path)) and time.monotonic() < deadline and running.poll() is None:
+    while not saved(path) and time.monotonic() < deadline and running.poll() is None:
         time.sleep(0.02)
-    os.kill(running.pid, signal.SIGKILL)
+    running.kill()
     running.wait()
-    saved = points_saved(parts_folder(path))
-    assert 0 < saved < 450
+    assert 0 < saved(path) < 450
     half = open_results(path)
     assert np.isfinite(half.dissipation.values[half.status.values == 0]).all()
     done = run(Study.from_toml(file), path, workers=1)
@@ -108,20 +89,19 @@ def test_a_killed_run_goes_on_with_its_quantities(tmp_path: Path) -> None:
 def test_a_point_at_which_one_fails_is_told_and_keeps_its_s(tmp_path: Path, monkeypatch) -> None:
     path = tmp_path / "a.nc"
     plain = run(study(), path, workers=1)
-    whole = quantities.quantities_of
 
-    def failing(points, items, solution):
+    def failing(points, *_):
         if np.isclose(points.phase, 1.0).any():
             raise ArithmeticError("an injected failure")
-        return whole(points, items, solution)
+        return {name: np.ones(len(points)) for name in ("dissipation", "dissipation_error")}
 
-    monkeypatch.setattr(quantities, "quantities_of", failing)
+    monkeypatch.setattr(stand_in.QUANTITIES, failing)
     found = run(study(quantities=("dissipation",)), path, workers=1)
     assert found.status.values.tolist() == [0, 1, 0, 0]
     assert "an injected failure" in found.message.values[1]
     assert np.isnan(found.dissipation.values).tolist() == [False, True, False, False]
     np.testing.assert_array_equal(found.s, plain.s)
-    monkeypatch.setattr(quantities, "quantities_of", whole)
+    monkeypatch.undo()
     mended = run(study(quantities=("dissipation",)), path, workers=1, retry_failed=True)
     assert np.isfinite(mended.dissipation).all()
 
@@ -134,15 +114,14 @@ def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) ->
         ("c", "1.0, 4.0", ()),
     ):
         run(study(axes=f"phase = [{phase}]", quantities=asked), tmp_path / f"{name}.nc", workers=1)
-    both = merge([tmp_path / "a.nc", tmp_path / "b.nc"])
+    both = merged(tmp_path / "a.nc", tmp_path / "b.nc")
     assert np.isfinite(both.dissipation).all()
     assert Study.from_text(both.attrs["study"]).asked.names == EVERY[:1]
-    with pytest.raises(GapsError, match=r"dissipation is known of some points .* not of 1 others"):
-        merge([tmp_path / "a.nc", tmp_path / "c.nc"])
-    sparse = merge([tmp_path / "a.nc", tmp_path / "c.nc"], sparse=True)
+    with pytest.raises(ValueError, match=r"dissipation is known of some points .* not of 1 others"):
+        merged(tmp_path / "a.nc", tmp_path / "c.nc")
+    sparse = merged(tmp_path / "a.nc", tmp_path / "c.nc", sparse=True)
     assert np.isnan(sparse.dissipation.values).tolist() == [False, False, True]
-    save(sparse, tmp_path / "sparse.nc")
-    filled = run(Study.from_text(sparse.attrs["study"]), tmp_path / "sparse.nc", workers=1)
+    filled = run(Study.from_text(sparse.attrs["study"]), tmp_path / "merged.nc", workers=1)
     assert np.isfinite(filled.dissipation).all()
 
 
@@ -152,10 +131,11 @@ def test_figures_show_them_with_their_errors(tmp_path: Path) -> None:
     text = study(quantities=("dissipation",)).text + figure
     found = run(Study.from_text(text), tmp_path / "a.nc", workers=1)
     assert r"W/(\mu F_0" in found.swt.figure().axes[1].get_ylabel()
-    from swtstudy.results.evaluate import quantity_error
-
-    xr.testing.assert_equal(quantity_error(found, "dissipation"), found.dissipation_error)
-    assert quantity_error(found, "critical_x") is None
+    found["dissipation_error"] = 0.1 * found.dissipation
+    with_error, without = found.swt.panels("phase", y=["dissipation", "critical_x"]).axes
+    band = with_error.collections[0].get_paths()[0].vertices
+    assert band[:, 1].max() == pytest.approx(1.1 * float(found.dissipation.max()))
+    assert not without.collections
     with pytest.raises(
         StudyError, match=r"figure\.y: found 'dissipation', which this study does not ask for"
     ):
@@ -183,7 +163,7 @@ def test_bad_ones_are_named(raw: str, words: str, tmp_path: Path) -> None:
     with pytest.raises(StudyError, match=words):
         Study.from_text(text)
     (tmp_path / "bad.toml").write_text(text)
-    answer = CliRunner().invoke(main, ["validate", str(tmp_path / "bad.toml")])
+    answer = call("validate", tmp_path / "bad.toml")
     assert answer.exit_code == 2
     assert len(answer.stderr.strip().splitlines()) == 1
 
@@ -196,10 +176,8 @@ def test_bad_ones_of_solve_are_named() -> None:
 
 
 def test_the_command_line_prints_and_plans_them(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
-    answer = CliRunner().invoke(
-        main,
-        ["solve", "--quantities", "dissipation,contact_radius", "--normal-amplitude", "0", "--rtol", "1e-2"],
-    )
+    asked = ("--quantities", "dissipation,contact_radius")
+    answer = call("solve", *asked, "--normal-amplitude", "0", "--rtol", "1e-2")
     header, row = (line.split("\t") for line in answer.output.splitlines())
     values = dict(zip(header, row, strict=True))
     assert float(values["dissipation"]) == pytest.approx(0.39643, rel=1e-4)
@@ -209,11 +187,11 @@ def test_the_command_line_prints_and_plans_them(tmp_path: Path, caplog: pytest.L
     file.write_text(study(quantities=("dissipation",)).text)
     plain = tmp_path / "a.nc"
     run(study(), plain, workers=1)
-    planned = CliRunner().invoke(main, ["plan", str(file), "--results", str(tmp_path)]).output
+    planned = call("plan", file, "--results", tmp_path).output
     assert "quantities         dissipation" in planned
     assert "to be computed     4" in planned
     assert "4 of them lack quantities" in planned
     with caplog.at_level("INFO"):
         run(Study.from_toml(file), plain, workers=1)
     assert "4 points are computed, but lack quantities that the study asks" in caplog.messages
-    assert "quantities     dissipation" in CliRunner().invoke(main, ["info", str(plain)]).output
+    assert "quantities     dissipation" in call("info", plain).output

@@ -5,26 +5,22 @@ import shutil
 import signal
 import subprocess
 import sys
+from functools import partial
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stand_in
-from click.testing import CliRunner
-from command import call
-from curves import curves, whole
+from command import call, main
+from drawn import curves, whole
 from folders import STUDIES
 from solved import MISSING
+from soundness import SHAPES
+from words import PARAMETERS, SAID
 
 import swtstudy
 from swtstudy import Study, run
-from swtstudy.archive.netcdf import save
-from swtstudy.cli import main
-from swtstudy.study.schema import study_schema
-from swtstudy.study.template import template, template_with_units
-from swtstudy.vocabulary.choices import FAMILIES, is_plane
-from swtstudy.vocabulary.parameters import PARAMETERS
 
 #: The tests look at what is written, not at the layout of figures.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -46,6 +42,15 @@ def finished(small_text, tmp_path_factory):
     (folder / "small.toml").write_text(small_text)
     assert call("run", folder / "small.toml", "--results", folder).exit_code == 0
     return folder
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Figures that commands draw, which are not saved."""
+    figures = []
+    save = "swtstudy.figures.style.save_figure"
+    monkeypatch.setattr(save, lambda figure, path, style: figures.append(figure))
+    return figures
 
 
 @pytest.fixture
@@ -96,11 +101,7 @@ def merged(tmp_path_factory):
         ("--x", "friction", "--vertical", "phase", "--kind", "heatmap", "--y", "regime"),
     ],
 )
-def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, options, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(
-        "swtstudy.figures.style.save_figure", lambda figure, path, style: drawn.append(figure)
-    )
+def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, options, drawn):
     result = call("plot", merged, *options)
     assert result.exit_code == 0, result.output
     own: dict = {"y": []}
@@ -116,11 +117,7 @@ def test_an_archive_without_a_figure_is_plotted_as_the_options_say(merged, optio
     assert pictures[0] == pictures[1]
 
 
-def test_options_change_the_figure_of_an_archive(finished, monkeypatch):
-    drawn = []
-    monkeypatch.setattr(
-        "swtstudy.figures.style.save_figure", lambda figure, path, style: drawn.append(figure)
-    )
+def test_options_change_the_figure_of_an_archive(finished, drawn):
     assert call("plot", finished / "small.nc", "--y", "critical_x", "--title", "Where").exit_code == 0
     (figure,) = drawn
     dataset = swtstudy.open_results(finished / "small.nc")
@@ -154,7 +151,7 @@ def test_plot_says_what_an_unfinished_archive_lacks(ran):
     assert call("plot", archive).stderr == ""
     dataset = swtstudy.open_results(archive)
     dataset.s[0], dataset.status[0] = np.nan, MISSING
-    save(dataset, archive)
+    dataset.to_netcdf(archive)
     result = call("plot", archive)
     assert result.exit_code == 0
     lacking = dataset.s[0].size
@@ -287,9 +284,25 @@ def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
     assert "already computed   8" in done
 
 
-@pytest.mark.parametrize(("parts", "words"), [(1, "10 s"), (2, "5.0 s"), (9, "5.0 s")])
-def test_plan_counts_only_the_workers_that_have_something_to_do(study, tmp_path, monkeypatch, parts, words):
-    monkeypatch.setattr("swtstudy.archive.work.estimate", lambda work, rtol: (10.0, 1, parts))
+@pytest.mark.parametrize(
+    ("seconds", "parts", "words"),
+    [
+        (0.04, 1, "0.0 s"),
+        (9.9, 1, "9.9 s"),
+        (10, 1, "10 s"),
+        # Only workers that have something to do count.
+        (10, 2, "5.0 s"),
+        (10, 9, "5.0 s"),
+        (59.4, 1, "59 s"),
+        (59.6, 1, "1 min 0 s"),
+        (3599, 1, "59 min 59 s"),
+        (3600, 1, "1 h 0 min"),
+        (7379, 1, "2 h 2 min"),
+        (360_000, 1, "100 h 0 min"),
+    ],
+)
+def test_plan_tells_the_time_of_the_workers(study, tmp_path, monkeypatch, seconds, parts, words):
+    monkeypatch.setattr("swtstudy.archive.work.estimate", lambda work, rtol: (seconds, 1, parts))
     assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
 
 
@@ -315,13 +328,6 @@ def test_a_reader_that_has_enough_is_no_mistake():
     os.close(theirs)
     assert done.stderr == b""
     assert done.returncode == 1
-
-
-def test_merge_writes_one_archive(finished, tmp_path):
-    archive = finished / "small.nc"
-    result = call("merge", archive, archive, "-o", tmp_path / "merged.nc")
-    assert result.exit_code == 0, result.output
-    assert swtstudy.open_results(tmp_path / "merged.nc").s.size == 18
 
 
 def test_merge_keeps_what_another_archive_in_its_place_had(merged, tmp_path):
@@ -354,17 +360,20 @@ def test_merge_leaves_gaps_only_when_told(tmp_path):
 
 
 def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
-    from functools import partial
-
     study.write_text(
         study.read_text().replace("[axes]", "[axes]\nfriction = [0.2, 0.3]\n").split("[figure]")[0]
     )
     monkeypatch.setattr(stand_in.SOLVER, partial(stand_in.fail_at, 0.2))
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 3
-    assert "8 points failed" in result.stderr
-    assert "an injected failure" in result.stderr
-    assert "friction=0.2" in result.stderr
+    failed = [line for line in result.stderr.splitlines() if line.startswith("failed: ")]
+    # Beyond the first five they are counted.
+    assert len(failed) == 6
+    assert all(
+        "friction=0.2" in line and "ZeroDivisionError: an injected failure" in line for line in failed[:5]
+    )
+    assert failed[5] == f"failed: 13 more, see swtstudy info {tmp_path / 'small.nc'}"
+    assert "18 points failed; --retry-failed recomputes them" in result.stderr
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     assert call("run", study, "--results", tmp_path).exit_code == 3
     assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
@@ -379,18 +388,15 @@ def test_ctrl_c_says_how_to_go_on(study, tmp_path, monkeypatch):
 
 
 def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, monkeypatch):
-    from swtstudy.archive import run as run_module
-
     def ctrl_c(*_):
         signal.raise_signal(signal.SIGINT)
 
-    class Stopped(run_module.Stopped):
-        def __init__(self, words):
-            ctrl_c()  # where the words of the first are made
-            super().__init__(words)
+    def stopped(words):  # where the words of the first are made
+        ctrl_c()
+        return KeyboardInterrupt(words)
 
     monkeypatch.setattr(stand_in.SOLVER, ctrl_c)
-    monkeypatch.setattr(run_module, "Stopped", Stopped)
+    monkeypatch.setattr("swtstudy.archive.run.Stopped", stopped)
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 130
     assert "0 of 8 distinct points are saved" in result.stderr
@@ -412,7 +418,7 @@ def test_a_scheduler_that_is_not_there(study, tmp_path):
 
 def test_version_and_help():
     assert swtstudy.__version__ in call("--version").output
-    for name, _command in main.commands.items():
+    for name in main.commands:
         assert name in call("--help").output
         assert call(name, "-h").output == call(name, "--help").output
         assert "  Examples:\n    swtstudy " in call(name, "--help").output
@@ -496,27 +502,34 @@ def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
         ("critical_distance", "critical distance of the nonlocal values, ℓ/a_H"),
     ],
 )
-def test_every_mention_says_over_what_a_number_is(name, number):
+def test_every_mention_says_over_what_a_number_is(template, name, number):
     helps = [call("list", "--parameters").stdout]
     if name in PARAMETERS:
-        fixed = study_schema()["properties"]["fixed"]["properties"]
-        helps.append(fixed[name]["description"])
+        helps.append(SAID[name]["description"])
     if name not in ("normal_amplitude", "phase"):  # with values of their own there
-        helps.append(template("mine"))
+        helps.append(template)
     for text in helps:
         assert number in " ".join(text.split())
 
 
-def test_the_template_says_of_each_parameter_what_is_allowed():
-    text = template("mine")
-    assert "# Poisson ratio, ν: a number in [0, 0.5]\n# poisson_ratio = 0.3\n" in text
-    assert (
-        ": a number in [0, 100]; along an axis of friction it stays, so that uA itself moves with μ\n" in text
-    )
+@pytest.fixture
+def template(tmp_path, monkeypatch):
+    """The text of a new study."""
+    monkeypatch.chdir(tmp_path)
+    call("new", "mine")
+    return Path("mine.toml").read_text()
 
 
-def test_the_template_with_units_names_its_units_and_no_others():
-    text = template_with_units("mine")
+def test_the_template_says_of_each_parameter_what_is_allowed(template):
+    assert "# Poisson ratio, ν: a number in [0, 0.5]\n# poisson_ratio = 0.3\n" in template
+    said = ": a number in [0, 100]; along an axis of friction it stays, so that uA itself moves with μ\n"
+    assert said in template
+
+
+def test_the_template_with_units_names_its_units_and_no_others(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert call("new", "--units", "mine").exit_code == 0
+    text = Path("mine.toml").read_text()
     assert {*re.findall(r"(?:length|stress|force|modulus) in (\w+)", text)} == {"mm", "N", "MPa"}
     assert 'length = "mm"' in text
     assert 'stress = "MPa"' in text
@@ -619,17 +632,14 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert (tmp_path / "my_first.toml").read_text() == "mine"
 
 
-@pytest.mark.parametrize("profile", [name for name in FAMILIES if not is_plane(name)])
-def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path, monkeypatch, profile):
-    monkeypatch.chdir(tmp_path)
-    call("new", "full")
-    text = Path("full.toml").read_text().replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
-    names = {name for name, row in PARAMETERS.items() if row.default is not None}
-    names |= {*FAMILIES[profile].shape}
+@pytest.mark.parametrize("profile", SHAPES)
+def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(template, profile):
+    text = template.replace('"paraboloid"\n#', f'"{profile}"\n#', 1)
     # It goes with other criteria.
-    names -= {"normal_sensitivity"}
+    names = {name for name in PARAMETERS if "default" in SAID[name]} - {"normal_sensitivity"}
+    names |= {*SHAPES[profile]}
     for name in PARAMETERS:
-        value = PARAMETERS[name].default or {"wavelength": 7, "exponent": 3}.get(name, 0.01)
+        value = SAID[name].get("default", {"wavelength": 7, "exponent": 3}.get(name, 0.01))
         lines = [line for line in text.splitlines() if line.startswith(f"# {name} = ")]
         assert len(lines) == (name not in ("profile", "normal_amplitude", "phase"))
         for line in lines if name in names else ():
@@ -638,12 +648,9 @@ def test_every_comment_of_a_new_study_is_a_parameter_that_may_be_given(tmp_path,
     assert set(study.grid.fixed) | set(study.grid.axes) == names | {"normal_sensitivity"}
 
 
-def test_a_new_study_of_a_cylinder_has_forces(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    call("new", "rig")
-    text = Path("rig.toml").read_text()
-    assert '"cylinder" (plane: forces alone)' in text
-    text = text.replace('profile = "paraboloid"', 'profile = "cylinder"')
+def test_a_new_study_of_a_cylinder_has_forces(template):
+    assert '"cylinder" (plane: forces alone)' in template
+    text = template.replace('profile = "paraboloid"', 'profile = "cylinder"')
     text = text.replace("# tangential_force_amplitude = …", "tangential_force_amplitude = 0.2")
     text = text.replace("normal_amplitude", "normal_force_amplitude")
     study = swtstudy.Study.from_text(text)
@@ -671,7 +678,7 @@ def test_the_shell_completes(tmp_path, monkeypatch, words, typed, offered):
         "COMP_WORDS": f"{words} {typed}",
         "COMP_CWORD": str(len(words.split())),
     }
-    result = CliRunner().invoke(main, env=variables, prog_name="swtstudy")
+    result = call(env=variables, prog_name="swtstudy")
     assert offered <= set(result.output.split())
 
 
@@ -698,18 +705,3 @@ def test_run_says_what_it_needs(tmp_path, monkeypatch):
     result = call("run")
     assert result.exit_code == 2
     assert "or --all" in result.stderr
-
-
-def test_failed_points_beyond_the_first_five_are_counted(tmp_path, monkeypatch):
-    from functools import partial
-
-    monkeypatch.setattr(stand_in.SOLVER, partial(stand_in.fail_at, 0.2))
-    study = tmp_path / "failing.toml"
-    phases = "phase = [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6]"
-    study.write_text(f'title = "t"\n[fixed]\nfriction = 0.2\n[axes]\n{phases}\n')
-    result = call("run", study, "--results", tmp_path, "--workers", "1")
-    failed = [line for line in result.stderr.splitlines() if line.startswith("failed: ")]
-    assert len(failed) == 6
-    assert all("ZeroDivisionError: an injected failure" in line for line in failed[:5])
-    assert failed[5] == f"failed: 2 more, see swtstudy info {tmp_path / 'failing.nc'}"
-    assert "7 points failed; --retry-failed recomputes them" in result.stderr

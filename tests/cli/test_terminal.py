@@ -2,159 +2,142 @@
 
 from __future__ import annotations
 
-import io
 import re
-from importlib import import_module
 from pathlib import Path
 
 import pytest
+import stand_in
 import xarray as xr
-from click.testing import CliRunner
-from folders import RESULTS
-from solved import REGIMES
+from asking import EVERY
+from command import call, main, shown
+from folders import RESULTS, STUDIES
+from words import PARAMETERS
 
 import swtstudy
-from swtstudy.cli import _SECTIONS, main
-from swtstudy.cli.points import WHY
-from swtstudy.cli.terminal import fitted, of_markdown, wrapped
-from swtstudy.study.shipped import GROUPS, OTHERS, in_groups, shipped_studies
-from swtstudy.study.template import template_with_units
-from swtstudy.vocabulary.mistakes import StudyError
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import DISTANCE, NAMED
-from swtstudy.vocabulary.wording import numbers_words, raised
+from swtstudy import StudyError
 
 #: The tests look at what is written, not at the layout of figures.
 pytestmark = pytest.mark.usefixtures("unwrapped")
 
 
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
+def lines_of(*arguments: object) -> list[str]:
+    return call(*arguments).stdout.splitlines()
 
 
-def lines_of(*arguments: str) -> list[str]:
-    return CliRunner().invoke(main, list(arguments)).stdout.splitlines()
+def parted(*arguments: object) -> list[list[str]]:
+    """The cells of a table, which are parted by tabs where it does not go to a terminal."""
+    return [each.split("\t") for each in lines_of(*arguments)]
 
 
 def test_columns_are_aligned_and_nothing_is_lost() -> None:
-    head, *rows = parted = [
-        each.split("\t") for each in lines_of("solve", "--phase", "0,pi/2", "--rtol", "1e-2")
-    ]
-    printed = fitted(head, rows, 200).splitlines()
-    assert [each.split() for each in printed] == parted
+    arguments = ("solve", "--phase", "0,pi/2", "--rtol", "1e-2")
+    table, printed = parted(*arguments), shown(200, *arguments)
+    # A small number has another form there.
+    assert [each.split()[:2] for each in printed] == [each[:2] for each in table]
+    assert [len(each.split()) for each in printed] == [*map(len, table)]
     ends = [[found.end() for found in re.finditer(r"\S+", each)] for each in printed]
     assert ends[0][:-1] == ends[1][:-1] == ends[2][:-1]  # numbers; the last column is words
-    assert len({each.index(words[-1]) for each, words in zip(printed, parted, strict=True)}) == 1
+    assert len({each.index(words[-1]) for each, words in zip(printed, table, strict=True)}) == 1
 
 
-def test_a_terminal_gets_columns_and_a_pipe_tabs(monkeypatch: pytest.MonkeyPatch) -> None:
-    arguments = ["solve", "--friction", "0.1,0.2", "--rtol", "1e-2"]
-    piped = CliRunner().invoke(main, arguments).stdout
-    assert piped.splitlines()[0].startswith("friction\ts\t")
-    monkeypatch.setattr(import_module("swtstudy.cli.terminal"), "line_length", lambda: 80)
-    shown = CliRunner().invoke(main, arguments)
-    assert "\t" not in shown.stdout
-    error = piped.splitlines()[1].split("\t")[2]
-    assert re.fullmatch(r"\d\.\de-0\d", error)
-    assert raised(error) in shown.stdout
-    assert error not in shown.stdout
+def test_a_terminal_gets_columns_and_a_pipe_tabs() -> None:
+    arguments = ("solve", "--friction", "0.1,0.2", "--rtol", "1e-2")
+    head, first, _ = parted(*arguments)
+    assert head[:2] == ["friction", "s"]
+    printed = "\n".join(shown(80, *arguments))
+    assert "\t" not in printed
+    assert re.fullmatch(r"\d\.\de-0\d", first[2])
+    digits, power = first[2].split("e-0")
+    assert f"{float(digits):g}·10⁻{'⁰¹²³⁴⁵⁶⁷⁸⁹'[int(power)]}" in printed
+    assert first[2] not in printed
 
 
-def test_lines_of_info_are_broken_behind_their_names(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+def test_lines_of_info_are_broken_behind_their_names(tmp_path: Path) -> None:
     swtstudy.run(swtstudy.Study.from_text('title = "t"\nrtol = 1e-2\n'), tmp_path / "a.nc")
-    monkeypatch.setattr(import_module("swtstudy.cli.terminal"), "line_length", lambda: 60)
-    found = lines_of("info", str(tmp_path / "a.nc"))
+    whole = lines_of("info", tmp_path / "a.nc")
+    found = shown(60, "info", tmp_path / "a.nc")
+    assert max(map(len, found)) <= 60
     first = next(k for k, line in enumerate(found) if "made by" in line)
-    assert len(found[first]) <= 60
-    assert found[first + 1].startswith(" " * found[first].index("swtstudy"))
+    indent = found[first].index("swtstudy")
+    assert all(each[indent] != " " for each in found[1:])
+    assert found[first + 1].startswith(" " * indent)
+    assert " ".join(" ".join(found).split()) == " ".join(" ".join(whole).split())
 
 
-WIDE = [
-    "solve",
-    "--rtol",
-    "1e-2",
-    "--quantities",
-    "dissipation,stick_radius",
-    "--tangential-amplitude",
-    "0.2,0.4,0.6",
-]
+WIDE = ("solve", "--rtol", "1e-2", "--quantities", "dissipation,stick_radius")
+WIDE = (*WIDE, "--tangential-amplitude", "0.2,0.4,0.6")
 
 
-@pytest.mark.parametrize("columns", [40, 60, 80, 100, 200])
-def test_a_table_is_no_wider_than_the_terminal(columns: int) -> None:
-    head, *rows = parted = [each.split("\t") for each in lines_of(*WIDE)]
-    printed = fitted(head, rows, columns)
-    assert max(map(len, printed.splitlines())) <= columns
-    if columns == 200:
-        assert [each.split() for each in printed.splitlines()] == parted
-        return
-    # One quantity a line for each point: its name, then its value.
-    blocks = [[line.split() for line in block.splitlines()] for block in printed.split("\n\n")]
-    assert blocks == [[[name, value] for name, value in zip(head, row, strict=True)] for row in rows]
+def test_a_table_is_no_wider_than_the_terminal_and_uses_all_its_room() -> None:
+    flat = shown(500, *WIDE)
+    widest = max(map(len, flat))
+    assert 100 < widest < 200
+    assert shown(widest, *WIDE) == flat
+    # One quantity a line for each point: its name, then its value. A point too wide is told all the same.
+    head, *rows = [each.split() for each in flat]
+    for columns in (20, 40, 100, widest - 1):
+        printed = shown(columns, *WIDE)
+        assert columns == 20 or max(map(len, printed)) <= columns
+        blocks = [[line.split() for line in block.splitlines()] for block in "\n".join(printed).split("\n\n")]
+        assert blocks == [[[name, value] for name, value in zip(head, row, strict=True)] for row in rows]
 
 
-def test_room_is_used_to_the_last_letter() -> None:
-    head, rows = ["name", "b"], [["12345", "6"], ["7", "89"], ["3", "4"]]
-    assert fitted(head, rows, 9).splitlines() == [" name   b", "12345   6", "    7  89", "    3   4"]
-    assert fitted(head, rows, 8).splitlines()[:2] == ["name  12345", "b         6"]
+SAMPLE = """
+title = "A sample"
+[sample]
+design = "saltelli"
+size = 4
+[sample.ranges]
+friction = [0.1, 0.9]
+poisson_ratio = [0, 0.5]
+"""
 
 
-def test_a_point_too_wide_for_any_terminal_is_still_told() -> None:
-    assert fitted(["name"], [["x" * 30]], 20) == "name  " + "x" * 30
-
-
-def test_lines_are_broken_between_words_below_their_own() -> None:
-    line = "  axis           phase: 0, 0.04363 … 2π (151 values), a-hyphen-stays"
-    for columns in (35, 40, 60):
-        first, *others = wrapped(line, columns, 17).split("\n")
-        assert others
-        assert max(map(len, (first, *others))) <= columns
-        assert all(each.startswith(" " * 17) and each[17] != " " for each in others)
-        assert " ".join([first, *map(str.strip, others)]) == line
-    assert wrapped(line, None, 17) == line
-
-
-@pytest.mark.parametrize("name", ["sensitivity_indices", "audit_parameter_box", "audit_criteria_box"])
-def test_tables_of_markdown_are_set_in_columns(name: str) -> None:
-    text = (RESULTS / f"{name}.md").read_text("utf-8")
-    assert of_markdown(text, None) == text
-    shown = of_markdown(text, 80).splitlines()
-    assert max(map(len, shown)) <= 80
-    assert not [each for each in shown if "|" in each]
+def test_tables_of_markdown_are_set_in_columns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
+    (tmp_path / "mine.toml").write_text(SAMPLE)
+    arguments = ("sensitivity", tmp_path / "mine.toml", "--results", tmp_path)
+    *printed, _, _, _, _ = shown(80, *arguments)
+    text = (tmp_path / "mine_indices.md").read_text("utf-8")
+    assert "\n".join(lines_of(*arguments)).startswith(text)
+    assert max(map(len, printed)) <= 80
+    assert not [each for each in printed if "|" in each]
     words = re.sub(r"\|[-|]+\||\|", " ", text).split()
-    assert sorted(" ".join(shown).split()) == sorted(words)
+    assert sorted(" ".join(printed).split()) == sorted(words)
+
+
+NOT_FINITE = ("--profile", "truncated_paraboloid", "--flat-radius", "0.5", "--friction", "1.9")
 
 
 @pytest.mark.parametrize(
-    ("arguments", "name"),
+    ("arguments", "said"),
     [
-        (["--profile", "truncated_paraboloid", "--flat-radius", "1", "--poisson-ratio", "0.3"], None),
-        (["--tangential-force-amplitude", "2"], "no_equilibrium"),
+        (("--profile", "truncated_paraboloid", "--flat-radius", "1", "--poisson-ratio", "0.3"), ""),
+        (NOT_FINITE, "not_finite: s is infinite, since swt grows without bound towards the edge of the .*\n"),
+        (
+            ("--tangential-force-amplitude", "2"),
+            "no_equilibrium: there is no s, since friction does not .*\n",
+        ),
     ],
 )
-def test_a_regime_without_s_is_explained(arguments: list[str], name: str | None) -> None:
-    outcome = CliRunner().invoke(main, ["solve", "--rtol", "1e-2", *arguments])
+def test_a_regime_without_s_is_explained(arguments: list[str], said: str) -> None:
+    outcome = call("solve", "--rtol", "1e-2", *arguments)
     assert outcome.exit_code == 0
-    assert outcome.stderr == ("" if name is None else f"{name}: {WHY[name]}\n")
-
-
-def test_every_regime_without_s_has_an_explanation() -> None:
-    assert {*WHY} == {"not_finite", "no_equilibrium"}
-    assert {*WHY} <= {*REGIMES}
+    assert re.fullmatch(said, outcome.stderr)
 
 
 def test_every_command_is_in_one_section_and_says_a_whole_sentence() -> None:
-    listed = [str(command.name) for commands in _SECTIONS.values() for command in commands]
-    assert sorted(listed) == sorted(main.commands)
-    text = " ".join(" ".join(lines_of("--help")).split())
+    lines = lines_of("--help")
+    text = " ".join(" ".join(lines).split())
     assert "..." not in text.split("Examples:")[0].replace("[ARGS]...", "")
-    for name in listed:
-        assert " ".join(str(main.commands[name].help).split("\n\n")[0].split()) in text
+    for name in main.commands:
+        assert sum(line.startswith(f"  {name} ") for line in lines) == 1
+        said = "\n".join(lines_of(name, "--help")).split("\n\n")[1]
+        assert " ".join(said.split()) in text
 
 
 def test_parameters_are_listed_by_what_they_are_a_part_of() -> None:
-    text = CliRunner().invoke(main, ["solve", "--help"]).stdout
+    text = call("solve", "--help").stdout
     places = [text.index(f"\n{title}:") for title in ("The load", "The profile and its shape", "The bodies")]
     assert places == sorted(places)
     phase, flat = (text.index(f"\n  --{name} ") for name in ("phase", "flat-radius"))
@@ -167,36 +150,33 @@ def test_parameters_are_listed_by_what_they_are_a_part_of() -> None:
 
 def test_all_parameters_and_quantities_are_explained() -> None:
     text = "\n".join(lines_of("list", "--parameters"))
-    for name in (*PARAMETERS, *NAMED, DISTANCE):
+    for name in (*PARAMETERS, *EVERY, "critical_distance"):
         assert text.count(f"\n  {name} ") == 1
 
 
-@pytest.mark.parametrize("on_a_terminal", [True, False])
-def test_new_and_run_name_the_next_command(tmp_path, monkeypatch, on_a_terminal: bool) -> None:
+def test_new_and_run_name_the_next_command_on_a_terminal(tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
-    terminal = import_module("swtstudy.cli.terminal")
-    monkeypatch.setattr(terminal, "line_length", lambda: 80 if on_a_terminal else None)
-    assert ("next: swtstudy run mine.toml" in lines_of("new", "mine")) is on_a_terminal
-    assert ("next: swtstudy report results/mine.nc" in lines_of("run", "mine.toml")) is on_a_terminal
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
+    assert "next: swtstudy run mine.toml" in shown(80, "new", "mine")
+    assert "next: swtstudy report results/mine.nc" in shown(80, "run", "mine.toml")
+    for arguments in (("new", "other"), ("run", "other.toml")):
+        assert not [line for line in lines_of(*arguments) if line.startswith("next:")]
 
 
 def test_studies_are_listed_in_groups_each_once() -> None:
-    names = [name for group in GROUPS.values() for name in group]
-    assert sorted(names) == sorted(shipped_studies())
-    assert in_groups(["figure4", "mine", "figure3"]) == {
-        "The paper": ["figure3", "figure4"],
-        OTHERS: ["mine"],
-    }
-    listed = lines_of("list")
-    assert [each for each in listed if each in GROUPS] == [*GROUPS]
+    lines = lines_of("list")
+    names = [path.stem for path in (*STUDIES.glob("*.toml"), *STUDIES.glob("audit/*.toml"))]
+    assert sorted(each.split()[0] for each in lines if each.startswith("  ")) == sorted(names)
+    groups = [each for each in lines if each[:1].strip()]
+    assert groups[:2] == ["The paper", "Loads"]
+    paper = lines[lines.index("The paper") + 1 : lines.index("Loads")]
+    assert {"figure3", "figure4"} <= {each.split()[0] for each in paper if each}
 
 
-def test_a_list_fits_80_columns_and_cuts_no_title(monkeypatch: pytest.MonkeyPatch) -> None:
-    whole = " ".join(" ".join(lines_of("list")).split())
-    monkeypatch.setattr(import_module("swtstudy.cli.terminal"), "line_length", lambda: 80)
-    shown = lines_of("list")
-    assert max(map(len, shown[:-1])) <= 80
-    assert " ".join(" ".join(shown).split()) == whole
+def test_a_list_fits_80_columns_and_cuts_no_title() -> None:
+    whole, lines = lines_of("list"), shown(80, "list")
+    assert max(map(len, lines[:-1])) <= 80
+    assert " ".join(" ".join(lines).split()) == " ".join(" ".join(whole).split())
 
 
 @pytest.fixture(scope="module")
@@ -230,12 +210,20 @@ def test_an_error_of_rtol_is_not_above_it(name: str, said: str) -> None:
     assert f"; {above or 'none'} of" in line
 
 
-def test_numbers_side_by_side_are_of_one_kind() -> None:
-    assert numbers_words([5e7, 5e5], 2) == ["5·10⁷", "5·10⁵"]
-    assert numbers_words([3.9e-5, 1e-4, 0.5, -2000.0], 2) == ["3.9·10⁻⁵", "10⁻⁴", "0.5", "-2·10³"]
-    assert numbers_words([999.0, 1000.0, 1e-2, 9.9e-3, 1e9]) == ["999", "10³", "0.01", "9.9·10⁻³", "10⁹"]
-    assert numbers_words([5e5, 1e3]) == ["500000", "1000"]
-    assert numbers_words([]) == []
+@pytest.mark.parametrize(
+    ("low", "high", "words"),
+    [
+        (5e5, 5e7, ("5·10⁵", "5·10⁷")),
+        (3.9e-5, 0.5, ("3.9·10⁻⁵", "0.5")),
+        (999.0, 1e9, ("999", "10⁹")),
+        (1000.0, 1e9, ("10³", "10⁹")),
+        (9.9e-3, 1e9, ("9.9·10⁻³", "10⁹")),
+        (1e3, 5e5, ("1000", "500000")),
+    ],
+)
+def test_numbers_side_by_side_are_of_one_kind(results: xr.Dataset, low: float, high: float, words) -> None:
+    said = repr(results.assign(s=results.s.copy(data=[low, high])).swt)
+    assert re.search(r"s = (\S+) \(.*?\) to (\S+) \(", said).groups() == words
 
 
 def test_a_contact_in_pascals_has_no_computers_numbers() -> None:
@@ -260,7 +248,13 @@ def test_flags_are_words_in_one_call_that_their_attributes_name(results: xr.Data
 
 
 def test_the_axes_of_the_template_with_units_do_something(tmp_path) -> None:  # type: ignore[no-untyped-def]
-    text = template_with_units("mine").replace("num = 13", "num = 3").replace("rtol = 0.0001", "rtol = 0.01")
+    call("new", "--units", tmp_path / "mine")
+    text = (
+        (tmp_path / "mine.toml")
+        .read_text()
+        .replace("num = 13", "num = 3")
+        .replace("rtol = 0.0001", "rtol = 0.01")
+    )
     dataset = swtstudy.run(swtstudy.Study.from_text(text), tmp_path / "mine.nc")
     for dim in dataset.s.dims:
         assert float(dataset.swt.extrema(str(dim)).ratio.max()) > 1.1, dim

@@ -7,10 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command import call
 from real import UNITS
-
-from swtstudy.cli import main
 
 STUDY = f"""
 title = "Limits"
@@ -27,7 +25,7 @@ def told(folder: Path, text: str) -> str:
     (folder / "mine.toml").write_text(text)
     with warnings.catch_warnings():
         warnings.simplefilter("always")
-        done = CliRunner().invoke(main, ["validate", str(folder / "mine.toml")])
+        done = call("validate", folder / "mine.toml")
     assert done.exit_code == 0, done.output
     assert "valid, " in done.output
     return " ".join(done.output.split())

@@ -114,16 +114,11 @@ def test_errors_of_ratios_add_up(archive, dataset, tmp_path):
     np.testing.assert_allclose(error[~plain], 2.0 * dataset.attrs["rtol"] * ratio[~plain], rtol=1e-4)
 
 
-def test_extrema_and_where():
+def test_extrema_leave_out_what_has_no_value():
     phase = np.linspace(0, np.pi, 37)
     dataset = made_up(
         lambda phase, friction: 2 + friction * np.cos(phase - 1), phase=phase, friction=[0.5, 1.0]
     )
-    found = dataset.swt.extrema("phase")
-    assert found.minimum.dims == ("friction",)
-    np.testing.assert_allclose(found.at_maximum, phase[np.abs(phase - 1).argmin()])
-    np.testing.assert_allclose(found.at_minimum, np.pi)
-    np.testing.assert_array_equal(found.ratio, found.maximum / found.minimum)
     dataset.s[:, 0] = np.nan
     dataset.s[-1, 1] = np.nan
     found = dataset.swt.extrema("phase")

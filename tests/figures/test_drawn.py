@@ -5,24 +5,10 @@ import pytest
 import xarray as xr
 from drawn import draw, keys
 from made_up import made_up
-from matplotlib import colormaps
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import to_rgba
-from matplotlib.figure import Figure
 from solved import REGIMES
-
-import swtstudy
-from swtstudy.figures.lines import hue_scale, in_equal_ratios
-from swtstudy.figures.point import draw_slip_map
-from swtstudy.figures.words import tick_in_pi
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
-
-
-@pytest.fixture
-def axes():
-    return Figure().subplots()
 
 
 def results(function, **values):
@@ -67,17 +53,24 @@ def test_long_ranges_are_logarithmic(top, scale):
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", scale)
 
 
-def test_equal_ratios():
-    assert in_equal_ratios(np.array([0.01, 0.1, 1.0]))
-    assert in_equal_ratios(np.array([0.1, 0.4, 1.6]))
-    assert not in_equal_ratios(np.array([0.102, 0.319374388, 1.0]))  # less than a decade
-    assert not in_equal_ratios(np.array([0.01, 1.0]))
-    few = np.sort([*np.geomspace(0.002, 0.05, 201), 0.0049778, 0.028078])
-    assert in_equal_ratios(few)  # a study's range with values of its own among them
-    assert not in_equal_ratios(np.linspace(0.002, 0.05, 201))
-    assert not in_equal_ratios(np.array([0.0, 1.0, 100.0]))
-    assert in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2))
-    assert not in_equal_ratios(np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2))
+@pytest.mark.parametrize(
+    ("x", "scale"),
+    [
+        ([0.01, 0.1, 1.0], "log"),
+        ([0.1, 0.4, 1.6], "log"),
+        ([0.102, 0.319374388, 1.0], "linear"),  # less than a decade
+        ([0.01, 1.0], "linear"),
+        # A study's range with values of its own among them.
+        (np.sort([*np.geomspace(0.002, 0.05, 201), 0.0049778, 0.028078]), "log"),
+        (np.linspace(0.002, 0.05, 201), "linear"),
+        ([0.0, 1.0, 100.0], "linear"),
+        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2), "log"),
+        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2), "linear"),
+    ],
+)
+def test_values_in_equal_ratios_are_logarithmic(x, scale):
+    dataset = results(lambda tangential_amplitude: 1.0 + tangential_amplitude, tangential_amplitude=x)
+    assert draw(dataset, keys("tangential_amplitude")).axes[0].get_xscale() == scale
 
 
 def test_a_regime_is_marked_where_it_begins():
@@ -184,45 +177,6 @@ def test_ticks_of_a_logarithmic_axis(low, high, words):
         t.get_text() for t in axes.get_xticklabels() if low * 0.999 <= t.get_position()[0] <= high * 1.001
     ]
     assert shown == words or (words is None and all("10^" in each for each in shown))
-
-
-def test_flags_are_steps_with_their_meanings():
-    dataset = results(lambda friction: friction, friction=[0.1, 0.2, 0.3])
-    dataset.regime[:] = [1, 2, 2]
-    (axes,) = draw(dataset, keys("friction", y=("regime",))).axes
-    assert axes.lines[0].get_drawstyle() == "steps-mid"
-    assert axes.lines[0].get_ydata().tolist() == [1, 2, 2]
-    assert [tick.get_text() for tick in axes.get_yticklabels()] == [
-        name.replace("_", " ") for name in REGIMES
-    ]
-    assert axes.get_ylim() == (-0.5, 5.5)
-
-
-def test_eight_values_have_a_scale():
-    few, many = (xr.DataArray(np.linspace(2.0, 3.0, count), dims="friction") for count in (7, 8))
-    assert hue_scale(few) is None
-    scale = hue_scale(many[::-1])
-    assert (scale.norm.vmin, scale.norm.vmax) == (2.0, 3.0)
-    assert hue_scale(xr.DataArray(list("abcdefgh"), dims="profile")) is None
-    logarithmic = hue_scale(xr.DataArray(np.geomspace(0.01, 1.0, 9), dims="friction"))
-    assert logarithmic.norm(0.1) == pytest.approx(0.5)
-    assert scale.norm(2.5) == pytest.approx(0.5)
-    dataset = results(lambda friction, phase: friction + 0 * phase, friction=many.values, phase=[0.0, 1.0])
-    figure = draw(dataset, keys("phase", "friction"))
-    colours = [line.get_color() for line in figure.axes[0].lines]
-    assert len({tuple(colour) for colour in colours}) == 8
-    # Up to nine tenths of the map: its lightest end cannot be seen on white.
-    expected = colormaps["cividis"](0.9 * np.linspace(0.0, 1.0, 8))
-    np.testing.assert_allclose(colours, expected, atol=0.01)
-
-
-def surface():
-    """s = (x − v)² + 1 over phases x and frictions v: least at x = v."""
-    return results(
-        lambda friction, phase: 1 + (phase - friction) ** 2,
-        friction=[0.5, 1.0, 1.5],
-        phase=np.linspace(0.0, 2.0, 9),
-    )
 
 
 def path_of(axes, label):
@@ -334,26 +288,6 @@ def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
     assert one.vmax < 0.5 * other.vmax
 
 
-def test_cells_have_the_values_of_the_points():
-    dataset = surface().isel(phase=slice(0, 4))
-    figure = draw(dataset, keys("phase", kind="heatmap", vertical="friction"))
-    (mesh,) = figure.axes[0].collections
-    np.testing.assert_array_equal(np.asarray(mesh.get_array()).reshape(3, 4), dataset.s)
-    assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset.s.min(), dataset.s.max())
-    assert [tick.get_text() for tick in figure.axes[0].get_yticklabels()] == ["0.5", "1", "1.5"]
-    assert [tick.get_text() for tick in figure.axes[0].get_xticklabels()] == ["0", "0.25", "0.5", "0.75"]
-
-
-def test_sizes_of_figures():
-    dataset = results(lambda friction, phase: friction + phase, friction=[0.1, 0.2, 0.3], phase=[0.0, 1.0])
-    for layout, size in (
-        (keys("friction", None, "phase"), (8.0, 3.2)),
-        (keys("friction", None, "phase", ("s", "critical_x")), (8.0, 6.4)),
-        (keys("friction", kind="heatmap", vertical="phase"), (5.5, 3.2)),
-    ):
-        assert draw(dataset, layout).get_size_inches() == pytest.approx(size)
-
-
 @pytest.mark.parametrize(
     ("low", "high", "words"),
     [
@@ -365,30 +299,7 @@ def test_sizes_of_figures():
         (0.1, 0.9, ["π/4", "π/2", "3π/4"]),
     ],
 )
-def test_ticks_in_pi(axes, low, high, words):
-    tick_in_pi(axes.xaxis, low * np.pi, high * np.pi)
+def test_ticks_in_pi(low, high, words):
+    dataset = results(lambda phase: phase + 2.0, phase=np.pi * np.linspace(low, high, 5))
+    (axes,) = draw(dataset, keys("phase")).axes
     assert [tick.get_text() for tick in axes.get_xticklabels()] == words
-
-
-def test_slip_map(axes):
-    states = swtstudy.slip_map([0.2, 0.9, 1.4], time=[0.0, 1.0, 2.0, 3.0], phase=0.5)
-    patches = draw_slip_map(axes, states)
-    assert [patch.get_label() for patch in patches] == ["open", "stick", "forward slip", "backward slip"]
-    (mesh,) = axes.images
-    np.testing.assert_array_equal(mesh.get_array(), states.state.transpose("r", "time"))
-    # A cell goes half way to its neighbours, also where these are not equally far.
-    canvas = FigureCanvasAgg(axes.figure)
-    axes.set(ylim=(0.0, 1.65), autoscale_on=False)
-    axes.lines[0].set_visible(False)  # the edge of the contact
-    canvas.draw()
-    seen = np.asarray(canvas.buffer_rgba())
-    for r, row in ((0.02, 0), (0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
-        for column in (1, 2):
-            across, up = axes.transData.transform((column + 0.3, r))
-            colour = seen[seen.shape[0] - 1 - round(up), round(across)] / 255.0
-            code = int(states.state.transpose("r", "time")[row, column])
-            assert colour == pytest.approx(to_rgba(patches[code].get_facecolor()), abs=0.01)
-    # Each state has the colour of its word.
-    for code, patch in enumerate(patches):
-        assert mesh.cmap(mesh.norm(code)) == patch.get_facecolor()
-    np.testing.assert_array_equal(axes.lines[0].get_ydata(), states.contact_radius)

@@ -4,15 +4,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
+from command import call
 from matplotlib.figure import Figure
 from matplotlib.ticker import ScalarFormatter
 from oracles import profiles as oracle
 
 import swtstudy
 from swtstudy import draw_profile
-from swtstudy.cli import main
-from swtstudy.faces.contacts import PhysicalContact
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -140,19 +138,18 @@ def test_the_command_draws_a_table_with_a_study(tmp_path, monkeypatch):
     np.savetxt("tip.csv", table, delimiter=",", header="radius,height", comments="")
     Path("rig.toml").write_text(STUDY, encoding="utf-8")
     drawn = []
-    monkeypatch.setattr(
-        PhysicalContact, "draw_profile", lambda contact, **_: drawn.append(contact) or Figure()
-    )
+    own = "swtstudy.faces.contacts.PhysicalContact.draw_profile"
+    monkeypatch.setattr(own, lambda contact, **_: drawn.append(contact) or Figure())
     arguments = ["show", "rig.toml", "--profile", "tip.csv", "--smoothing", "2e-5"]
-    done = CliRunner().invoke(main, arguments)
+    done = call(*arguments)
     assert done.exit_code == 0, done.stderr
     (contact,) = drawn
     (table,) = contact.grid.values("profile")
     assert (table.name, table.smoothing, table.radius[-1]) == ("tip", 2e-5, 2.0)
-    rough = CliRunner().invoke(main, arguments[:4])
+    rough = call(*arguments[:4])
     assert rough.exit_code == 2
     assert "if its heights are noisy, smoothing takes that away" in rough.stderr
-    still_rough = CliRunner().invoke(main, [*arguments[:-1], "1e-12"])
+    still_rough = call(*arguments[:-1], "1e-12")
     assert "; its smoothing is 1e-12: more takes noise away, less leaves its shape" in still_rough.stderr
-    none = CliRunner().invoke(main, ["show", "rig.toml", "--profile", "paraboloid", "--smoothing", "1"])
+    none = call("show", "rig.toml", "--profile", "paraboloid", "--smoothing", "1")
     assert "smoothing: found 1 of 'paraboloid'; allowed: for a table alone" in none.stderr

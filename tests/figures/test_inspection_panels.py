@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_hex, to_rgba
 from matplotlib.figure import Figure
 
 import swtstudy
@@ -40,6 +41,20 @@ def levels(axes, upright):
 def numbers(axes):
     """The numbered discs: number and place."""
     return {int(text.get_text()): text.get_position() for text in axes.texts if text.get_text().isdigit()}
+
+
+def dot_of(axes):
+    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    return dot
+
+
+def curves_of(axes, count):
+    """Curves of so many points: those of the instants, and two bounds for each of them."""
+    curves = [line for line in axes.lines if len(line.get_xdata()) == count]
+    named = [line for line in curves if line.get_label().isdigit()]
+    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
+    assert len(bounds) == 2 * len(named)
+    return named, list(zip(bounds[::2], bounds[1::2], strict=True))
 
 
 def test_load_path(moving, axes):
@@ -105,17 +120,32 @@ def test_slip(cattaneo, axes):
     )
 
 
+def test_cells_of_the_slip_map(axes):
+    """A cell goes half way to its neighbours, also where these are not equally far."""
+    states = swtstudy.slip_map([0.2, 0.9, 1.4], time=[0.0, 1.0, 2.0, 3.0], phase=0.5)
+    patches = panels.draw_slip_map(axes, states)
+    canvas = FigureCanvasAgg(axes.figure)
+    axes.set(ylim=(0.0, 1.65), autoscale_on=False)
+    axes.lines[0].set_visible(False)  # the edge of the contact
+    canvas.draw()
+    seen = np.asarray(canvas.buffer_rgba())
+    for r, row in ((0.02, 0), (0.5, 0), (0.6, 1), (1.1, 1), (1.2, 2)):
+        for column in (1, 2):
+            across, up = axes.transData.transform((column + 0.3, r))
+            colour = seen[seen.shape[0] - 1 - round(up), round(across)] / 255.0
+            code = int(states.state.transpose("r", "time")[row, column])
+            assert colour == pytest.approx(to_rgba(patches[code].get_facecolor()), abs=0.01)
+    np.testing.assert_array_equal(axes.lines[0].get_ydata(), states.contact_radius)
+
+
 def test_springs(cattaneo, axes):
     """Springs of the paraboloid: w = 1 − ξ²; at the turning points τ = ±min(w, U)."""
     panels.draw_springs(axes, cattaneo)
     radius = cattaneo.r.values
     w = np.maximum(1.0 - radius**2, 0.0)
-    curves = [line for line in axes.lines if len(line.get_xdata()) == len(radius)]
-    assert len(curves) == 3 * cattaneo.sizes["instant"]
-    named = [line for line in curves if line.get_label().isdigit()]
+    named, bounds = curves_of(axes, len(radius))
     assert [line.get_label() for line in named] == [str(number) for number in cattaneo.instant.values]
-    bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
-    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
+    for upper, lower in bounds:
         np.testing.assert_allclose(upper, w, atol=1e-12)
         np.testing.assert_allclose(lower, -w, atol=1e-12)
     turning = 0
@@ -133,14 +163,12 @@ def test_tractions(cattaneo, axes):
     panels.draw_tractions(axes, cattaneo)
     x = cattaneo.x.values
     p = 2 / np.pi * np.sqrt(np.maximum(1.0 - x**2, 0.0))
-    curves = [line for line in axes.lines if len(line.get_xdata()) == len(x)]
-    named = [line for line in curves if line.get_label().isdigit()]
-    bounds = [line for line in curves if not line.get_label().isdigit()]
-    for line in curves:
+    named, bounds = curves_of(axes, len(x))
+    for line in named:
         np.testing.assert_array_equal(line.get_xdata(), x)
-    for upper, lower in zip(bounds[::2], bounds[1::2], strict=True):
-        np.testing.assert_allclose(upper.get_ydata(), 0.5 * p, atol=1e-9)
-        np.testing.assert_allclose(lower.get_ydata(), -0.5 * p, atol=1e-9)
+    for upper, lower in bounds:
+        np.testing.assert_allclose(upper, 0.5 * p, atol=1e-9)
+        np.testing.assert_allclose(lower, -0.5 * p, atol=1e-9)
     less = 2 / np.pi * np.sqrt(np.maximum(0.64 - x**2, 0.0))
     turning = 0
     for time, line in zip(cattaneo.instant_time.values, named, strict=True):
@@ -163,7 +191,7 @@ def test_stress_cycle(moving):
     np.testing.assert_array_equal(axes.lines[0].get_data(), (time, stress))
     (curve,) = (line for line in other.lines if len(line.get_xdata()) == len(time))
     np.testing.assert_array_equal(curve.get_data(), (time, strain))
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_ydata() == [stress.max()]
     assert dot.get_xdata() == [time[stress.argmax()]]
     assert levels(other, False) == [strain.min(), strain.max()]
@@ -202,7 +230,7 @@ def test_what_always_sticks_is_shaded(cattaneo, axes):
 def test_swt_along_the_surface(moving, axes):
     panels.draw_swt(axes, moving)
     np.testing.assert_array_equal(axes.lines[0].get_data(), (moving.x, moving.s_local))
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_data() == (pytest.approx([float(moving.critical_x)]), pytest.approx([float(moving.s)]))
     # a of the paraboloid: √δ, δ from 0.5 to 1.5.
     low, high = np.sqrt([0.5, 1.5])
@@ -241,7 +269,7 @@ def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
     assert np.isnan(point.s)
     panels.draw_swt(axes, point)
     assert axes.get_title("left") == "swt along the surface; dot: largest sampled"
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
+    dot = dot_of(axes)
     assert dot.get_ydata() == [float(point.s_local.max())]
     assert dot.get_xdata() == [float(point.x[int(point.s_local.values.argmax())])]
     panels.draw_stress(Figure().subplots(), point)

@@ -4,24 +4,21 @@ from io import BytesIO
 
 import numpy as np
 import pytest
-import xarray as xr
 from made_up import made_up
 from matplotlib import colormaps
 from matplotlib.colors import to_rgba
-from matplotlib.markers import MarkerStyle
 from matplotlib.transforms import Bbox
-
-from swtstudy.figures.lines import hue_scale
-from swtstudy.figures.sheet import add_legend
-from swtstudy.figures.style import MARKERS
-from swtstudy.vocabulary.choices import FAMILIES
-from swtstudy.vocabulary.wording import place_words
+from words import PROFILES
 
 PHASE = np.linspace(0, 2, 5)
 
 
 def lines_over(friction):
     return made_up(lambda phase, friction: friction + np.sin(phase), phase=PHASE, friction=friction)
+
+
+def of_loops(names):
+    return made_up(lambda phase, load: phase, phase=PHASE, load=names)
 
 
 def assert_whole(figure, entries):
@@ -43,43 +40,37 @@ def assert_whole(figure, entries):
 def test_no_entry_is_cut_in_any_size_of_letters(size):
     friction = np.arange(1, 8) / 10
     figure = lines_over(friction).swt.panels("phase", "friction", style={"font.size": size})
-    assert_whole(figure, [place_words("friction", value) for value in friction])
+    assert_whole(figure, [rf"$\mu$ = {value}" for value in friction])
 
 
 @pytest.mark.slow
 def test_any_number_of_entries_fits():
-    figure = lines_over([0.1]).isel(friction=0).swt.panels("phase")
     names = [f"the line number {index}" for index in range(60)]
-    for name in names:
-        figure.axes[0].plot(PHASE, PHASE, label=name)
-    width = figure.get_figwidth()
-    add_legend(figure)
+    figure = of_loops(names).swt.panels("phase", "load")
     assert_whole(figure, names)
     # In several rows rather than far beyond the panels.
-    assert figure.get_figwidth() == width
+    assert figure.get_figwidth() == of_loops(names[:2]).swt.panels("phase", "load").get_figwidth()
 
 
 def test_an_entry_wider_than_its_panels():
     """On a screen the figure grows; in print the letters get smaller."""
+    names = ["a name as long as nobody gives one" * 4, "b"]
     for width in (None, "column"):
-        figure = lines_over([0.1]).isel(friction=0).swt.panels("phase", width=width)
-        before = figure.get_figwidth()
-        figure.axes[0].plot(PHASE, PHASE, label="a name as long as nobody gives one " * 4)
-        add_legend(figure)
-        assert_whole(figure, ["a name as long as nobody gives one " * 4])
+        before = of_loops(["a", "b"]).swt.panels("phase", "load", width=width).get_figwidth()
+        figure = of_loops(names).swt.panels("phase", "load", width=width)
+        assert_whole(figure, names)
         assert (figure.get_figwidth() > before) == (width is None)
 
 
 def test_names_have_a_legend():
-    dataset = made_up(lambda profile, phase: phase + 0.0, profile=[*FAMILIES], phase=PHASE)
+    dataset = made_up(lambda profile, phase: phase + 0.0, profile=PROFILES, phase=PHASE)
     figure = dataset.swt.panels("phase", "profile")
-    assert_whole(figure, [name.replace("_", " ") for name in FAMILIES])
+    assert_whole(figure, [name.replace("_", " ") for name in PROFILES])
 
 
 def test_names_have_no_scale_however_many():
-    values = np.array([f"profile {index}" for index in range(20)])
-    assert hue_scale(xr.DataArray(values)) is None
-    assert hue_scale(xr.DataArray(np.arange(20.0))) is not None
+    figure = of_loops([f"loop {index}" for index in range(20)]).swt.panels("phase", "load")
+    assert len(figure.axes) == len(figure.legends) == 1
 
 
 @pytest.mark.quick(2)
@@ -169,7 +160,3 @@ def test_one_scale_stands_beside_all_panels():
     assert len(figure.axes) == 5
     figure.savefig(BytesIO(), format="png")
     assert all(axes.bbox.x1 < figure.axes[4].bbox.x0 for axes in figure.axes[:4])
-
-
-def test_every_marker_is_one_that_matplotlib_draws():
-    assert len({MarkerStyle(each).get_marker() for each in MARKERS}) == len(MARKERS)

@@ -1,18 +1,29 @@
 """The live figure: what it draws is what the solver and the memory diagram say, also after a slider moves."""
 
+import asyncio
+
 import numpy as np
 import pytest
 from folders import ROOT, STUDIES
+from PIL import Image
 
 import swtstudy
-from swtstudy.figures.live import LiveFigure, phases
+from swtstudy.figures.live import SLIDERS, Explorer, LiveFigure, phases
 from swtstudy.results.inspection import load_and_springs
+from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
 
 NOTEBOOK = STUDIES / "explore_live.ipynb"
 
 
-def lines(axes):
-    return {line.get_label(): np.array(line.get_xydata()) for line in axes.get_lines()}
+@pytest.fixture
+def live():
+    pytest.importorskip("ipywidgets")
+    return Explorer()
+
+
+def curve_of(explorer):
+    """Phases of the curve of s."""
+    return explorer.live.figure.axes[2].get_lines()[0].get_xdata()
 
 
 def test_the_panels_are_those_of_the_point():
@@ -90,11 +101,7 @@ def test_the_curve_has_each_period_of_s_alike():
 
 
 @pytest.mark.slow
-def test_a_slider_redraws():
-    pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live import SLIDERS, Explorer
-
-    live = Explorer()
+def test_a_slider_redraws(live):
     before = live.picture.value
     live.controls["friction"].value = 0.6
     assert live.picture.value != before
@@ -110,11 +117,7 @@ def test_a_slider_redraws():
     assert set(SLIDERS) - shown == {"flat_radius", "flat_half_width", "exponent"}
 
 
-def test_forces_without_equilibrium_are_said_and_leave_the_picture():
-    pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live import Explorer
-
-    live = Explorer()
+def test_forces_without_equilibrium_are_said_and_leave_the_picture(live):
     before = live.picture.value
     live.controls["control"].value = "forces"
     assert "no equilibrium" in live.caption.value
@@ -128,14 +131,9 @@ def test_forces_without_equilibrium_are_said_and_leave_the_picture():
 
 
 def test_every_slider_is_within_what_is_allowed():
-    pytest.importorskip("ipywidgets")
-    from swtstudy.figures.live import SLIDERS
-    from swtstudy.vocabulary.parameters import PAIRS, PARAMETERS
-
     numbers = {n for n, each in PARAMETERS.items() if each.kind == "number" and n not in PAIRS}
     # It has none with the criterion of the sliders.
-    numbers -= {"normal_sensitivity"}
-    assert set(SLIDERS) == numbers
+    assert set(SLIDERS) == numbers - {"normal_sensitivity"}
     assert {SLIDERS[name][:2] for name in ("phase", "bulk_stress_phase")} == {(0.0, 2.0 * np.pi)}
     for name, (low, high, step, begin) in SLIDERS.items():
         each = PARAMETERS[name]
@@ -178,18 +176,12 @@ def test_a_fine_curve_misses_little_of_the_least_value():
 
 
 @pytest.mark.slow
-def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
-    pytest.importorskip("ipywidgets")
-    from PIL import Image
-
-    from swtstudy.figures.live import Explorer
-
-    explorer = Explorer()
-    explorer.save(tmp_path / "point.svg")
+def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path, live):
+    live.save(tmp_path / "point.svg")
     assert (tmp_path / "point.svg").read_text().count("<path") > 20
-    assert len(explorer.live.figure.axes[2].get_lines()[0].get_xdata()) > 100
-    explorer.live.save(tmp_path / "point.png")
-    inches = explorer.live.figure.get_size_inches()
+    assert len(curve_of(live)) > 100
+    live.live.save(tmp_path / "point.png")
+    inches = live.live.figure.get_size_inches()
     with Image.open(tmp_path / "point.png") as picture:
         assert picture.size == pytest.approx(tuple(300.0 * inches), abs=1.0)
 
@@ -197,20 +189,15 @@ def test_what_is_saved_is_the_figure_with_its_fine_curve(tmp_path):
 @pytest.mark.slow
 def test_the_curve_is_fine_once_nothing_moves(monkeypatch):
     pytest.importorskip("ipywidgets")
-    import asyncio
-
-    from swtstudy.figures import live
-
-    monkeypatch.setattr(live, "_IDLE", 0.01)
+    monkeypatch.setattr("swtstudy.figures.live._IDLE", 0.01)
 
     async def moved() -> list[int]:
-        explorer = live.Explorer()
-        counts = []
+        explorer, counts = Explorer(), []
         for friction in (0.4, 0.5):
             explorer.controls["friction"].value = friction
-            counts.append(len(explorer.live.figure.axes[2].get_lines()[0].get_xdata()))
+            counts.append(len(curve_of(explorer)))
         await asyncio.sleep(0.05)
-        return [*counts, len(explorer.live.figure.axes[2].get_lines()[0].get_xdata())]
+        return [*counts, len(curve_of(explorer))]
 
     first, second, idle = asyncio.run(moved())
     assert first == second

@@ -6,12 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
-from click.testing import CliRunner
+from command import call
 from matplotlib.text import Text
 
 import swtstudy
 from swtstudy import Study
-from swtstudy.cli import main
 
 SAMPLE = """
 title = "t"
@@ -38,15 +37,6 @@ hue = "friction"
 """
 
 
-def test_ten_panels_are_no_wider_than_three(tmp_path: Path) -> None:
-    text = 'title = "t"\n[axes]\nphase = [0, 1]\nfriction = { start = 0.1, stop = 1, num = 10 }\n'
-    study = Study.from_text(f'{text}[figure]\nx = "phase"\npanels = "friction"\n')
-    figure = swtstudy.run(study, tmp_path / "ten.nc", solver=stand_in.smooth).swt.figure()
-    assert figure.get_size_inches() == pytest.approx((3 * 4.0, 4 * 3.2))
-    titles = [axes.get_title("left") for axes in figure.axes]
-    assert titles[2] == r"(C)  $\mu$ = 0.3"  # not 3/10, which 0.1 + 0.2 is but for rounding
-
-
 @pytest.mark.usefixtures("unwrapped")
 def test_no_two_patches_of_a_legend_are_alike(tmp_path: Path) -> None:
     figure = swtstudy.run(Study.from_text(SAMPLE), tmp_path / "h.nc", solver=stand_in.smooth).swt.figure()
@@ -62,16 +52,16 @@ def test_no_two_patches_of_a_legend_are_alike(tmp_path: Path) -> None:
 def test_an_axis_may_be_drawn_at_one_value(tmp_path: Path) -> None:
     swtstudy.run(Study.from_text(TWO), tmp_path / "two.nc", solver=stand_in.smooth)
     archive, target = str(tmp_path / "two.nc"), tmp_path / "two.png"
-    done = CliRunner().invoke(main, ["plot", archive, "--x", "phase", "-o", str(target)])
+    done = call("plot", archive, "--x", "phase", "-o", target)
     assert done.exit_code == 2
     assert "no place for the axis friction; allowed: " in done.stderr
     assert done.stderr.rstrip().endswith("with a single value, such as by --at friction=…")
     at = ["--x", "phase", "--at", "friction=0.6"]
-    assert CliRunner().invoke(main, ["plot", archive, *at, "-o", str(target)]).exit_code == 0
+    assert call("plot", archive, *at, "-o", target).exit_code == 0
     assert target.stat().st_size > 0
-    done = CliRunner().invoke(main, ["plot", archive, "--at", "friction=0.5"])
+    done = call("plot", archive, "--at", "friction=0.5")
     assert "friction: found '0.5', which is not in these results; allowed: 0.3, 0.6" in done.stderr
-    done = CliRunner().invoke(main, ["plot", archive, "--at", "friction"])
+    done = call("plot", archive, "--at", "friction")
     assert "--at: found 'friction'; allowed: an axis and a value, such as friction=0.6" in done.stderr
 
 
@@ -80,7 +70,7 @@ def test_the_value_of_an_axis_is_the_title(tmp_path: Path, monkeypatch: pytest.M
     drawn = []
     monkeypatch.setattr("swtstudy.figures.style.save_figure", lambda figure, *_: drawn.append(figure))
     for more in ([], ["--title", "Mine"]):
-        CliRunner().invoke(main, ["plot", str(tmp_path / "two.nc"), "--at", "friction=0.6", *more])
+        call("plot", tmp_path / "two.nc", "--at", "friction=0.6", *more)
     assert [figure.get_suptitle() for figure in drawn] == [r"$\mu$ = 0.6", "Mine"]
     assert not any(figure.legends for figure in drawn)  # of one line
 

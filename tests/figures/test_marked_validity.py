@@ -6,9 +6,6 @@ from drawn import draw, keys
 from made_up import made_up
 
 from swtstudy import Study
-from swtstudy.points.validity import outside
-from swtstudy.study.writing import to_toml
-from swtstudy.vocabulary.variables import CONTACT
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -28,7 +25,7 @@ def results():
     cycles = 1e5 / dataset.tangential_amplitude**3 + 0.0 * dataset.friction
     dims = dataset.s.dims
     dataset = dataset.assign(yield_ratio=ratio.transpose(*dims), cycles=cycles.transpose(*dims))
-    return dataset.assign_attrs({CONTACT: "{}"})
+    return dataset.assign_attrs(contact="{}")
 
 
 BEYOND = AMPLITUDE[None, :] + FRICTION[:, None] > 1.3 + 1e-6
@@ -37,17 +34,6 @@ LONG = np.broadcast_to(AMPLITUDE < 0.2154, BEYOND.shape)
 
 def marks(axes, words):
     return [line for line in axes.lines if str(line.get_label()) == words]
-
-
-def test_outside_of_what_a_quantity_is(results):
-    found = outside(results, results.s)
-    np.testing.assert_array_equal(found, BEYOND)
-    assert found.attrs["long_name"] == "outside: first yield"
-    life = outside(results, results.cycles.transpose())
-    np.testing.assert_array_equal(life, (BEYOND | LONG).T)
-    assert life.attrs["long_name"] == "outside: first yield, known lives"
-    # A quantity that is one for several points is outside where one of them is.
-    np.testing.assert_array_equal(outside(results, results.s.isel(friction=0)), BEYOND.any(axis=0))
 
 
 @pytest.mark.parametrize("kind", ["lines", "life"])
@@ -120,4 +106,3 @@ def test_a_study_may_ask_for_them():
     assert type(study.figure).from_json(study.figure.to_json()) == study.figure
     with pytest.raises(ValueError, match=r"figure\.validity: found 3; allowed: true or false"):
         Study.from_text(text.replace("true", "3"))
-    assert Study.from_text(to_toml("t", 1e-3, study.grid, study.figure)).figure == study.figure

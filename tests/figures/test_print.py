@@ -8,10 +8,10 @@ import pytest
 from command import call
 from made_up import PANELS, made_up
 from matplotlib.transforms import Bbox
+from words import PROFILES
 
 import swtstudy
 from swtstudy import Study
-from swtstudy.vocabulary.choices import FAMILIES
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
@@ -30,11 +30,11 @@ FIGURES = {
         {"x": "phase", "hue": "friction", "panels": "normal_amplitude", "y": ["s", "critical_angle"]},
     ),
     "names": (
-        {"phase": PHASE, "profile": [*FAMILIES], "tangential_amplitude": [1 / 3, 5 / 6]},
+        {"phase": PHASE, "profile": PROFILES, "tangential_amplitude": [1 / 3, 5 / 6]},
         {"x": "phase", "hue": "profile", "panels": "tangential_amplitude"},
     ),
     "scale": (
-        {"phase": PHASE, "friction": np.linspace(0.1, 0.9, 9), "profile": [*FAMILIES]},
+        {"phase": PHASE, "friction": np.linspace(0.1, 0.9, 9), "profile": PROFILES},
         {"x": "phase", "hue": "friction", "panels": "profile"},
     ),
     "contours": (

@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
-from curves import curves, whole
+import xarray as xr
+from drawn import curves, whole
+from folders import RESULTS
 from made_up import made_up
 from matplotlib.colors import to_rgba
 from matplotlib.mathtext import MathTextParser
-
-from swtstudy.vocabulary.parameters import PARAMETERS
-from swtstudy.vocabulary.quantities import QUANTITIES
-from swtstudy.vocabulary.variables import ATTRIBUTES
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -26,8 +24,18 @@ WORDS = {
 REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium"]
 
 
+@pytest.fixture(scope="module")
+def said():
+    """What the archives say of each variable."""
+    found = {}
+    for path in sorted(RESULTS.glob("*.nc")):
+        with xr.open_dataset(path) as results:
+            found |= {str(name): values.attrs for name, values in results.variables.items()}
+    return found
+
+
 @pytest.fixture
-def dataset():
+def dataset(said):
     """Each variable over ψ and μ is another function, of which a sum of the two parameters is a part."""
     found = made_up(lambda phase, friction: 2 + phase + 5 * friction, phase=PHASE, friction=FRICTION)
     found = found.assign(s_surface=3 * found.s, s_error=1e-9 * found.s, critical_x=found.s - 4)
@@ -36,13 +44,15 @@ def dataset():
     codes[4:], codes[8:, 1:] = 1, 2
     found["regime"] = ("phase", "friction"), codes
     for name, values in found.data_vars.items():
-        values.attrs = dict(ATTRIBUTES[name])
+        values.attrs = dict(said[name])
     return found
 
 
-def test_every_symbol_is_a_formula():
-    for row in (*PARAMETERS.values(), *QUANTITIES.values()):
-        assert MathTextParser("path").parse(f"${row.symbol}$").width > 0
+def test_every_symbol_is_a_formula(said):
+    symbols = {attributes["symbol"] for attributes in said.values() if "symbol" in attributes}
+    assert len(symbols) > 20
+    for symbol in symbols:
+        assert MathTextParser("path").parse(f"${symbol}$").width > 0
 
 
 @pytest.mark.parametrize("name", WORDS)
@@ -62,6 +72,7 @@ def test_a_heat_map_is_the_values(dataset, name):
     figure = dataset.swt.panels("friction", vertical="phase", kind="heatmap", y=name)
     axes, bar = figure.axes
     (mesh,) = axes.collections
+    assert figure.get_size_inches() == pytest.approx((5.5, 3.2))
     np.testing.assert_array_equal(mesh.get_array(), dataset[name])  # rows are phases
     assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset[name].min(), dataset[name].max())
     assert mesh.get_cmap().name == "cividis"
@@ -253,6 +264,10 @@ def test_long_ranges_are_logarithmic_where_values_allow_it():
         ({"y": []}, "empty list"),
         ({"hue": "phase"}, "figure.hue: found 'phase', also used for x; allowed: each axis once"),
         ({"hue": None}, "no place for the axis friction"),
+        ({"hue": None, "kind": "contour"}, "vertical: found nothing"),
+        ({"kind": "heatmap", "vertical": "friction"}, "hue"),
+        ({"vertical": "friction"}, "vertical"),
+        ({"kind": "pie"}, "found 'pie'"),
         ({"title": "$x^2^3$"}, "figure.title: .*Double superscript"),
         ({"regimes": True}, "figure.regimes"),
     ],

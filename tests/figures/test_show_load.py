@@ -7,10 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import real
-from click.testing import CliRunner
+from command import call
 
 from swtstudy import Study, StudyError, draw_load, read_signal
-from swtstudy.cli import main
 
 RIG = f"""{real.RIG}[loads.rig]
 file = "rig.csv"
@@ -72,12 +71,12 @@ def test_cycles_that_are_the_same_do_not_scatter(tmp_path: Path) -> None:
 
 def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig: Path) -> None:
     picture = rig.with_name("rig.png")
-    done = CliRunner().invoke(main, ["show", "--load", "rig", str(rig), "-o", str(picture)])
+    done = call("show", "--load", "rig", rig, "-o", picture)
     assert done.exit_code == 0, done.output
     assert done.output.startswith("rig: 3 cycles of 4 samples; mean normal load 203.")
     assert "scatter by 0.1" in done.output
     assert picture.stat().st_size > 10_000
-    done = CliRunner().invoke(main, ["show", "--load", "rg", str(rig)])
+    done = call("show", "--load", "rg", rig)
     assert done.exit_code == 2
     assert "did you mean rig" in done.output
 
@@ -104,34 +103,20 @@ def test_a_depth_and_a_force_have_units_each() -> None:
     assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (mm)", "tangential load (N)")
 
 
-IN_UNITS = """
-title = "A sphere"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
-poisson_ratio = 0.3
-radius = 40
-friction = 0.4
-load = "a"
-"""
-
-
 @pytest.mark.usefixtures("unwrapped")
 @pytest.mark.parametrize("modulus", ["210e3", "[210e3, 206e3]"])
 def test_friction_limits_the_load_on_bodies_of_two_moduli(modulus: str) -> None:
-    loop = "[loads.a]\nabsolute = true\nvertices = [[300, -80], [320, 80]]\n"
-    figure = draw_load(Study.from_text(f"{IN_UNITS}young_modulus = {modulus}\n{loop}"), "a")
-    assert figure.axes[2].get_title(loc="left") == r"friction, at most 0.67 at $\mu$ = 0.4"  # 80/(0.4 · 300)
+    loop = "[loads.rig]\nabsolute = true\nvertices = [[300, -80], [320, 80]]\n"
+    figure = draw_load(Study.from_text(real.RIG.replace("73.1e3", modulus) + loop), "rig")
+    assert figure.axes[2].get_title(loc="left") == r"friction, at most 0.53 at $\mu$ = 0.5"  # 80/(0.5 · 300)
 
 
 @pytest.mark.usefixtures("unwrapped")
 def test_a_normal_force_at_rest_is_drawn_as_what_it_is() -> None:
-    given = "young_modulus = 210e3\nnormal_force = 200\ntangential_force_amplitude = 1\n"
-    loop = "[loads.a]\nvertices = [[0, -60], [0, 60]]\n"
-    figure = draw_load(Study.from_text(IN_UNITS + given + loop), "a")
+    given = "normal_force = 200\ntangential_force_amplitude = 1\n"
+    loop = "[loads.rig]\nvertices = [[0, -60], [0, 60]]\n"
+    figure = draw_load(Study.from_text(real.RIG + given + loop), "rig")
     course, path, margin = figure.axes
     assert path.get_xlabel() == "normal load (N)"
     np.testing.assert_allclose(course.lines[0].get_ydata(), 200.0)
-    assert margin.get_title(loc="left") == r"friction, at most 0.75 at $\mu$ = 0.4"  # 60/(0.4 · 200)
+    assert margin.get_title(loc="left") == r"friction, at most 0.60 at $\mu$ = 0.5"  # 60/(0.5 · 200)

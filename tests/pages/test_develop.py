@@ -11,10 +11,8 @@ from types import CodeType
 import pytest
 from build_steps.house import drawn_imports, plan
 from build_steps.rooms import WHOLE
-from click.testing import CliRunner
+from command import call
 from folders import ROOT
-
-from swtstudy.cli import main
 
 PAGES = [(ROOT / "docs" / f"{name}.md").read_text(encoding="utf-8") for name in ("develop", "extend")]
 PAGE = "\n".join(PAGES)
@@ -68,7 +66,7 @@ def test_a_value_goes_the_ten_steps(tmp_path, monkeypatch) -> None:
     sys.setprofile(note)
     threading.setprofile(note)  # where points are solved
     try:
-        result = CliRunner().invoke(main, ["run", "two.toml"])
+        result = call("run", "two.toml")
     finally:
         sys.setprofile(before)
         threading.setprofile(None)  # type: ignore[arg-type]
