@@ -68,7 +68,7 @@ def table_1(instants):
 
 def jumps(opened, instant):
     """Radii and slope jumps of the pressure and of the tangential load at an instant."""
-    C, _, P, L, _, _ = opened
+    L, P, _, C, *_ = opened.point
     k, t, sign = find_stretch(C, L, instant)
     edge, front = solved_places(C, P, L, k, t)
     slope, radius, piece = float(C["push"][k]), edge, int(C["piece"][k])

@@ -30,9 +30,11 @@ from swtstudy.kernel.criterion import lifted, swing_weights, value_of
 from swtstudy.kernel.cusps import cusps
 from swtstudy.kernel.dense import highest_on_planes
 from swtstudy.kernel.growth import lay_out
+from swtstudy.kernel.line import SEARCH
 from swtstudy.kernel.planes import extremes, fill
 from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.records import Point
 from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.work import CONJUGATE
 from swtstudy.paper.maxima import body_maximum
@@ -171,22 +173,23 @@ def _in_plane(ν: Array, r: Array, share: Array | float) -> tuple[Array, Array]:
 
 
 #: Memory for the kernel.
-_MEMORY, _CONJUGATE = tuple(map(new_record, OF_POINT)), new_record(CONJUGATE)
+_SEARCH, _ROOM, _CONJUGATE = new_record(SEARCH), tuple(map(new_record, OF_POINT)), new_record(CONJUGATE)
 
 
 @jit
-def highest_at_states(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, states, found):  # type: ignore[no-untyped-def]
+def highest_at_states(point, largest, places, cosines, sines, states, found):  # type: ignore[no-untyped-def]
     """`swtstudy.kernel.dense.highest_on_planes` of the states alone, instead of the whole cycle."""
+    ask, history, curves = point.ask, point.history, point.curves
     for i in range(places.shape[0]):
         for side in range(2):
             sign = 1.0 - 2.0 * side
-            write_stress(H, C, R, P, K, Q, states, places[i], largest, sign)
-            fill(H, W, sign, Q)
+            write_stress(point, states, places[i], largest, sign)
+            fill(history, curves, sign, ask)
             found[i, side, 0], found[i, side, 1] = 0.0, 0.0
             for k in range(cosines.shape[0]):
-                of_b, of_c = swing_weights(Q, cosines[k], sines[k])
-                top, high, low = extremes(W, H.instants, cosines[k], sines[k], of_b, of_c)
-                value = value_of(Q, lifted(Q, top, high - low, 0.0))
+                of_b, of_c = swing_weights(ask, cosines[k], sines[k])
+                top, high, low = extremes(curves, history.instants, cosines[k], sines[k], of_b, of_c)
+                value = value_of(ask, lifted(ask, top, high - low, 0.0))
                 if value > found[i, side, 0]:
                     found[i, side, 0], found[i, side, 1] = value, k
 
@@ -207,32 +210,30 @@ def on_grids(points: Points, fixed_plane: bool, extremes_alone: bool) -> Array:
 
 
 def _on_grids(point: Points, fixed_plane: bool, extremes_alone: bool) -> float:
-    C, R, S, H, W, K = _MEMORY
     _, profiles, _, loads, asks = next(chunks(**arguments_of(point), rtol=RTOL))
-    P, L, Q = profiles[0], loads[0], asks[0]
-    solve_cycle(C, L)
-    C.shift = shift_of(L, P, Q, C.event, C.events)
-    lay_out(R, C, P, L, float(Q.growth))
-    largest = float(place_of(P, C.largest))
-    of_cycle = H, W, C, R, P, K, L, Q, largest
+    load, profile, ask, cycle, growth, *_ = records = Point(loads[0], profiles[0], asks[0], *_ROOM)
+    solve_cycle(cycle, load)
+    cycle.shift = shift_of(load, profile, ask, cycle.event, cycle.events)
+    lay_out(growth, cycle, profile, load, float(ask.growth))
+    largest = float(place_of(profile, cycle.largest))
     states = None
     if extremes_alone:
         # u = u_A sin(ω2 t): two in each of the p periods of u in the common period.
         turns = 2 * int(point.p[0])
         states = new_records(turns, STATE)
-        instants = np.mod((np.arange(turns) + 0.5) / turns * float(L.rounds), 1.0) * float(L.period)
-        write_states(C, R, P, L, _CONJUGATE, instants, states)
+        instants = np.mod((np.arange(turns) + 0.5) / turns * float(load.rounds), 1.0) * float(load.period)
+        write_states(cycle, growth, profile, load, _CONJUGATE, instants, states)
 
     def values(places: Array, angles: Array, halved: int) -> tuple[Array, Array]:
         found = np.empty((len(places), 2, 2))
         grid = places, np.cos(angles), np.sin(angles)
         if states is None:
-            highest_on_planes(*of_cycle, *grid, np.int64(halved), found)
+            highest_on_planes(records, largest, *grid, np.int64(halved), found)
         else:
-            highest_at_states(*of_cycle, *grid, states, found)
+            highest_at_states(records, largest, *grid, states, found)
         return found[..., 0], angles[found[..., 1].astype(np.intp)]
 
-    ends = S.cusp[: cusps(S, C, P, L, Q, largest)]
+    ends = _SEARCH.cusp[: cusps(_SEARCH, cycle, profile, load, ask, largest)]
     ends = ends[np.append(np.diff(ends) > 1e-9 * np.ptp(ends), True)]
     share = 0.5 - 0.5 * np.cos(np.pi / STEPS * np.arange(STEPS))
     places = np.append((ends[:-1, None] + np.diff(ends)[:, None] * share).ravel(), ends[-1])
@@ -260,7 +261,7 @@ def line(points: Points) -> Array:
     found = np.empty(len(points))
     for rows, profiles, which, loads, asks in chunks(**arguments_of(points), rtol=RTOL):
         out = new_records(len(which), RESULT)
-        solve_points(*_MEMORY, profiles, which, loads, asks, out)
+        solve_points(_SEARCH, _ROOM, profiles, which, loads, asks, out)
         found[rows] = out["s"]
     return found
 

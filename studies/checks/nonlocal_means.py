@@ -131,7 +131,7 @@ def dense_means(opened, x: float, double_angle: float, distance: float, twice: i
     of_distance, of_inclination, along, on_line = (
         gauss(count * 2**twice) for count in (*PANELS[:2], PANELS[2], PANELS[3])
     )
-    plane, centre, side = bool(opened.profile["plane"]), abs(x), 1.0 if x >= 0.0 else -1.0
+    plane, centre, side = bool(opened.point.profile["plane"]), abs(x), 1.0 if x >= 0.0 else -1.0
 
     def swt(*places: FloatArray) -> FloatArray:
         at = np.stack([each.ravel() for each in np.broadcast_arrays(*places)], axis=1)

@@ -95,7 +95,7 @@ def _at(opened: Opened, r: float, angles: Array, depths: Array, tolerance: float
 
 def dense_body(opened: Opened, x: float) -> float:
     """Largest swt on a lattice of the body and on closer ones, of one point; x is on one circle."""
-    largest, profile = largest_radius(opened), opened.profile
+    largest, profile = largest_radius(opened), opened.point.profile
     cusps = passed_radii(opened, MOST_CUSPS)
     known = cusps > 0.02 * largest
     if profile["singular"]:

@@ -56,72 +56,72 @@ PLANES = np.dtype(
 
 
 @jit
-def deviator(S, i, T):
+def deviator(stresses, i, T):
     """J2 of instant i less a tensor T."""
-    p, q, r = S[0, i] - T[0], S[1, i] - T[1], S[2, i] - T[2]
+    p, q, r = stresses[0, i] - T[0], stresses[1, i] - T[1], stresses[2, i] - T[2]
     normal = ((p - q) * (p - q) + (q - r) * (q - r) + (r - p) * (r - p)) / 6.0
-    yz, xz, xy = S[3, i] - T[3], S[4, i] - T[4], S[5, i] - T[5]
+    yz, xz, xy = stresses[3, i] - T[3], stresses[4, i] - T[4], stresses[5, i] - T[5]
     return normal + yz * yz + xz * xz + xy * xy
 
 
 @jit
-def strain_factor(Q):
+def strain_factor(ask):
     """Factor ν of tr σ in the normal strain; 0 of a shear stress."""
-    return Q.poisson_ratio if Q.criterion == SWT else 0.0
+    return ask.poisson_ratio if ask.criterion == SWT else 0.0
 
 
 @jit
-def measure(G, S, m, Q):
+def measure(planes, stresses, m, ask):
     """Write what of the history bounds T and A, and their derivatives."""
-    nu = strain_factor(Q)
-    mid, zero = G.form[0], G.form[1]
+    nu = strain_factor(ask)
+    mid, zero = planes.form[0], planes.form[1]
     for c in range(6):
-        low, high = S[c, 0], S[c, 0]
+        low, high = stresses[c, 0], stresses[c, 0]
         for i in range(m):
-            low, high = min(low, S[c, i]), max(high, S[c, i])
+            low, high = min(low, stresses[c, i]), max(high, stresses[c, i])
         mid[c], zero[c] = 0.5 * (low + high), 0.0
     stress, change, low, high, tension = 0.0, 0.0, 1e300, -1e300, -1e300
     for i in range(m):
-        p = (S[0, i] + S[1, i] + S[2, i]) / 3.0
-        S[6, i] = 3.0 * nu * p
-        j2 = deviator(S, i, zero)
+        p = (stresses[0, i] + stresses[1, i] + stresses[2, i]) / 3.0
+        stresses[6, i] = 3.0 * nu * p
+        j2 = deviator(stresses, i, zero)
         stress, low, high = max(stress, j2), min(low, p), max(high, p)
-        change = max(change, deviator(S, i, mid))
+        change = max(change, deviator(stresses, i, mid))
         if p + OF_J2 * sqrt(j2) > tension:
-            principal = largest_principal(S, i)
+            principal = largest_principal(stresses, i)
             if principal > tension:
-                tension, G.instant = principal, i
+                tension, planes.instant = principal, i
     stress, change = sqrt(stress), 2.0 * sqrt(change)
-    G.noise = NOISE * (stress + max(abs(low), abs(high)))
-    G.of_tension, G.of_swing = stress, change
-    G.most[0], G.most[1] = tension, change
-    if Q.criterion == SWT:
-        G.of_swing = (1.0 + nu) * change
-        G.most[1] = OF_J2 * G.of_swing + (1.0 - 2.0 * nu) * (high - low)
+    planes.noise = NOISE * (stress + max(abs(low), abs(high)))
+    planes.of_tension, planes.of_swing = stress, change
+    planes.most[0], planes.most[1] = tension, change
+    if ask.criterion == SWT:
+        planes.of_swing = (1.0 + nu) * change
+        planes.most[1] = OF_J2 * planes.of_swing + (1.0 - 2.0 * nu) * (high - low)
 
 
 @jit
-def look_at(G, S, m, Q, x, y, z, tolerance):
+def look_at(planes, stresses, m, ask, x, y, z, tolerance):
     """Write h, T and A of a plane, from above; returns h from below."""
-    G.planes += 1
-    if Q.criterion == SWT:
-        T, A = tension_and_strain(S, m, x, y, z, 1.0 + Q.poisson_ratio)
+    planes.planes += 1
+    if ask.criterion == SWT:
+        T, A = tension_and_strain(stresses, m, x, y, z, 1.0 + ask.poisson_ratio)
         bound = A
     else:
-        T = set_path(G, S, m, x, y, z)
-        A, bound = longest_chord(G, S, m, Q, T, tolerance)
-    G.seen[0], G.seen[1], G.seen[2] = lifted(Q, T, bound, G.noise), T, bound
-    return lifted(Q, T, A, G.noise)
+        T = set_path(planes, stresses, m, x, y, z)
+        A, bound = longest_chord(planes, stresses, m, ask, T, tolerance)
+    planes.seen[0], planes.seen[1], planes.seen[2] = lifted(ask, T, bound, planes.noise), T, bound
+    return lifted(ask, T, A, planes.noise)
 
 
 @jit
-def consider(G, S, m, Q, x, y, z, tolerance):
+def consider(planes, stresses, m, ask, x, y, z, tolerance):
     """Look at a plane, and climb from there if it is the highest so far."""
-    h = look_at(G, S, m, Q, x, y, z, tolerance)
-    if h > G.best * (1.0 + 1e-7):
-        G.best, G.limit = h, max(h, G.limit)
-        G.normal[0], G.normal[1], G.normal[2] = x, y, z
-        climb_from(G, S, m, Q, x, y, z)
+    h = look_at(planes, stresses, m, ask, x, y, z, tolerance)
+    if h > planes.best * (1.0 + 1e-7):
+        planes.best, planes.limit = h, max(h, planes.limit)
+        planes.normal[0], planes.normal[1], planes.normal[2] = x, y, z
+        climb_from(planes, stresses, m, ask, x, y, z)
 
 
 @jit
@@ -149,9 +149,9 @@ def highest(f1, f2, f3, a, b, c, K):
 
 
 @jit
-def bound_in(G, Q, k, limit):
+def bound_in(planes, ask, k, limit):
     """Bound of h in triangle k, or anything below the limit; and the first corner of its longest side."""
-    v = G.corner
+    v = planes.corner
     a, b, c = 0.0, 0.0, 0.0
     for e in range(3):
         a += (v[k, 1, e] - v[k, 2, e]) * (v[k, 1, e] - v[k, 2, e])
@@ -161,24 +161,24 @@ def bound_in(G, Q, k, limit):
     # On the flat triangle, which no point leaves by more than the radius, arcs are seen longer.
     near = 1.0 - 0.36 * max(a, b, c)
     flat = 4.0 * (1.0 / near + 0.6 * sqrt(max(a, b, c)) / (near * sqrt(near)))
-    T = min(highest(v[k, 0, 4], v[k, 1, 4], v[k, 2, 4], a, b, c, flat * G.of_tension), G.most[0])
-    A = min(highest(v[k, 0, 5], v[k, 1, 5], v[k, 2, 5], a, b, c, flat * G.of_swing), G.most[1])
-    bound = lifted(Q, T, A, G.noise)
+    T = min(highest(v[k, 0, 4], v[k, 1, 4], v[k, 2, 4], a, b, c, flat * planes.of_tension), planes.most[0])
+    A = min(highest(v[k, 0, 5], v[k, 1, 5], v[k, 2, 5], a, b, c, flat * planes.of_swing), planes.most[1])
+    bound = lifted(ask, T, A, planes.noise)
     if bound > limit:
-        slope = slope_bound(G.of_tension, G.most[0])
-        K = flat * curvature_bound(Q, T, A, G.of_tension, G.of_swing, slope)
+        slope = slope_bound(planes.of_tension, planes.most[0])
+        K = flat * curvature_bound(ask, T, A, planes.of_tension, planes.of_swing, slope)
         bound = min(bound, highest(v[k, 0, 3], v[k, 1, 3], v[k, 2, 3], a, b, c, K))
     return bound, longest
 
 
 @jit
-def cut_triangle(G, S, m, Q, k, longest, at, tolerance):
+def cut_triangle(planes, stresses, m, ask, k, longest, at, tolerance):
     """Halve the longest side of triangle k; the halves become triangles `at` and `at` + 1."""
-    v, i, j = G.corner, longest, (longest + 1) % 3
+    v, i, j = planes.corner, longest, (longest + 1) % 3
     x, y, z = v[k, i, 0] + v[k, j, 0], v[k, i, 1] + v[k, j, 1], v[k, i, 2] + v[k, j, 2]
     shrink = 1.0 / sqrt(x * x + y * y + z * z)
     x, y, z = shrink * x, shrink * y, shrink * z
-    consider(G, S, m, Q, x, y, z, tolerance)
+    consider(planes, stresses, m, ask, x, y, z, tolerance)
     for c in range(3):
         for e in range(6):
             value = v[k, c, e]
@@ -187,52 +187,52 @@ def cut_triangle(G, S, m, Q, k, longest, at, tolerance):
         corner = v[at + half, j if half == 0 else i]
         corner[0], corner[1], corner[2] = x, y, z
         for e in range(3):
-            corner[3 + e] = G.seen[e]
+            corner[3 + e] = planes.seen[e]
 
 
 @jit
-def first_triangles(G, S, m, Q, tolerance):
+def first_triangles(planes, stresses, m, ask, tolerance):
     """Look at the planes normal to the axes, corners of a quarter each of the upper half of all normals."""
     for axis in range(3):
         x, y, z = 1.0 if axis == 0 else 0.0, 1.0 if axis == 1 else 0.0, 1.0 if axis == 2 else 0.0
-        consider(G, S, m, Q, x, y, z, tolerance)
+        consider(planes, stresses, m, ask, x, y, z, tolerance)
         for k in range(4):
-            corner = G.corner[k, axis]
+            corner = planes.corner[k, axis]
             corner[0], corner[1], corner[2] = x, y, z
             if (axis == 0 and k & 1) or (axis == 1 and k & 2):
                 corner[axis] = -1.0
             for e in range(3):
-                corner[3 + e] = G.seen[e]
+                corner[3 + e] = planes.seen[e]
 
 
 @jit
-def highest_plane(G, S, m, Q, floor, tolerance):
+def highest_plane(planes, stresses, m, ask, floor, tolerance):
     """Largest h over all planes, to a tolerance. Below the floor it may be low.
 
     Parameters
     ----------
-    G
+    planes
         Record of `PLANES`. Its normal is a first guess, or 0, and the plane's normal afterwards.
-    S, m
+    stresses, m
         Array of `ROWS` rows: the six components at m instants, and room.
-    Q
+    ask
         The criterion.
     floor
         The least value of interest, as h (`swtstudy.kernel.criterion.lift`).
     tolerance
         Relative, of h.
     """
-    measure(G, S, m, Q)
-    G.best, G.limit, G.planes, G.unsettled = 0.0, floor, 0, 0
-    if Q.criterion == SWT and G.most[0] <= NO_TENSION * G.of_tension:
+    measure(planes, stresses, m, ask)
+    planes.best, planes.limit, planes.planes, planes.unsettled = 0.0, floor, 0, 0
+    if ask.criterion == SWT and planes.most[0] <= NO_TENSION * planes.of_tension:
         return 0.0
-    x, y, z = G.normal[0], G.normal[1], G.normal[2]
+    x, y, z = planes.normal[0], planes.normal[1], planes.normal[2]
     if x != 0.0 or y != 0.0 or z != 0.0:
-        climb_from(G, S, m, Q, x, y, z)
-    if G.best == 0.0:
-        climb_from_principal(G, S, m, Q)
-    slack = NEXT_TO_NOTHING * tolerance * lifted(Q, G.most[0], G.most[1], 0.0)
-    first_triangles(G, S, m, Q, 0.25 * tolerance)
+        climb_from(planes, stresses, m, ask, x, y, z)
+    if planes.best == 0.0:
+        climb_from_principal(planes, stresses, m, ask)
+    slack = NEXT_TO_NOTHING * tolerance * lifted(ask, planes.most[0], planes.most[1], 0.0)
+    first_triangles(planes, stresses, m, ask, 0.25 * tolerance)
     done, count = 0, 4
     while count > done:
         k = done
@@ -241,20 +241,20 @@ def highest_plane(G, S, m, Q, floor, tolerance):
         else:
             count -= 1
             k = count
-        limit = G.limit * (1.0 + tolerance) + slack
-        bound, longest = bound_in(G, Q, k, limit)
+        limit = planes.limit * (1.0 + tolerance) + slack
+        bound, longest = bound_in(planes, ask, k, limit)
         if bound <= limit:
             continue
-        if count + 2 > MAX_TRIANGLES or G.planes > MOST_PLANES:
-            G.unsettled = 1
+        if count + 2 > MAX_TRIANGLES or planes.planes > MOST_PLANES:
+            planes.unsettled = 1
             continue
-        cut_triangle(G, S, m, Q, k, longest, count, 0.25 * tolerance)
+        cut_triangle(planes, stresses, m, ask, k, longest, count, 0.25 * tolerance)
         count += 2
-    return G.best
+    return planes.best
 
 
 @jit
-def highest_planes(G, S, histories, Q, tolerance, values, normals):
+def highest_planes(planes, stresses, histories, ask, tolerance, values, normals):
     """Write the criterion and the normal of its plane for each of some histories, (n, m, 6).
 
     Returns for how many the search ended before its bound was met.
@@ -263,23 +263,23 @@ def highest_planes(G, S, histories, Q, tolerance, values, normals):
     for j in range(histories.shape[0]):
         for i in range(m):
             for c in range(6):
-                S[c, i] = histories[j, i, c]
-        G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
-        values[j] = value_of(Q, highest_plane(G, S, m, Q, 0.0, tolerance))
-        unsettled += G.unsettled
+                stresses[c, i] = histories[j, i, c]
+        planes.normal[0], planes.normal[1], planes.normal[2] = 0.0, 0.0, 0.0
+        values[j] = value_of(ask, highest_plane(planes, stresses, m, ask, 0.0, tolerance))
+        unsettled += planes.unsettled
         for c in range(3):
-            normals[j, c] = G.normal[c]
+            normals[j, c] = planes.normal[c]
     return unsettled
 
 
-def planes_of(histories, Q, tolerance):
+def planes_of(histories, ask, tolerance):
     """Critical planes of histories.
 
     Parameters
     ----------
     histories
         Shape (n, m, 6).
-    Q
+    ask
         Record of `swtstudy.kernel.criterion.ASK`.
     tolerance
         Relative, of h.
@@ -294,5 +294,5 @@ def planes_of(histories, Q, tolerance):
     values, normals = np.empty(n), np.empty((n, 3))
     histories = np.ascontiguousarray(histories, dtype=float)
     room = new_record(PLANES), np.zeros((ROWS, m))
-    unsettled = highest_planes(*room, histories, Q, float(tolerance), values, normals)
+    unsettled = highest_planes(*room, histories, ask, float(tolerance), values, normals)
     return values, normals, int(unsettled)

@@ -12,37 +12,36 @@ MAPPED = 5e-3
 
 
 @jit
-def excess(S, k, limit):
+def excess(search, k, limit):
     """Bound of interval k over its ends and the limit: 1 at most where nothing matters."""
     most = 0.0
     for side in range(2):
-        known = (1.0 + MAPPED) * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])
-        most = max(most, bound_of(S, k, side) / max(known, limit))
+        known = (1.0 + MAPPED) * max(search.at_ends[k, 0, side], search.at_ends[k, 1, side])
+        most = max(most, bound_of(search, k, side) / max(known, limit))
     return most
 
 
 @jit
-def map_line(S, H, W, C, R, P, K, L, Q, limit):
-    """Halve the line until no interval hides anything that exceeds its ends or the limit; write it into S."""
-    point = H, W, C, R, P, K, L, Q
-    begin_search(S, point)
-    while S.intervals + 2 <= MAX_INTERVALS and S.positions <= min(MOST_POSITIONS, MAX_SEEN - 1):
+def map_line(search, point, limit):
+    """Halve the line until no interval of the search hides what exceeds its ends or the limit."""
+    begin_search(search, point)
+    while search.intervals + 2 <= MAX_INTERVALS and search.positions <= min(MOST_POSITIONS, MAX_SEEN - 1):
         k, most = FIRST, 0.0
-        for i in range(S.intervals):
-            hidden = excess(S, i, limit)
+        for i in range(search.intervals):
+            hidden = excess(search, i, limit)
             if hidden > most:
                 k, most = i, hidden
         if most <= 1.0:
             break
-        cut(S, point, k, limit)
+        cut(search, point, k, limit)
 
 
 @jit
-def plane_at(S, H, W, C, R, P, K, L, Q, largest, x):
+def plane_at(search, point, largest, x):
     """2θ of the critical plane at a signed x."""
-    S.best, S.positions, S.largest, b = 0.0, 0, largest, P.flat_radius
+    search.best, search.positions, search.largest, b = 0.0, 0, largest, point.profile.flat_radius
     place = sqrt(abs(x * x - b * b)) * (1.0 if abs(x) >= b else -1.0)
-    evaluate(S, (H, W, C, R, P, K, L, Q), place, ASKED, ASKED)
-    if L.mirrored:
-        return S.seen_angle[0, 0] if x >= 0.0 else -S.seen_angle[0, 0]
-    return S.seen_angle[0, 0 if x >= 0.0 else 1]
+    evaluate(search, point, place, ASKED, ASKED)
+    if point.load.mirrored:
+        return search.seen_angle[0, 0] if x >= 0.0 else -search.seen_angle[0, 0]
+    return search.seen_angle[0, 0 if x >= 0.0 else 1]

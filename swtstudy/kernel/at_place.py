@@ -36,85 +36,88 @@ ASKED = np.bool_(True)
 
 
 @jit
-def evaluate(S, point, place, plus, minus):
+def evaluate(search, point, place, plus, minus):
     """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
-    H, W, C, R, P, K, L, Q = point
-    number = min(S.positions, MAX_SEEN - 1)
-    S.positions += 1
-    S.seen[number], S.seen_value[number, 0], S.seen_value[number, 1] = place, -1.0, -1.0
+    load, profile, ask, cycle, growth, table, history, curves = point
+    number = min(search.positions, MAX_SEEN - 1)
+    search.positions += 1
+    search.seen[number], search.seen_value[number, 0], search.seen_value[number, 1] = place, -1.0, -1.0
     sampled = False
     for side in range(2):
-        if side == 1 and L.mirrored:
-            S.value[1] = S.value[0]
+        if side == 1 and load.mirrored:
+            search.value[1] = search.value[0]
             continue
-        S.value[side] = 0.0
+        search.value[side] = 0.0
         if (side == 0 and not plus) or (side == 1 and not minus):
             continue
         sign = 1.0 - 2.0 * side
-        if not sampled or C.shift != 0.0:
-            sample_cycle(H, C, R, P, K, L, Q, place, S.largest, sign, COARSEST)
+        if not sampled or cycle.shift != 0.0:
+            sample_cycle(point, place, search.largest, sign, COARSEST)
             sampled = True
-        swt, angle = swt_at(S, H, W, C, P, K, L, Q, sign)
-        S.value[side] = swt
-        S.seen_value[number, side], S.seen_angle[number, side] = swt, angle
-        if swt > S.best:
-            S.best, S.place, S.sign, S.angle = swt, place, sign, angle
-            find_peaks(H, W, Q, cos(angle), sin(angle))
-            S.tension = 0.5 * (W.top[SWING] + W.top[MINUS_SWING])
-            if Q.criterion == SWT:
-                S.tension = min(S.tension, W.top[STRESS])
-            elif Q.criterion == FINDLEY:
-                S.tension = max(S.tension, Q.sensitivity * W.top[STRESS])
+        swt, angle = swt_at(search, point, sign)
+        search.value[side] = swt
+        search.seen_value[number, side], search.seen_angle[number, side] = swt, angle
+        if swt > search.best:
+            search.best, search.place, search.sign, search.angle = swt, place, sign, angle
+            find_peaks(history, curves, ask, cos(angle), sin(angle))
+            search.tension = 0.5 * (curves.top[SWING] + curves.top[MINUS_SWING])
+            if ask.criterion == SWT:
+                search.tension = min(search.tension, curves.top[STRESS])
+            elif ask.criterion == FINDLEY:
+                search.tension = max(search.tension, ask.sensitivity * curves.top[STRESS])
 
 
 @jit
-def swt_at(S, H, W, C, P, K, L, Q, side):
+def swt_at(search, point, side):
     """swt of the sampled cycle at side · x, and 2θ of its plane: rough where it cannot matter."""
-    floor = Q.near * S.best
-    first, bound = survey_planes(H, W, Q, side)
-    if value_of(Q, bound) < floor or W.value[first] <= 0.0:
-        return value_of(Q, W.value[first]), STEP * first
-    h, angle = climb(H, W, Q, STEP * first, Q.plane)
-    swt = value_of(Q, h)
+    load, profile, ask, cycle, growth, table, history, curves = point
+    floor = ask.near * search.best
+    first, bound = survey_planes(history, curves, ask, side)
+    if value_of(ask, bound) < floor or curves.value[first] <= 0.0:
+        return value_of(ask, curves.value[first]), STEP * first
+    h, angle = climb(history, curves, ask, STEP * first, ask.plane)
+    swt = value_of(ask, h)
     for _ in range(4):
-        instants = H.instants
-        swt, angle = resolve(H, W, C, P, K, L, side, swt, angle, Q, S.best)
+        instants = history.instants
+        swt, angle = resolve(point, side, swt, angle, search.best)
         if swt < floor:
             return swt, angle
-        if H.instants > instants:
-            survey_planes(H, W, Q, side)
-        known = lift(Q, swt)
-        h, other = higher_plane(H, W, Q, known, Q.plane, swt > (1.0 - BETWEEN) * S.best)
+        if history.instants > instants:
+            survey_planes(history, curves, ask, side)
+        known = lift(ask, swt)
+        h, other = higher_plane(history, curves, ask, known, ask.plane, swt > (1.0 - BETWEEN) * search.best)
         if h <= known:
             break
-        h, other = climb(H, W, Q, other, Q.plane)
+        h, other = climb(history, curves, ask, other, ask.plane)
         if h <= known:
             break
-        swt, angle = value_of(Q, h), other
+        swt, angle = value_of(ask, h), other
     return swt, angle
 
 
 @jit
-def resolve(H, W, C, P, K, L, side, swt, angle, Q, best):
+def resolve(point, side, swt, angle, best):
     """Double the parts of the cycle that may hide a higher value on the critical plane, until none does.
 
     A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
     it stays. Returns swt and 2θ.
     """
+    load, profile, ask, cycle, growth, table, history, curves = point
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
-        find_peaks(H, W, Q, Ct, St)
-        doubled, most, _ = mark_unresolved(H, W, C, Q, Ct, St, Q.time)
-        confirming = doubled == 0 and swt > (1.0 - Q.line) * best
+        find_peaks(history, curves, ask, Ct, St)
+        doubled, most, _ = mark_unresolved(history, curves, cycle, ask, Ct, St, ask.time)
+        confirming = doubled == 0 and swt > (1.0 - ask.line) * best
         if confirming:
-            doubled = mark_highest(H, W, C)
-        if swt * (1.0 + 2.0 * most) < Q.near * best or not refine_marked(H, C, P, L, doubled):
+            doubled = mark_highest(history, curves, cycle)
+        too_low = swt * (1.0 + 2.0 * most) < ask.near * best
+        if too_low or not refine_marked(history, cycle, profile, load, doubled):
             break
-        write_stress(H, C, P, L, K, Q)
-        fill(H, W, side, Q)
+        write_stress(point)
+        fill(history, curves, side, ask)
         before = swt
-        h, angle = climb(H, W, Q, angle, Q.plane)
-        swt = value_of(Q, h)
-        if confirming and abs(swt - before) <= Q.time * swt:
+        h, angle = climb(history, curves, ask, angle, ask.plane)
+        swt = value_of(ask, h)
+        if confirming and abs(swt - before) <= ask.time * swt:
             break
     return swt, angle

@@ -15,6 +15,7 @@ from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.criterion import ASK, ask
 from swtstudy.kernel.cycles import COUNTED, COUNTING, count_points
 from swtstudy.kernel.growth import GROWTH
+from swtstudy.kernel.line import SEARCH
 from swtstudy.kernel.load import LOAD
 from swtstudy.kernel.loads import leave_bulk_out, load_of
 from swtstudy.kernel.point import OF_POINT, RESULT, solve_points
@@ -148,9 +149,10 @@ def solve_batch(*points, **given):
 
 def _solve(profiles, which, loads, asks, out):
     """Solve the points of a chunk: on the line, and on circles where the line may not be enough."""
-    solve_points(*memory(*OF_POINT), profiles, which, loads, asks, out)
+    given, room = (profiles, which, loads, asks, out), memory(*OF_POINT)
+    solve_points(*memory(SEARCH), room, *given)
     if out["circle"].any() and not out["overflow"].any():
-        search_circles(*memory(CIRCLE, *OF_BODY, *OF_POINT), profiles, which, loads, asks, out)
+        search_circles(*memory(CIRCLE), memory(*OF_BODY), room, *given)
 
 
 def count_batch(x, double_angle, *points, **given):
@@ -169,16 +171,17 @@ def count_batch(x, double_angle, *points, **given):
     list
         For each point and place the values of the criterion of its cycles over the largest one, descending.
     """
-    found, room = [], memory(*OF_POINT, COUNTING)
+    found, (counting, search), room = [], memory(COUNTING, SEARCH), memory(*OF_POINT)
     for rows, profiles, which, loads, asks in chunks(*points, **given):
         out, first = new_records(len(which), COUNTED), np.int64(0)
         at = np.ascontiguousarray(x[rows]), np.ascontiguousarray(double_angle[rows])
         while first < len(which):
-            done = np.int64(count_points(*room, profiles, which, loads, asks, *at, first, out))
+            given = profiles, which, loads, asks, *at, first, out
+            done = np.int64(count_points(counting, search, room, *given))
             for row, load in zip(out[first:done], loads[first:done], strict=True):
                 _refuse_overflow(row["overflow"])
                 ends = row["begin"][: row["places"] + 1]
-                shares = (room[-1]["shares"][begin:end] for begin, end in pairwise(ends))
+                shares = (counting["shares"][begin:end] for begin, end in pairwise(ends))
                 found.append([np.repeat(-np.sort(-each), load["rounds"]) for each in shares])
             first = done
     return found
@@ -248,4 +251,4 @@ def memory(*kinds):
     for kind in kinds:
         if id(kind) not in own:
             own[id(kind)] = new_records(CHUNK, kind) if kind is LOAD else new_record(kind)
-    return [own[id(kind)] for kind in kinds]
+    return tuple(own[id(kind)] for kind in kinds)

@@ -46,7 +46,7 @@ SHALLOW = 1e-13
 #: a number.
 NEXT_TO_AXIS = 1e-40
 
-PLACE = np.dtype(
+BELOW = np.dtype(
     [
         *fields("f8", "x y z r"),
         ("overflow", "i8"),
@@ -70,95 +70,96 @@ PLACE = np.dtype(
 
 
 @jit
-def set_place(B, P, x, y, z):
+def set_place(below, profile, x, y, z):
     """Note a place, and where the functions are singular in s."""
-    r = abs(x) if P.plane else hypot(x, y)
-    B.x, B.y, B.z, B.r, B.overflow = x, y, z, r, 0
-    b = P.flat_radius
+    r = abs(x) if profile.plane else hypot(x, y)
+    below.x, below.y, below.z, below.r, below.overflow = x, y, z, r, 0
+    b = profile.flat_radius
     real, imaginary = (r - b) * (r + b) - z * z, 2.0 * r * z
-    B.sigma, B.omega = upper_root(real, imaginary)
-    if B.omega <= SHALLOW * B.sigma:
-        B.omega = 0.0
-    if B.sigma == 0.0 and B.omega == 0.0:  # the axis, or the edge of the face, in the surface
-        B.omega = NEXT_TO_AXIS
+    below.sigma, below.omega = upper_root(real, imaginary)
+    if below.omega <= SHALLOW * below.sigma:
+        below.omega = 0.0
+    if below.sigma == 0.0 and below.omega == 0.0:  # the axis, or the edge of the face, in the surface
+        below.omega = NEXT_TO_AXIS
 
 
 @jit
-def variable(B, kind, s):
+def variable(below, kind, s):
     """The variable u of a kind of cells at s."""
     if kind == BENEATH:
-        return asinh((s - B.sigma) / B.omega)
+        return asinh((s - below.sigma) / below.omega)
     if kind == INSIDE:
-        return asin(min(s / B.sigma, 1.0))
-    return acosh(s / B.sigma)
+        return asin(min(s / below.sigma, 1.0))
+    return acosh(s / below.sigma)
 
 
 @jit
-def cell_end(B, b, exponent, low, end):
+def cell_end(below, b, exponent, low, end):
     """Where the cell from `low` on ends, `end` at most."""
     longest = LONGEST
     high = end
     if exponent > 1.0:
-        high = min(high, max(low * exp(STEEPEST / (exponent - 1.0)), B.reach * NOTHING ** (1.0 / exponent)))
-    if B.omega > 0.0:
-        high = min(high, B.sigma + B.omega * sinh(asinh((low - B.sigma) / B.omega) + longest))
-    elif low >= B.sigma:
-        high = min(high, B.sigma * cosh(acosh(low / B.sigma) + 2.0 * longest))
+        next_to_nothing = below.reach * NOTHING ** (1.0 / exponent)
+        high = min(high, max(low * exp(STEEPEST / (exponent - 1.0)), next_to_nothing))
+    if below.omega > 0.0:
+        high = min(high, below.sigma + below.omega * sinh(asinh((low - below.sigma) / below.omega) + longest))
+    elif low >= below.sigma:
+        high = min(high, below.sigma * cosh(acosh(low / below.sigma) + 2.0 * longest))
     else:
-        high = inside_end(low, min(end, B.sigma), B.sigma)
+        high = inside_end(low, min(end, below.sigma), below.sigma)
     if b > 0.0:
         high = min(high, low + BESIDE_FACE * sqrt(b * b + low * low))
     # No sliver is left over.
-    return end if high > low + 0.9 * (end - low) and (B.omega > 0.0 or low >= B.sigma) else high
+    return end if high > low + 0.9 * (end - low) and (below.omega > 0.0 or low >= below.sigma) else high
 
 
 @jit_reordered
-def tabulate_cell(B, k, plane, exponent, density, begin, end, low, high, b, total):
+def tabulate_cell(below, k, plane, exponent, density, begin, end, low, high, b, total):
     """Cell k: running integrals of a panel's density times the functions, added to the total up to there.
 
     The density of ξⁿ has no series at the axis: its exponent n is told, else 0.
     """
-    kind = BENEATH if B.omega > 0.0 else INSIDE if high <= B.sigma else OUTSIDE
-    u0, u1 = variable(B, kind, low), variable(B, kind, high)
+    kind = BENEATH if below.omega > 0.0 else INSIDE if high <= below.sigma else OUTSIDE
+    u0, u1 = variable(below, kind, low), variable(below, kind, high)
     half, width = 0.5 * (u1 - u0), 2.0 / (end - begin)
-    f, S = B.work[0], B.series[k]
-    B.begin[k], B.kind[k], B.scale[k, 0], B.scale[k, 1] = low, kind, u0, 1.0 / half
+    f, here = below.work[0], below.series[k]
+    below.begin[k], below.kind[k], below.scale[k, 0], below.scale[k, 1] = low, kind, u0, 1.0 / half
     for c in range(ORDER + 1):
         for j in range(FUNCTIONS):
-            S[c, j] = 0.0
+            here[c, j] = 0.0
     for i in range(ORDER):
         u = u0 + half * (GAUSS[i] + 1.0)
         if kind == BENEATH:
-            s, rate = B.sigma + B.omega * sinh(u), B.omega * cosh(u)
+            s, rate = below.sigma + below.omega * sinh(u), below.omega * cosh(u)
         elif kind == INSIDE:
-            s, rate = B.sigma * sin(u), B.sigma * cos(u)
+            s, rate = below.sigma * sin(u), below.sigma * cos(u)
         else:
-            s, rate = B.sigma * cosh(u), B.sigma * sinh(u)
+            s, rate = below.sigma * cosh(u), below.sigma * sinh(u)
         weight = half * rate
         if exponent > 0.0:
             weight *= exponent * max(s, 0.0) ** (exponent - 1.0) * (MEAN_LOAD if plane else 1.0)
         else:
             weight *= clenshaw(density, (s - begin) * width - 1.0)
         if plane:
-            strip(B.r, B.z, sqrt(b * b + s * s), f)
+            strip(below.r, below.z, sqrt(b * b + s * s), f)
         else:
-            disc(B.r, B.z, sqrt(b * b + s * s), f)
+            disc(below.r, below.z, sqrt(b * b + s * s), f)
         for c in range(ORDER + 1):
             part = weight * RUN[i, c]
             for j in range(FUNCTIONS):
-                S[c, j] += part * f[j]
+                here[c, j] += part * f[j]
     for j in range(FUNCTIONS):
         before = total[j]
         for c in range(ORDER + 1):
-            total[j] += S[c, j]
-        S[0, j] += before
+            total[j] += here[c, j]
+        here[0, j] += before
 
 
 @jit
-def tabulate(B, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
+def tabulate(below, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
     """Tabulate panels p0 to p1 of a density up to s = top, from cell k on; returns the next free cell."""
-    B.first[row] = k
-    total = B.total[row]
+    below.first[row] = k
+    total = below.total[row]
     for j in range(FUNCTIONS):
         total[j] = 0.0
     for p in range(p0, p1):
@@ -167,48 +168,48 @@ def tabulate(B, row, k, plane, exponent, begin, end, density, p0, p1, top, b):
             break
         while low < end[p]:
             if k + 1 >= MAX_CELLS:
-                B.overflow = 1
+                below.overflow = 1
                 return k
-            high = cell_end(B, b, exponent, low, end[p])
-            tabulate_cell(B, k, plane, exponent, density[p], begin[p], end[p], low, high, b, total)
+            high = cell_end(below, b, exponent, low, end[p])
+            tabulate_cell(below, k, plane, exponent, density[p], begin[p], end[p], low, high, b, total)
             k += 1
             low = high
-    B.last[row] = k
+    below.last[row] = k
     return k
 
 
 @jit_reordered
-def running(B, row, s, f):
+def running(below, row, s, f):
     """Write the running integrals of a density up to s."""
-    first, last = B.first[row], B.last[row]
-    if first == last or s <= B.begin[first]:
+    first, last = below.first[row], below.last[row]
+    if first == last or s <= below.begin[first]:
         for j in range(FUNCTIONS):
             f[j] = 0.0
         return
-    k = panel_of(B.begin, first, last, s)
-    y = min((variable(B, B.kind[k], s) - B.scale[k, 0]) * B.scale[k, 1] - 1.0, 1.0)
-    S = B.series[k]
+    k = panel_of(below.begin, first, last, s)
+    y = min((variable(below, below.kind[k], s) - below.scale[k, 0]) * below.scale[k, 1] - 1.0, 1.0)
+    here = below.series[k]
     for j in range(FUNCTIONS):
-        f[j] = S[0, j] + y * S[1, j]
+        f[j] = here[0, j] + y * here[1, j]
     t0, t1 = 1.0, y
     for c in range(2, ORDER + 1):
         t0, t1 = t1, 2.0 * y * t1 - t0
         for j in range(FUNCTIONS):
-            f[j] += t1 * S[c, j]
+            f[j] += t1 * here[c, j]
 
 
 @jit
-def up_to(B, P, s, f):
+def up_to(below, profile, s, f):
     """Write the running integrals of the profile's density up to s."""
-    if P.is_hertz == 0:
-        running(B, FIRST, s, f)
+    if profile.is_hertz == 0:
+        running(below, FIRST, s, f)
         return
-    if P.plane:
-        strip_moments(B.r, B.z, s, f)
+    if profile.plane:
+        strip_moments(below.r, below.z, s, f)
     else:
-        disc_moments(B.r, B.z, s, f)
+        disc_moments(below.r, below.z, s, f)
     for j in range(FUNCTIONS):
-        f[j] -= B.at_axis[j]
+        f[j] -= below.at_axis[j]
 
 
 @jit
@@ -219,67 +220,69 @@ def add(to, factor, f):
 
 
 @jit
-def drag_of(B, P, Q, s):
+def drag_of(below, profile, ask, s):
     """Write the stress by Hertz's traction on the stick zone of size s about its own centre, times π."""
-    d, f, z = centre_of(P, B.shift, B.load, B.reach, s), B.work[1], B.z
-    x = B.x - d
-    if P.plane:
+    d, f, z = centre_of(profile, below.shift, below.load, below.reach, s), below.work[1], below.z
+    x = below.x - d
+    if profile.plane:
         strip_moments(abs(x), z, s, f)
         f[0] += 0.5 * pi * abs(x)  # less those of size 0
         f[1] += 0.5 * pi * z
         f[2] += 0.5 * pi * z
     else:
-        disc_moments(hypot(x, B.y), z, s, f)
-    components(P.plane, B.nothing, f, x, B.y, z, Q.poisson_ratio, B.one_drag[0], B.one_drag[1])
+        disc_moments(hypot(x, below.y), z, s, f)
+    both = below.one_drag[0], below.one_drag[1]
+    components(profile.plane, below.nothing, f, x, below.y, z, ask.poisson_ratio, *both)
 
 
 @jit
-def add_drag(B, P, Q, s, factor, to):
+def add_drag(below, profile, ask, s, factor, to):
     """Add a multiple of the stress by the traction on a stick zone."""
     if factor == 0.0 or s <= 0.0:
         return
-    drag_of(B, P, Q, s)
+    drag_of(below, profile, ask, s)
     for c in range(6):
-        to[c] += factor * B.one_drag[0, c]
+        to[c] += factor * below.one_drag[0, c]
 
 
 @jit
-def open_drags(B, C, P, Q):
+def open_drags(below, cycle, profile, ask):
     """Sum the stress by the pieces up to the start of each."""
     for j in range(FUNCTIONS):
-        B.nothing[j] = 0.0
-    for i in range(C.pieces):
-        if C.used[i] == 0:
+        below.nothing[j] = 0.0
+    for i in range(cycle.pieces):
+        if cycle.used[i] == 0:
             continue
-        beneath, sums, jump = C.beneath[i], B.drag_to_start[i], -C.slope[i]
+        beneath, sums, jump = cycle.beneath[i], below.drag_to_start[i], -cycle.slope[i]
         for c in range(6):
-            sums[c] = 0.0 if beneath == NONE else B.drag_to_start[beneath, c]
+            sums[c] = 0.0 if beneath == NONE else below.drag_to_start[beneath, c]
         if beneath != NONE:
-            jump += C.slope[beneath]
-        add_drag(B, P, Q, C.start_s[i], jump, sums)
+            jump += cycle.slope[beneath]
+        add_drag(below, profile, ask, cycle.start_s[i], jump, sums)
 
 
 @jit
-def shifted_stress(B, C, P, Q, k, edge, front, sign, out, other):
+def shifted_stress(below, cycle, profile, ask, k, edge, front, sign, out, other):
     """`centred_stress` where the stick zone is shifted: stresses of pressure and of drag on their own."""
-    push, i = C.push[k], C.piece[k]
-    up_to(B, P, edge, B.normal)
-    components(P.plane, B.normal, B.nothing, B.x, B.y, B.z, Q.poisson_ratio, out, other)
-    drag = B.one_drag[2]
+    push, i = cycle.push[k], cycle.piece[k]
+    up_to(below, profile, edge, below.normal)
+    at = below.x, below.y, below.z
+    components(profile.plane, below.normal, below.nothing, *at, ask.poisson_ratio, out, other)
+    drag = below.one_drag[2]
     for c in range(6):
-        drag[c] = 0.0 if i == NONE else B.drag_to_start[i, c]
-    slope = push if i == NONE else C.slope[i]
+        drag[c] = 0.0 if i == NONE else below.drag_to_start[i, c]
+    slope = push if i == NONE else cycle.slope[i]
     if front < edge:
-        add_drag(B, P, Q, front, slope - push, drag)
+        add_drag(below, profile, ask, front, slope - push, drag)
         slope = push
-    add_drag(B, P, Q, edge, slope, drag)
+    add_drag(below, profile, ask, edge, slope, drag)
     for c in range(6):
-        pressure, shear = out[c] / pi, sign * Q.friction / pi * drag[c]
+        pressure, shear = out[c] / pi, sign * ask.friction / pi * drag[c]
         out[c], other[c] = pressure + shear, pressure - shear
 
 
 @jit
-def open_place(B, C, R, P, Q, x, y, z, largest):
+def open_place(below, cycle, growth, profile, ask, x, y, z, largest):
     """Tabulate the densities at a place, and ∫ o′ times the functions up to the start of each piece.
 
     Parameters
@@ -287,71 +290,71 @@ def open_place(B, C, R, P, Q, x, y, z, largest):
     largest
         Place s of the largest contact.
     """
-    set_place(B, P, x, y, z)
-    B.shift, B.load, B.reach = C.shift, C.largest, largest
-    k, plane, b = FIRST, P.plane, P.flat_radius
+    set_place(below, profile, x, y, z)
+    below.shift, below.load, below.reach = cycle.shift, cycle.largest, largest
+    k, plane, b = FIRST, profile.plane, profile.flat_radius
     for j in range(FUNCTIONS):
-        B.work[0, j], B.at_axis[j] = 0.0, 0.0
-    if P.is_hertz == 0:
-        panels = P.begin[:], P.end[:], P.density[:]
-        k = tabulate(B, FIRST, k, plane, P.exponent, *panels, FIRST, P.panels, largest, b)
+        below.work[0, j], below.at_axis[j] = 0.0, 0.0
+    if profile.is_hertz == 0:
+        panels = profile.begin[:], profile.end[:], profile.density[:]
+        k = tabulate(below, FIRST, k, plane, profile.exponent, *panels, FIRST, profile.panels, largest, b)
     elif plane:
-        strip_moments(B.r, z, 0.0, B.at_axis)
+        strip_moments(below.r, z, 0.0, below.at_axis)
     else:
-        disc_moments(B.r, z, 0.0, B.at_axis)
-    if B.shift != 0.0:
-        open_drags(B, C, P, Q)
+        disc_moments(below.r, z, 0.0, below.at_axis)
+    if below.shift != 0.0:
+        open_drags(below, cycle, profile, ask)
         return
-    f = B.work[1]
-    for i in range(C.pieces):
-        if C.used[i] == 0 or B.overflow:
+    f = below.work[1]
+    for i in range(cycle.pieces):
+        if cycle.used[i] == 0 or below.overflow:
             continue
-        if C.kind[i] == GROWN:
-            panels = R.begin[:], R.end[:], R.density[:]
-            k = tabulate(B, 1 + i, k, plane, 0.0, *panels, R.first[i], R.last[i], 1e300, b)
-        beneath, s, sums = C.beneath[i], C.start_s[i], B.up_to_start[i]
-        jump = -C.slope[i]
+        if cycle.kind[i] == GROWN:
+            panels = growth.begin[:], growth.end[:], growth.density[:]
+            k = tabulate(below, 1 + i, k, plane, 0.0, *panels, growth.first[i], growth.last[i], 1e300, b)
+        beneath, s, sums = cycle.beneath[i], cycle.start_s[i], below.up_to_start[i]
+        jump = -cycle.slope[i]
         for j in range(FUNCTIONS):
             sums[j] = 0.0
         if beneath != NONE:
-            jump += C.slope[beneath]
-            add(sums, 1.0, B.up_to_start[beneath])
-            if C.kind[beneath] == GROWN:
-                running(B, 1 + beneath, s, f)
+            jump += cycle.slope[beneath]
+            add(sums, 1.0, below.up_to_start[beneath])
+            if cycle.kind[beneath] == GROWN:
+                running(below, 1 + beneath, s, f)
                 add(sums, 1.0, f)
         if jump != 0.0 and s > 0.0:
-            up_to(B, P, s, f)
+            up_to(below, profile, s, f)
             add(sums, jump, f)
 
 
 @jit
-def centred_stress(B, C, P, Q, k, edge, front, sign, out, other):
+def centred_stress(below, cycle, profile, ask, k, edge, front, sign, out, other):
     """`stress_of_state` without the bulk stress, where all springs are about the axis."""
-    push, i, n, t, f = C.push[k], C.piece[k], B.normal, B.drag, B.work[1]
-    up_to(B, P, edge, n)
+    push, i, n, t, f = cycle.push[k], cycle.piece[k], below.normal, below.drag, below.work[1]
+    up_to(below, profile, edge, n)
     for j in range(FUNCTIONS):
         t[j] = push * n[j]  # ∫ o′ beyond the front
     if i != NONE:
-        add(t, 1.0, B.up_to_start[i])
-        if C.kind[i] == GROWN:
-            running(B, 1 + i, front, f)
+        add(t, 1.0, below.up_to_start[i])
+        if cycle.kind[i] == GROWN:
+            running(below, 1 + i, front, f)
             add(t, 1.0, f)
-        jump = C.slope[i] - push
+        jump = cycle.slope[i] - push
         if jump != 0.0:
             if front < edge:
-                up_to(B, P, front, f)
+                up_to(below, profile, front, f)
                 add(t, jump, f)
             else:
                 add(t, jump, n)
-    pressure, friction = 1.0 / pi, sign * Q.friction / pi
+    pressure, friction = 1.0 / pi, sign * ask.friction / pi
     for j in range(FUNCTIONS):
         n[j] *= pressure
         t[j] *= friction
-    components(P.plane, n, t, B.x, B.y, B.z, Q.poisson_ratio, out, other)
+    components(profile.plane, n, t, below.x, below.y, below.z, ask.poisson_ratio, out, other)
 
 
 @jit
-def stress_of_state(B, C, P, Q, k, edge, front, sign, bulk, out, other):
+def stress_of_state(below, cycle, profile, ask, k, edge, front, sign, bulk, out, other):
     """Write the stress in stretch k with its edge and front at these places s.
 
     Parameters
@@ -363,41 +366,43 @@ def stress_of_state(B, C, P, Q, k, edge, front, sign, bulk, out, other):
     other
         The same under the opposite shear: of a mirrored load half a cycle later.
     """
-    if C.push[k] == OPEN or edge <= 0.0:
+    if cycle.push[k] == OPEN or edge <= 0.0:
         for j in range(6):
             out[j], other[j] = 0.0, 0.0
-    elif B.shift != 0.0:
-        shifted_stress(B, C, P, Q, k, edge, front, sign, out, other)
+    elif below.shift != 0.0:
+        shifted_stress(below, cycle, profile, ask, k, edge, front, sign, out, other)
     else:
-        centred_stress(B, C, P, Q, k, edge, front, sign, out, other)
+        centred_stress(below, cycle, profile, ask, k, edge, front, sign, out, other)
     out[0] += bulk
     other[0] += bulk
-    if P.plane:
-        out[1] += Q.poisson_ratio * bulk
-        other[1] += Q.poisson_ratio * bulk
+    if profile.plane:
+        out[1] += ask.poisson_ratio * bulk
+        other[1] += ask.poisson_ratio * bulk
 
 
 @jit
-def stress_field(B, C, R, P, L, Q, places, time, largest, out):
+def stress_field(body, places, time, largest, out):
     """Write the stress at places (n, 3) and instants (m,) of the cycle, shape (n, m, 6)."""
-    m = time.shape[0]
+    below, point, m = body.below, body.point, time.shape[0]
+    load, profile, ask, cycle = point.load, point.profile, point.ask, point.cycle
     stretch, sign, state, bulk = np.empty(m, np.int64), np.empty(m), np.empty((m, 2)), np.empty(m)
     for i in range(m):
-        k, t, sign[i] = find_stretch(C, L, time[i])
-        stretch[i], bulk[i] = k, bulk_at(L, t)
-        state[i, 0], state[i, 1] = solved_places(C, P, L, k, t)
+        k, t, sign[i] = find_stretch(cycle, load, time[i])
+        stretch[i], bulk[i] = k, bulk_at(load, t)
+        state[i, 0], state[i, 1] = solved_places(cycle, profile, load, k, t)
     for p in range(places.shape[0]):
-        open_place(B, C, R, P, Q, places[p, 0], places[p, 1], places[p, 2], largest)
-        if B.overflow:
+        x, y, z = places[p, 0], places[p, 1], places[p, 2]
+        open_place(below, cycle, point.growth, profile, ask, x, y, z, largest)
+        if below.overflow:
             return
         for i in range(m):
             own = stretch[i], state[i, 0], state[i, 1], sign[i], bulk[i]
-            stress_of_state(B, C, P, Q, *own, out[p, i], B.other)
+            stress_of_state(below, cycle, profile, ask, *own, out[p, i], below.other)
 
 
 @jit
-def edges(P, L, time, radius):
+def edges(profile, load, time, radius):
     """Write the contact radius at instants."""
     for i in range(time.shape[0]):
-        n = load_at(L, time[i])[0]
-        radius[i] = radius_of(P, place_of(P, n)) if n > 0.0 else 0.0
+        n = load_at(load, time[i])[0]
+        radius[i] = radius_of(profile, place_of(profile, n)) if n > 0.0 else 0.0

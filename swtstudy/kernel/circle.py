@@ -31,6 +31,7 @@ from swtstudy.kernel.load import has_bulk
 from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.planes import above
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.records import Body, Point
 
 #: Up to this ν the line is never left (results/audit_parameter_box.md), unless a bulk stress or another
 #: criterion has maxima outside of the contact or in mere pressure.
@@ -62,183 +63,186 @@ CIRCLE = np.dtype(
 
 
 @jit
-def begin_circle(D, H, C, R, P, K, L, Q):
+def begin_circle(circle, body):
     """Sample the cycle on the line, and write bounds of the derivatives of T and A over φ.
 
     The bounds are norms of the stresses that turn. A shifted stick zone has other stresses at both sides.
     """
-    nu, square, bulk, total = Q.poisson_ratio, 0.0, 0.0, 0.0
+    point, ask, history = body.point, body.point.ask, body.point.history
+    nu, square, bulk, total = ask.poisson_ratio, 0.0, 0.0, 0.0
     of_sum = (nu - 0.5) / (1.0 + nu)
-    for number in range(2 if C.shift != 0.0 else 1):
-        sample_cycle(H, C, R, P, K, L, Q, D.place, D.largest, 1.0 - 2.0 * number, FIRST)
-        for i in range(H.instants):
-            xx, yy, q = H.xx[i], H.yy[i], H.q[i]
+    for number in range(2 if point.cycle.shift != 0.0 else 1):
+        sample_cycle(point, circle.place, circle.largest, 1.0 - 2.0 * number, FIRST)
+        for i in range(history.instants):
+            xx, yy, q = history.xx[i], history.yy[i], history.q[i]
             w = of_sum * (xx + yy) - yy
             square = max(square, xx * xx + yy * yy + 2.0 * q * q, 2.0 * (w * w + q * q))
-            bulk, total = max(bulk, abs(H.bulk[i])), max(total, abs(xx + yy))
-    D.of_tension = sqrt(square) + 2.0 * bulk
-    D.of_swing = 2.0 * D.of_tension
-    if Q.criterion == SWT:
-        D.of_swing = 2.0 * ((1.0 + nu) * D.of_tension + nu * total)
+            bulk, total = max(bulk, abs(history.bulk[i])), max(total, abs(xx + yy))
+    circle.of_tension = sqrt(square) + 2.0 * bulk
+    circle.of_swing = 2.0 * circle.of_tension
+    if ask.criterion == SWT:
+        circle.of_swing = 2.0 * ((1.0 + nu) * circle.of_tension + nu * total)
 
 
 @jit
-def value_at(D, body, angle, floor):
+def value_at(circle, body, angle, floor):
     """Largest h over the planes at an angle; below the floor it may be low."""
-    S, B, H, W, G, C, R, P, K, L, Q = body
-    tolerance = Q.line, 0.5 * Q.line
-    if C.shift == 0.0:
-        S.on_circle, S.angle, S.unsure = 1, angle, (1.0 - Q.line) * D.best
-        fill_circle(S, H, 0, Q)
+    here, planes, ask, cycle = body.here, body.planes, body.point.ask, body.point.cycle
+    tolerance = ask.line, 0.5 * ask.line
+    if cycle.shift == 0.0:
+        here.on_circle, here.angle, here.unsure = 1, angle, (1.0 - ask.line) * circle.best
+        fill_circle(here, body.point.history, 0, ask)
         h = highest_here(body, floor, *tolerance)
     else:
-        place = D.x * cos(angle), D.x * sin(angle), 0.0, D.largest
-        own, overflow = (value_of(Q, floor), *tolerance, FIRST), C.overflow
-        h = lift(Q, largest_at(body, *place, *own)[0])
-        C.overflow = max(C.overflow, overflow)  # of all places together
-    D.tension, D.swing = G.most[0], max(D.swing, G.most[1])
-    if h > D.best:
-        D.best, D.angle = h, angle
+        place = circle.x * cos(angle), circle.x * sin(angle), 0.0, circle.largest
+        own, overflow = (value_of(ask, floor), *tolerance, FIRST), cycle.overflow
+        h = lift(ask, largest_at(body, *place, *own)[0])
+        cycle.overflow = max(cycle.overflow, overflow)  # of all places together
+    circle.tension, circle.swing = planes.most[0], max(circle.swing, planes.most[1])
+    if h > circle.best:
+        circle.best, circle.angle = h, angle
     return max(h, floor)
 
 
 @jit
-def curvature_over_angles(D, Q, T):
+def curvature_over_angles(circle, ask, T):
     """Bound of -h″ over φ on an arc whose tension is bounded by T."""
-    slope = slope_bound(D.of_tension, D.highest)
-    return curvature_bound(Q, T, D.swing, D.of_tension, D.of_swing, slope)
+    slope = slope_bound(circle.of_tension, circle.highest)
+    return curvature_bound(ask, T, circle.swing, circle.of_tension, circle.of_swing, slope)
 
 
 @jit
-def bound_of_arc(D, Q, k):
+def bound_of_arc(circle, ask, k):
     """Bound of h on arc k."""
-    square = (D.ends[k, 1] - D.ends[k, 0]) * (D.ends[k, 1] - D.ends[k, 0])
-    T = above(D.most[k, 0], D.most[k, 1], D.of_tension * square)
-    K = curvature_over_angles(D, Q, T)
-    return min(above(D.value[k, 0], D.value[k, 1], K * square), lifted(Q, T, D.swing, 0.0))
+    square = (circle.ends[k, 1] - circle.ends[k, 0]) * (circle.ends[k, 1] - circle.ends[k, 0])
+    T = above(circle.most[k, 0], circle.most[k, 1], circle.of_tension * square)
+    K = curvature_over_angles(circle, ask, T)
+    return min(above(circle.value[k, 0], circle.value[k, 1], K * square), lifted(ask, T, circle.swing, 0.0))
 
 
 @jit
-def set_end(D, G, k, end, angle, value):
+def set_end(circle, planes, k, end, angle, value):
     """Write one end of arc k, from what has just been seen there."""
-    D.ends[k, end], D.value[k, end], D.most[k, end] = angle, value, D.tension
+    circle.ends[k, end], circle.value[k, end], circle.most[k, end] = angle, value, circle.tension
     for c in range(3):
-        D.normal[k, end, c] = G.normal[c]
+        circle.normal[k, end, c] = planes.normal[c]
 
 
 @jit
-def first_arcs(D, body):
+def first_arcs(circle, body):
     """Look at evenly spaced angles; returns the number of arcs between them."""
-    G, L = body[4], body[9]
-    arcs = ARCS // 2 if L.mirrored else ARCS
+    planes, load = body.planes, body.point.load
+    arcs = ARCS // 2 if load.mirrored else ARCS
     for k in range(arcs + 1):
         angle = pi * k / ARCS
-        value = value_at(D, body, angle, FAR * D.best)
+        value = value_at(circle, body, angle, FAR * circle.best)
         if k < arcs:
-            set_end(D, G, k, 0, angle, value)
+            set_end(circle, planes, k, 0, angle, value)
         if k > 0:
-            set_end(D, G, k - 1, 1, angle, value)
+            set_end(circle, planes, k - 1, 1, angle, value)
     return arcs
 
 
 @jit
-def open_circle(D, body, place):
+def open_circle(circle, body, place):
     """Sample the cycle on the circle at a place s; False on the axis, which has no circle."""
-    S, B, H, W, G, C, R, P, K, L, Q = body
-    D.place, D.x = place, sqrt(P.flat_radius * P.flat_radius + place * abs(place))
-    if not D.x > 0.0:
+    b, normal = body.point.profile.flat_radius, body.planes.normal
+    circle.place, circle.x = place, sqrt(b * b + place * abs(place))
+    if not circle.x > 0.0:
         return False
-    begin_circle(D, H, C, R, P, K, L, Q)
-    G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
+    begin_circle(circle, body)
+    normal[0], normal[1], normal[2] = 0.0, 0.0, 0.0
     return True
 
 
 @jit
-def search_circle(D, body, place, known):
+def search_circle(circle, body, place, known):
     """Largest value on the circle at a place s, if it is above what is known; else that."""
-    Q = body[10]
-    if not open_circle(D, body, place):
+    ask = body.point.ask
+    if not open_circle(circle, body, place):
         return known
-    D.swing, D.highest = 0.0, 0.0
-    D.best = least = lift(Q, known)
-    m = first_arcs(D, body)
+    circle.swing, circle.highest = 0.0, 0.0
+    circle.best = least = lift(ask, known)
+    m = first_arcs(circle, body)
     for i in range(m):
-        square = (D.ends[i, 1] - D.ends[i, 0]) * (D.ends[i, 1] - D.ends[i, 0])
-        D.highest = max(D.highest, above(D.most[i, 0], D.most[i, 1], D.of_tension * square))
+        square = (circle.ends[i, 1] - circle.ends[i, 0]) * (circle.ends[i, 1] - circle.ends[i, 0])
+        tension = above(circle.most[i, 0], circle.most[i, 1], circle.of_tension * square)
+        circle.highest = max(circle.highest, tension)
     while m < MAX_ARCS:
         k, bound = 0, -1.0
         for i in range(m):
-            own = bound_of_arc(D, Q, i)
+            own = bound_of_arc(circle, ask, i)
             if own > bound:
                 k, bound = i, own
-        if bound <= D.best * (1.0 + Q.line):
+        if bound <= circle.best * (1.0 + ask.line):
             break
-        halve_arc(D, body, k, m)
+        halve_arc(circle, body, k, m)
         m += 1
-    return value_of(Q, D.best) if D.best > least else known
+    return value_of(ask, circle.best) if circle.best > least else known
 
 
 @jit
-def halve_arc(D, body, k, m):
+def halve_arc(circle, body, k, m):
     """Halve arc k; its upper half becomes arc m."""
-    G, Q = body[4], body[10]
-    angle, half = 0.5 * (D.ends[k, 0] + D.ends[k, 1]), 0.5 * (D.ends[k, 1] - D.ends[k, 0])
-    T = max(D.most[k, 0], D.most[k, 1])
-    drop = curvature_over_angles(D, Q, T) * half * half
+    planes, ask = body.planes, body.point.ask
+    angle, half = 0.5 * (circle.ends[k, 0] + circle.ends[k, 1]), 0.5 * (circle.ends[k, 1] - circle.ends[k, 0])
+    T = max(circle.most[k, 0], circle.most[k, 1])
+    drop = curvature_over_angles(circle, ask, T) * half * half
     for end in range(2):
-        D.ends[m, end], D.value[m, end], D.most[m, end] = D.ends[k, end], D.value[k, end], D.most[k, end]
+        for of_ends in (circle.ends, circle.value, circle.most):
+            of_ends[m, end] = of_ends[k, end]
         for c in range(3):
-            D.normal[m, end, c] = D.normal[k, end, c]
+            circle.normal[m, end, c] = circle.normal[k, end, c]
     # A value so low that its bound stays below the best does not matter.
-    higher = 1 if D.value[k, 1] > D.value[k, 0] else 0
+    higher = 1 if circle.value[k, 1] > circle.value[k, 0] else 0
     for c in range(3):
-        G.normal[c] = D.normal[k, higher, c]
-    value = value_at(D, body, angle, max(D.best - 0.125 * drop, FAR * D.best))
-    set_end(D, G, k, 1, angle, value)
-    set_end(D, G, m, 0, angle, value)
+        planes.normal[c] = circle.normal[k, higher, c]
+    value = value_at(circle, body, angle, max(circle.best - 0.125 * drop, FAR * circle.best))
+    set_end(circle, planes, k, 1, angle, value)
+    set_end(circle, planes, m, 0, angle, value)
 
 
 @jit
-def needs_circle(L, P, Q):
+def needs_circle(load, profile, ask):
     """True if the circle may be higher than the line."""
-    return not P.plane and (Q.poisson_ratio > SAFE_POISSON_RATIO or may_be_anywhere(L, Q))
+    return not profile.plane and (ask.poisson_ratio > SAFE_POISSON_RATIO or may_be_anywhere(load, ask))
 
 
 @jit
-def beside_singular_edge(P, x, share):
+def beside_singular_edge(profile, x, share):
     """True if a place is nearer to the singular edge of a face than a share of the face."""
-    return P.singular and abs(abs(x) - P.flat_radius) <= share * P.flat_radius
+    return profile.singular and abs(abs(x) - profile.flat_radius) <= share * profile.flat_radius
 
 
 @jit
-def may_be_anywhere(L, Q):
+def may_be_anywhere(load, ask):
     """True if places in mere pressure may be critical, or places outside of the contact."""
-    return Q.criterion != SWT or has_bulk(L)
+    return ask.criterion != SWT or has_bulk(load)
 
 
 @jit
-def climb_radius(D, body, place):
+def climb_radius(circle, body, place):
     """From a place s to a higher one at the angle of the best value, by steps that are halved.
 
     A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
     """
-    Q, step, angle = body[10], STEP * D.largest, D.angle
-    while step > NARROWEST * sqrt(Q.line) * D.largest:
-        before = D.best
+    ask, step, angle = body.point.ask, STEP * circle.largest, circle.angle
+    while step > NARROWEST * sqrt(ask.line) * circle.largest:
+        before = circle.best
         for side in (1.0, -1.0):
             new = place + side * step
-            if abs(new) >= INNERMOST * D.largest and open_circle(D, body, new):
-                value_at(D, body, angle, FAR * before)
-                if D.best > before:
+            if abs(new) >= INNERMOST * circle.largest and open_circle(circle, body, new):
+                value_at(circle, body, angle, FAR * before)
+                if circle.best > before:
                     place = new
                     break
-        if D.best == before:
+        if circle.best == before:
             step *= 0.5
     return place
 
 
 @jit
-def surface_value(D, body, found):
+def surface_value(circle, body, found):
     """Largest value on the surface off the line; s itself if that is not exceeded.
 
     The circle through the point's maximum is searched. Under a bulk stress, and of criteria of shear, whose
@@ -247,47 +251,47 @@ def surface_value(D, body, found):
     stress does not press on it. From the highest circle a climb leads to the maximum over the radius.
     NaN where the point's maximum is at the singular edge of a face: next to it the pressure has no bound.
     """
-    S, B, H, W, G, C, R, P, K, L, Q = body
-    s, known, anywhere = found.s, (1.0 + HIGHER) * found.s, may_be_anywhere(L, Q)
+    load, profile, ask, cycle = body.point.load, body.point.profile, body.point.ask, body.point.cycle
+    s, known, anywhere = found.s, (1.0 + HIGHER) * found.s, may_be_anywhere(load, ask)
     at_infinity = np.isnan(found.critical_x)
     nowhere = (s <= found.s_error or at_infinity) and anywhere
     if at_infinity and not nowhere:
         return s
-    if not nowhere and beside_singular_edge(P, found.critical_x, NEAREST):
+    if not nowhere and beside_singular_edge(profile, found.critical_x, NEAREST):
         return np.nan
-    solve_cycle(C, L)
-    C.shift = found.shift
-    lay_out(R, C, P, L, found.growth)
-    D.largest, lowest = place_of(P, C.largest), place_of(P, max(C.smallest, 0.0))
-    if P.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
-        lowest = max(lowest, INNERMOST * D.largest)
-    top = known if nowhere else search_circle(D, body, found.place, known)
-    best, angle = found.place, D.angle
-    steps = BETWEEN if D.largest > lowest else 1  # one circle where the radius does not change
-    for k in range(1 if P.singular or steps == 1 else 0, steps + 1 if anywhere else 0):
-        place = lowest + (D.largest - lowest) * k / steps
-        value = search_circle(D, body, place, top)
+    solve_cycle(cycle, load)
+    cycle.shift = found.shift
+    lay_out(body.point.growth, cycle, profile, load, found.growth)
+    circle.largest, lowest = place_of(profile, cycle.largest), place_of(profile, max(cycle.smallest, 0.0))
+    if profile.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
+        lowest = max(lowest, INNERMOST * circle.largest)
+    top = known if nowhere else search_circle(circle, body, found.place, known)
+    best, angle = found.place, circle.angle
+    steps = BETWEEN if circle.largest > lowest else 1  # one circle where the radius does not change
+    for k in range(1 if profile.singular or steps == 1 else 0, steps + 1 if anywhere else 0):
+        place = lowest + (circle.largest - lowest) * k / steps
+        value = search_circle(circle, body, place, top)
         if value > top:
-            top, best, angle = value, place, D.angle
+            top, best, angle = value, place, circle.angle
     if top <= known:
         return s
-    for _ in range(0 if P.singular else CLIMBS):
-        D.best, D.angle = lift(Q, top), angle
-        place = climb_radius(D, body, best)
-        value = search_circle(D, body, place, value_of(Q, D.best))
-        done = value <= top * (1.0 + Q.line)
+    for _ in range(0 if profile.singular else CLIMBS):
+        circle.best, circle.angle = lift(ask, top), angle
+        place = climb_radius(circle, body, best)
+        value = search_circle(circle, body, place, value_of(ask, circle.best))
+        done = value <= top * (1.0 + ask.line)
         top = max(top, value)
         if done:
             break
-        best, angle = place, D.angle
+        best, angle = place, circle.angle
     return top
 
 
 @jit
-def search_circles(D, B, S, G, C, R, _, H, W, K, profiles, which, loads, asks, found):
+def search_circles(circle, of_body, room, profiles, which, loads, asks, found):
     """Write the largest values on the circles of points, where the line may not be enough."""
     for i in range(which.shape[0]):
         if found[i].circle:
-            body = S, B, H, W, G, C, R, profiles[which[i]], K, loads[i], asks[i]
-            found[i].s_surface = surface_value(D, body, found[i])
-            found[i].overflow = C.overflow
+            point = Point(loads[i], profiles[which[i]], asks[i], *room)
+            found[i].s_surface = surface_value(circle, Body(*of_body, point), found[i])
+            found[i].overflow = point.cycle.overflow

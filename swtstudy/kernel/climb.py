@@ -15,11 +15,11 @@ OF_J2 = 2.0 / np.sqrt(3.0)
 
 
 @jit
-def largest_principal(S, i):
+def largest_principal(stresses, i):
     """Largest principal stress of instant i."""
-    p = (S[0, i] + S[1, i] + S[2, i]) / 3.0
-    a, b, c = S[0, i] - p, S[1, i] - p, S[2, i] - p
-    yz, xz, xy = S[3, i], S[4, i], S[5, i]
+    p = (stresses[0, i] + stresses[1, i] + stresses[2, i]) / 3.0
+    a, b, c = stresses[0, i] - p, stresses[1, i] - p, stresses[2, i] - p
+    yz, xz, xy = stresses[3, i], stresses[4, i], stresses[5, i]
     j2 = 0.5 * (a * a + b * b + c * c) + yz * yz + xz * xz + xy * xy
     if j2 <= 0.0:
         return p
@@ -29,13 +29,14 @@ def largest_principal(S, i):
 
 
 @jit
-def climb_from_principal(G, S, m, Q):
+def climb_from_principal(planes, stresses, m, ask):
     """Climb from the plane of the largest principal stress: tension may be confined to a narrow cone.
 
     The cofactors of σ - σ₁ are the products of the direction's components, times a factor.
     """
-    i, top = G.instant, G.most[0]
-    a, b, c, yz, xz, xy = S[0, i] - top, S[1, i] - top, S[2, i] - top, S[3, i], S[4, i], S[5, i]
+    i, top = planes.instant, planes.most[0]
+    a, b, c = stresses[0, i] - top, stresses[1, i] - top, stresses[2, i] - top
+    yz, xz, xy = stresses[3, i], stresses[4, i], stresses[5, i]
     xx, yy, zz = b * c - yz * yz, a * c - xz * xz, a * b - xy * xy
     yz, xz, xy = xy * xz - a * yz, xy * yz - b * xz, xz * yz - c * xy
     x, y, z = xx, xy, xz
@@ -45,89 +46,90 @@ def climb_from_principal(G, S, m, Q):
         x, y, z = xz, yz, zz
     size = sqrt(x * x + y * y + z * z)
     if size > 0.0:
-        climb_from(G, S, m, Q, x / size, y / size, z / size)
+        climb_from(planes, stresses, m, ask, x / size, y / size, z / size)
 
 
 @jit
-def climb_from(G, S, m, Q, x, y, z):
+def climb_from(planes, stresses, m, ask, x, y, z):
     """From a plane to a local maximum by turns: instants for the plane, plane for the instants."""
-    n, best = G.trial, -1.0
+    n, best = planes.trial, -1.0
     n[0], n[1], n[2] = x, y, z
     for _ in range(20):
-        h = activate(G, S, m, Q)
+        h = activate(planes, stresses, m, ask)
         if h > best:
-            G.kept[0], G.kept[1], G.kept[2] = n[0], n[1], n[2]
+            planes.kept[0], planes.kept[1], planes.kept[2] = n[0], n[1], n[2]
         if h <= best * (1.0 + 1e-10):
             best = max(best, h)
             break
         best = h
-        ascend(G, Q)
-    if best > G.best:
-        G.best, G.limit = best, max(best, G.limit)
-        G.normal[0], G.normal[1], G.normal[2] = G.kept[0], G.kept[1], G.kept[2]
+        ascend(planes, ask)
+    if best > planes.best:
+        planes.best, planes.limit = best, max(best, planes.limit)
+        planes.normal[0], planes.normal[1], planes.normal[2] = planes.kept[0], planes.kept[1], planes.kept[2]
 
 
 @jit
-def activate(G, S, m, Q):
+def activate(planes, stresses, m, ask):
     """Write the tensors of σ_n and of the swing at the instants that count on a climb's plane; returns h."""
-    x, y, z = G.trial[0], G.trial[1], G.trial[2]
+    x, y, z = planes.trial[0], planes.trial[1], planes.trial[2]
     i0, i1, i2 = 0, 0, 0
-    if Q.criterion == SWT:
-        of_stress, of_swing = 1.0 + Q.poisson_ratio, 1.0 + Q.poisson_ratio
-        T, A = tension_and_strain(S, m, x, y, z, of_stress)
+    if ask.criterion == SWT:
+        of_stress, of_swing = 1.0 + ask.poisson_ratio, 1.0 + ask.poisson_ratio
+        T, A = tension_and_strain(stresses, m, x, y, z, of_stress)
     else:
         of_stress, of_swing = 0.0, 1.0
-        T = set_path(G, S, m, x, y, z)
-        longest_chord(G, S, m, Q, T, CLIMBING)
-        C, D, A = cos(G.line), sin(G.line), -1.0
+        T = set_path(planes, stresses, m, x, y, z)
+        longest_chord(planes, stresses, m, ask, T, CLIMBING)
+        C, D, A = cos(planes.line), sin(planes.line), -1.0
         for _ in range(8):  # along a chord the path is no shorter than the chord
-            j1, j2 = ends_along(S, m, C, D)
-            p, q = S[7, j1] - S[7, j2], S[8, j1] - S[8, j2]
+            j1, j2 = ends_along(stresses, m, C, D)
+            p, q = stresses[7, j1] - stresses[7, j2], stresses[8, j1] - stresses[8, j2]
             length = sqrt(p * p + q * q)
             if length <= A:
                 break
             A, i1, i2 = length, j1, j2
             C, D = p / length, q / length
-        G.chord[0], G.chord[1] = C, D
+        planes.chord[0], planes.chord[1] = C, D
     a, b, c, d, e, f = x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y
     top, high, low = -1e300, -1e300, 1e300
     for i in range(m):
-        s = a * S[0, i] + b * S[1, i] + c * S[2, i] + d * S[3, i] + e * S[4, i] + f * S[5, i]
-        w = of_stress * s - S[6, i]
+        s = a * stresses[0, i] + b * stresses[1, i] + c * stresses[2, i]
+        s += d * stresses[3, i] + e * stresses[4, i] + f * stresses[5, i]
+        w = of_stress * s - stresses[6, i]
         if s > top:
             top, i0 = s, i
-        if w > high and Q.criterion == SWT:
+        if w > high and ask.criterion == SWT:
             high, i1 = w, i
-        if w < low and Q.criterion == SWT:
+        if w < low and ask.criterion == SWT:
             low, i2 = w, i
-    turned = S[6, i1] - S[6, i2]
+    turned = stresses[6, i1] - stresses[6, i2]
     for k in range(6):
-        G.form[0, k] = S[k, i0]
-        G.form[1, k] = of_swing * (S[k, i1] - S[k, i2]) - (turned if k < 3 else 0.0)
-    return lifted(Q, T, A, G.noise)
+        planes.form[0, k] = stresses[k, i0]
+        planes.form[1, k] = of_swing * (stresses[k, i1] - stresses[k, i2]) - (turned if k < 3 else 0.0)
+    return lifted(ask, T, A, planes.noise)
 
 
 @jit
-def ascend(G, Q):
+def ascend(planes, ask):
     """Newton's method for ln h over the planes, from the climb's plane, with the instants as they are."""
-    n, p, q, J, K = G.trial, G.tangent[0], G.tangent[1], G.jet[0], G.jet[1]
+    n, p, q, J, K = planes.trial, planes.tangent[0], planes.tangent[1], planes.jet[0], planes.jet[1]
     for _ in range(8):
-        set_tangents(G, n[0], n[1], n[2])
-        set_jet(G.form[0], n, p, q, J)
-        set_jet(G.form[1], n, p, q, K)
-        if Q.criterion != SWT:
-            set_square(G.form[1], G.form[2])
-            set_jet(G.form[2], n, p, q, G.jet[2])
-            set_shear_jet(K, G.jet[2])
-        h = lifted(Q, J[0], K[0], G.noise)
-        of_T, of_A, of_TT, of_TA, of_AA = partials(Q, J[0], K[0])
+        set_tangents(planes, n[0], n[1], n[2])
+        set_jet(planes.form[0], n, p, q, J)
+        set_jet(planes.form[1], n, p, q, K)
+        if ask.criterion != SWT:
+            set_square(planes.form[1], planes.form[2])
+            set_jet(planes.form[2], n, p, q, planes.jet[2])
+            set_shear_jet(K, planes.jet[2])
+        h = lifted(ask, J[0], K[0], planes.noise)
+        of_T, of_A, of_TT, of_TA, of_AA = partials(ask, J[0], K[0])
         g1, g2 = h * (of_T * J[1] + of_A * K[1]), h * (of_T * J[2] + of_A * K[2])
         for k in range(3):
             i, j = (2 if k == 1 else 1), (1 if k == 0 else 2)
             both = of_TT * J[i] * J[j] + of_TA * (J[i] * K[j] + J[j] * K[i]) + of_AA * K[i] * K[j]
-            G.bend[k] = h * (both + of_T * J[3 + k] + of_A * K[3 + k])
-            G.bend[k] -= (of_T * J[i] + of_A * K[i]) * (of_T * J[j] + of_A * K[j])
-        h11, h22, h12 = G.bend[0], G.bend[1], G.bend[2]
+            planes.bend[k] = h * (both + of_T * J[3 + k] + of_A * K[3 + k])
+            planes.bend[k] -= (of_T * J[i] + of_A * K[i]) * (of_T * J[j] + of_A * K[j])
+        h11, h22, h12 = planes.bend[0], planes.bend[1], planes.bend[2]
         det = h11 * h22 - h12 * h12
         size = sqrt(g1 * g1 + g2 * g2)
         if h11 < 0.0 and det > 0.0:

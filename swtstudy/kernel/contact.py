@@ -64,254 +64,254 @@ SHORTEST = 1e-13
 
 
 @jit
-def offset(C, L, i, G):
+def offset(cycle, load, i, G):
     """o(G) on piece i."""
-    if C.kind[i] == GROWN:
-        return load_at(L, instant_of(L, NORMAL, G, C.born[i, 0], C.born[i, 1]))[1]
-    return C.level[i] + C.slope[i] * G
+    if cycle.kind[i] == GROWN:
+        return load_at(load, instant_of(load, NORMAL, G, cycle.born[i, 0], cycle.born[i, 1]))[1]
+    return cycle.level[i] + cycle.slope[i] * G
 
 
 @jit
-def front_on(C, L, i, push, level, top):
+def front_on(cycle, load, i, push, level, top):
     """Coordinate on piece i, up to top, where o - G = α (push ALPHA) or o + G = β (push BETA).
 
     On a GROWN piece o - G was α, and o + G was β, when the ground at G touched.
     """
-    if C.kind[i] == GROWN:
+    if cycle.kind[i] == GROWN:
         which = DIFFERENCE if push == ALPHA else SUM
-        G = load_at(L, instant_of(L, which, level, C.born[i, 0], C.born[i, 1]))[0]
-    elif C.slope[i] != push:
-        G = (level - C.level[i]) / (C.slope[i] - push)
+        G = load_at(load, instant_of(load, which, level, cycle.born[i, 0], cycle.born[i, 1]))[0]
+    elif cycle.slope[i] != push:
+        G = (level - cycle.level[i]) / (cycle.slope[i] - push)
     else:
         G = top  # the whole piece slips at once, when its level is reached
-    return min(max(G, C.start[i]), top)
+    return min(max(G, cycle.start[i]), top)
 
 
 @jit
-def add_piece(C, beneath, slope, level, start):
+def add_piece(cycle, beneath, slope, level, start):
     """Index of a new piece, a LINE."""
-    i = C.pieces
+    i = cycle.pieces
     if i + 1 >= MAX_PIECES:
-        C.overflow = 1
+        cycle.overflow = 1
         return i
-    C.pieces += 1
-    C.beneath[i], C.kind[i], C.level[i], C.slope[i] = beneath, LINE, level, slope
-    C.start[i], C.used[i] = start, 0
+    cycle.pieces += 1
+    cycle.beneath[i], cycle.kind[i], cycle.level[i], cycle.slope[i] = beneath, LINE, level, slope
+    cycle.start[i], cycle.used[i] = start, 0
     return i
 
 
 @jit
-def add_stretch(C, begin, end, piece, push, edge_begin, edge_end, front_begin, front_end):
+def add_stretch(cycle, begin, end, piece, push, edge_begin, edge_end, front_begin, front_end):
     """Append a smooth stretch of time."""
-    k = C.stretches
+    k = cycle.stretches
     if k + 1 >= MAX_STRETCHES:
-        C.overflow = 1
+        cycle.overflow = 1
         return
-    C.stretches += 1
-    C.piece[k], C.push[k] = piece, push
-    C.time[k, 0], C.time[k, 1] = begin, end
-    C.edge[k, 0], C.edge[k, 1] = edge_begin, edge_end
-    C.front[k, 0], C.front[k, 1] = front_begin, front_end
+    cycle.stretches += 1
+    cycle.piece[k], cycle.push[k] = piece, push
+    cycle.time[k, 0], cycle.time[k, 1] = begin, end
+    cycle.edge[k, 0], cycle.edge[k, 1] = edge_begin, edge_end
+    cycle.front[k, 0], cycle.front[k, 1] = front_begin, front_end
 
 
 @jit
-def first_diagram(C, L, T, m):
+def first_diagram(cycle, load, events, m):
     """Event at which the cycle starts, and the diagram there.
 
     At the instant where α is largest, every spring that ever slips has just been pushed up, o = α_max + G,
     and a spring that never slips has o = clip(0, α_max + G, β_min - G). From here one cycle is the stationary
     one, exactly. A contact that lifts off remembers nothing.
     """
-    largest, alpha_max, beta_min, C.may_slide = 0, -1e300, 1e300, 1
+    largest, alpha_max, beta_min, cycle.may_slide = 0, -1e300, 1e300, 1
     for i in range(m - 1):
-        n, v = load_at(L, T[i])
-        if load_at(L, 0.5 * (T[i] + T[i + 1]))[0] < 0.0:
-            return i, add_piece(C, NONE, FLAT, v, 0.0)
+        n, v = load_at(load, events[i])
+        if load_at(load, 0.5 * (events[i] + events[i + 1]))[0] < 0.0:
+            return i, add_piece(cycle, NONE, FLAT, v, 0.0)
         if v - n > alpha_max:
             alpha_max, largest = v - n, i
         beta_min = min(beta_min, v + n)
-    C.may_slide = alpha_max > beta_min + RETRACED  # more than by rounding
+    cycle.may_slide = alpha_max > beta_min + RETRACED  # more than by rounding
     if alpha_max >= beta_min:  # gross slip
-        return largest, add_piece(C, NONE, ALONG_ALPHA, alpha_max, 0.0)
-    n = load_at(L, T[largest])[0]
+        return largest, add_piece(cycle, NONE, ALONG_ALPHA, alpha_max, 0.0)
+    n = load_at(load, events[largest])[0]
     top, start = NONE, 0.0
     if beta_min < 0.0:  # at the centre o = β_min - G
-        top, start = add_piece(C, NONE, ALONG_BETA, beta_min, 0.0), 0.5 * (beta_min - alpha_max)
+        top, start = add_piece(cycle, NONE, ALONG_BETA, beta_min, 0.0), 0.5 * (beta_min - alpha_max)
     elif alpha_max < 0.0:  # at the centre o = 0
-        top, start = add_piece(C, NONE, FLAT, 0.0, 0.0), -alpha_max
+        top, start = add_piece(cycle, NONE, FLAT, 0.0, 0.0), -alpha_max
         if beta_min < -alpha_max:
-            top, start = add_piece(C, top, ALONG_BETA, beta_min, beta_min), 0.5 * (beta_min - alpha_max)
+            top, start = add_piece(cycle, top, ALONG_BETA, beta_min, beta_min), 0.5 * (beta_min - alpha_max)
     if start < n:
-        top = add_piece(C, top, ALONG_ALPHA, alpha_max, start)
+        top = add_piece(cycle, top, ALONG_ALPHA, alpha_max, start)
     return largest, top
 
 
 @jit
-def grow(C, L, top, begin, end):
+def grow(cycle, load, top, begin, end):
     """Growth in stick: new ground keeps the load at which it touched."""
-    n0, v0 = load_at(L, begin)
-    n1, v1 = load_at(L, end)
+    n0, v0 = load_at(load, begin)
+    n1, v1 = load_at(load, end)
     n0 = max(n0, 0.0)
-    beneath = C.beneath[top] if C.start[top] >= n0 else top
-    if L.sides > 0:
+    beneath = cycle.beneath[top] if cycle.start[top] >= n0 else top
+    if load.sides > 0:
         slope = min(max((v1 - v0) / (n1 - n0), -1.0), 1.0)
-        top = add_piece(C, beneath, slope, v0 - slope * n0, n0)
+        top = add_piece(cycle, beneath, slope, v0 - slope * n0, n0)
     else:
-        top = add_piece(C, beneath, FLAT, 0.0, n0)
-        C.kind[top], C.born[top, 0], C.born[top, 1] = GROWN, begin, end
-    add_stretch(C, begin, end, top, STICK, n0, n1, n0, n1)
+        top = add_piece(cycle, beneath, FLAT, 0.0, n0)
+        cycle.kind[top], cycle.born[top, 0], cycle.born[top, 1] = GROWN, begin, end
+    add_stretch(cycle, begin, end, top, STICK, n0, n1, n0, n1)
     return top
 
 
 @jit
-def slip(C, L, top, push, begin, end):
+def slip(cycle, load, top, push, begin, end):
     """A slip front moves inwards from the edge until `end`, or until the retreating edge catches it.
 
     Returns the new top piece, the instant reached, and whether the front was caught.
     """
     which = DIFFERENCE if push == ALPHA else SUM
-    n_begin, n_end = load_at(L, begin)[0], load_at(L, end)
+    n_begin, n_end = load_at(load, begin)[0], load_at(load, end)
     level = n_end[1] - push * n_end[0]
     retreats = n_end[0] < n_begin
     t, front = begin, n_begin
-    while not C.overflow:
-        n0 = load_at(L, t)[0]
+    while not cycle.overflow:
+        n0 = load_at(load, t)[0]
         if top == NONE:
             if end > t:
-                add_stretch(C, t, end, NONE, push, n0, n_end[0], 0.0, 0.0)
-            return add_piece(C, NONE, float(push), level, 0.0), end, False
-        start = C.start[top]
-        whole = offset(C, L, top, start) - push * start
+                add_stretch(cycle, t, end, NONE, push, n0, n_end[0], 0.0, 0.0)
+            return add_piece(cycle, NONE, float(push), level, 0.0), end, False
+        start = cycle.start[top]
+        whole = offset(cycle, load, top, start) - push * start
         passes = push * (level - whole) > 0.0
-        stop = instant_of(L, which, whole, t, end) if passes else end
-        G = start if passes else front_on(C, L, top, push, level, front)
-        n1 = load_at(L, stop)[0]
+        stop = instant_of(load, which, whole, t, end) if passes else end
+        G = start if passes else front_on(cycle, load, top, push, level, front)
+        n1 = load_at(load, stop)[0]
         if retreats and n1 < G - 1e-12:  # push · (v - o(n)) falls through 0
             low, high = t, stop
             for _ in range(60):
                 middle = 0.5 * (low + high)
-                n, v = load_at(L, middle)
-                if n >= start and push * (v - offset(C, L, top, n)) > 0.0:
+                n, v = load_at(load, middle)
+                if n >= start and push * (v - offset(cycle, load, top, n)) > 0.0:
                     low = middle
                 else:
                     high = middle
             if low > t + SHORTEST:
-                n1 = load_at(L, low)[0]
-                add_stretch(C, t, low, top, push, n0, n1, front, n1)
+                n1 = load_at(load, low)[0]
+                add_stretch(cycle, t, low, top, push, n0, n1, front, n1)
             return top, low, True
         if stop > t + SHORTEST:
-            add_stretch(C, t, stop, top, push, n0, n1, front, G)
+            add_stretch(cycle, t, stop, top, push, n0, n1, front, G)
         t, front = stop, G
         if passes:
-            top = C.beneath[top]
+            top = cycle.beneath[top]
             continue
         if n1 > G:
-            top = add_piece(C, top, float(push), level, G)
+            top = add_piece(cycle, top, float(push), level, G)
         return top, end, False
     return top, end, False
 
 
 @jit
-def retreat(C, L, top, begin, end):
+def retreat(cycle, load, top, begin, end):
     """The edge retreats and nothing slips: unloading retraces what grew."""
-    t, n = begin, load_at(L, begin)[0]
-    n_end = load_at(L, end)[0]
-    while C.start[top] > n_end and C.beneath[top] != NONE:
-        start = C.start[top]
-        stop = instant_of(L, NORMAL, start, t, end)
+    t, n = begin, load_at(load, begin)[0]
+    n_end = load_at(load, end)[0]
+    while cycle.start[top] > n_end and cycle.beneath[top] != NONE:
+        start = cycle.start[top]
+        stop = instant_of(load, NORMAL, start, t, end)
         if stop > t + SHORTEST:
-            add_stretch(C, t, stop, top, STICK, n, start, n, start)
+            add_stretch(cycle, t, stop, top, STICK, n, start, n, start)
             t, n = stop, start
-        top = C.beneath[top]
+        top = cycle.beneath[top]
     if end > t + SHORTEST:
-        add_stretch(C, t, end, top, STICK, n, n_end, n, n_end)
+        add_stretch(cycle, t, end, top, STICK, n, n_end, n, n_end)
     return top
 
 
 @jit
-def piece_at(C, top, G):
+def piece_at(cycle, top, G):
     """The piece of the diagram under top that holds G."""
-    while C.start[top] > G and C.beneath[top] != NONE:
-        top = C.beneath[top]
+    while cycle.start[top] > G and cycle.beneath[top] != NONE:
+        top = cycle.beneath[top]
     return top
 
 
 @jit
-def unload(C, L, top, begin, end):
+def unload(cycle, load, top, begin, end):
     """The edge retreats faster than v moves: the ground there slips as its memory says.
 
     Returns the new top piece.
     """
     largest = 0.0
     for j in range(1, 4):
-        n, v = load_at(L, begin + 0.25 * j * (end - begin))
-        largest = max(largest, abs(v - offset(C, L, piece_at(C, top, n), n)))
+        n, v = load_at(load, begin + 0.25 * j * (end - begin))
+        largest = max(largest, abs(v - offset(cycle, load, piece_at(cycle, top, n), n)))
     if largest <= RETRACED:
-        return retreat(C, L, top, begin, end)
-    n, v = load_at(L, begin + 1e-3 * (end - begin))
-    push = ALPHA if v >= offset(C, L, piece_at(C, top, n), n) else BETA
+        return retreat(cycle, load, top, begin, end)
+    n, v = load_at(load, begin + 1e-3 * (end - begin))
+    push = ALPHA if v >= offset(cycle, load, piece_at(cycle, top, n), n) else BETA
     t = begin
     for _ in range(100):
-        top, t, caught = slip(C, L, top, push, t, end)
+        top, t, caught = slip(cycle, load, top, push, t, end)
         if not caught:
             return top
         push = -push
-    C.overflow = 1
+    cycle.overflow = 1
     return top
 
 
 @jit
-def solve_cycle(C, L):
+def solve_cycle(cycle, load):
     """One stationary load cycle; half of it where the other half is its mirror image."""
-    C.pieces, C.stretches, C.overflow, C.shift = 0, 0, 0, 0.0
-    T = C.event
-    m = turning_points(L, T)
-    C.events, C.no_equilibrium = m, out_of_equilibrium(L, T, m)
-    if C.no_equilibrium:
+    cycle.pieces, cycle.stretches, cycle.overflow, cycle.shift = 0, 0, 0, 0.0
+    events = cycle.event
+    m = turning_points(load, events)
+    cycle.events, cycle.no_equilibrium = m, out_of_equilibrium(load, events, m)
+    if cycle.no_equilibrium:
         return
-    first, top = first_diagram(C, L, T, m)
+    first, top = first_diagram(cycle, load, events, m)
     for step in range(m - 1):
         e = (first + step) % (m - 1)
-        turn = L.period if first + step >= m - 1 else 0.0
-        begin, end = T[e] + turn, T[e + 1] + turn
-        if (L.mirrored and begin > T[first] + 0.5 * L.period - 1e-7) or C.overflow:
+        turn = load.period if first + step >= m - 1 else 0.0
+        begin, end = events[e] + turn, events[e + 1] + turn
+        if (load.mirrored and begin > events[first] + 0.5 * load.period - 1e-7) or cycle.overflow:
             break
-        n, v, dn, dv, ddn, ddv = rates_at(L, 0.5 * (begin + end))
+        n, v, dn, dv, ddn, ddv = rates_at(load, 0.5 * (begin + end))
         if n < 0.0:
-            v_end = load_at(L, end)[1]
-            add_stretch(C, begin, end, NONE, OPEN, 0.0, 0.0, 0.0, 0.0)
-            top = add_piece(C, NONE, FLAT, v_end, 0.0)
+            v_end = load_at(load, end)[1]
+            add_stretch(cycle, begin, end, NONE, OPEN, 0.0, 0.0, 0.0, 0.0)
+            top = add_piece(cycle, NONE, FLAT, v_end, 0.0)
         elif dn > abs(dv):
-            top = grow(C, L, top, begin, end)
+            top = grow(cycle, load, top, begin, end)
         elif -dn > abs(dv):
-            top = unload(C, L, top, begin, end)
+            top = unload(cycle, load, top, begin, end)
         elif dn == 0.0 and dv == 0.0:  # nothing moves but perhaps the bulk stress
-            add_stretch(C, begin, end, top, STICK, n, n, n, n)
+            add_stretch(cycle, begin, end, top, STICK, n, n, n, n)
         else:
             push = ALPHA if dv > 0.0 else BETA
-            top, t, caught = slip(C, L, top, push, begin, end)
+            top, t, caught = slip(cycle, load, top, push, begin, end)
             if caught:
-                top = unload(C, L, top, t, end)
-    mark_used(C)
+                top = unload(cycle, load, top, t, end)
+    mark_used(cycle)
 
 
 @jit
-def mark_used(C):
+def mark_used(cycle):
     """Mark the pieces of the stationary cycle, and note what happens in it."""
-    C.largest, C.smallest = 0.0, 1e300
-    C.gross_slip, C.lift_off, C.any_slip = 0, 0, 0
-    for i in range(C.pieces):
-        C.used[i] = 0
-    for k in range(C.stretches):
-        C.largest = max(C.largest, C.edge[k, 0], C.edge[k, 1])
-        C.smallest = min(C.smallest, C.edge[k, 0], C.edge[k, 1])
-        if C.push[k] == OPEN:
-            C.lift_off = 1
-        elif C.push[k] != STICK:
-            C.any_slip = 1
-            if C.piece[k] == NONE:
-                C.gross_slip = C.may_slide
-        i = C.piece[k]
-        while i != NONE and C.used[i] == 0:
-            C.used[i] = 1
-            i = C.beneath[i]
+    cycle.largest, cycle.smallest = 0.0, 1e300
+    cycle.gross_slip, cycle.lift_off, cycle.any_slip = 0, 0, 0
+    for i in range(cycle.pieces):
+        cycle.used[i] = 0
+    for k in range(cycle.stretches):
+        cycle.largest = max(cycle.largest, cycle.edge[k, 0], cycle.edge[k, 1])
+        cycle.smallest = min(cycle.smallest, cycle.edge[k, 0], cycle.edge[k, 1])
+        if cycle.push[k] == OPEN:
+            cycle.lift_off = 1
+        elif cycle.push[k] != STICK:
+            cycle.any_slip = 1
+            if cycle.piece[k] == NONE:
+                cycle.gross_slip = cycle.may_slide
+        i = cycle.piece[k]
+        while i != NONE and cycle.used[i] == 0:
+            cycle.used[i] = 1
+            i = cycle.beneath[i]

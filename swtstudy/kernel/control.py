@@ -91,15 +91,18 @@ def _tabulate(load, profile):
 
 
 @jit
-def _write_other(P, places, out):
+def _write_other(profile, places, out):
     """Write force at depths, or depth at forces, of a profile; ∫ dG/ds ds by Gauss's rule on each panel."""
-    before, unit = np.zeros(P.panels + 1), force_at(P, place_of(P, 1.0))
-    for p in range(P.panels if P.in_force else 0):
-        before[p + 1] = before[p] + rise(P, P.begin[p], P.end[p])
+    before, unit = np.zeros(profile.panels + 1), force_at(profile, place_of(profile, 1.0))
+    for p in range(profile.panels if profile.in_force else 0):
+        before[p + 1] = before[p] + rise(profile, profile.begin[p], profile.end[p])
     for i in range(places.shape[0]):
-        s = place_of(P, places[i])
-        p = panel_of(P.begin, 0, P.panels, s)
-        out[i] = before[p] + rise(P, P.begin[p], s) if P.in_force else force_at(P, s) / unit
+        s = place_of(profile, places[i])
+        p = panel_of(profile.begin, 0, profile.panels, s)
+        if profile.in_force:
+            out[i] = before[p] + rise(profile, profile.begin[p], s)
+        else:
+            out[i] = force_at(profile, s) / unit
 
 
 def _other_coordinate(profile, x):
@@ -110,9 +113,9 @@ def _other_coordinate(profile, x):
 
 
 @jit
-def rise(P, a, b):
+def rise(profile, a, b):
     """∫ dG/ds ds from a to b within a panel."""
     total = 0.0
     for i in range(NODE.shape[0]):
-        total += WEIGHT[i] * density_at(P, a + 0.5 * (b - a) * (NODE[i] + 1.0))
+        total += WEIGHT[i] * density_at(profile, a + 0.5 * (b - a) * (NODE[i] + 1.0))
     return 0.5 * (b - a) * total

@@ -16,70 +16,70 @@ LEAST_RANGE = 1e-3
 
 
 @jit
-def count_cycles(N, Q):
+def count_cycles(counting, ask):
     """Write the values of the closed cycles of the history.
 
     The stress goes straight between two instants. The outermost cycle closes at the end alone, also where the
     largest swing is there more than once.
     """
-    n, start, lowest = N.points, 0, N.swing[0]
+    n, start, lowest = counting.points, 0, counting.swing[0]
     for i in range(1, n):
-        lowest = min(lowest, N.swing[i])
-        if N.swing[i] > N.swing[start]:
+        lowest = min(lowest, counting.swing[i])
+        if counting.swing[i] > counting.swing[start]:
             start = i
-    least = LEAST_RANGE * (N.swing[start] - lowest)
+    least = LEAST_RANGE * (counting.swing[start] - lowest)
     top, cycles = 0, 0
-    N.level[0], N.highest[0] = N.swing[start], N.stress[start]
-    before, stress_before = N.swing[start], N.stress[start]
+    counting.level[0], counting.highest[0] = counting.swing[start], counting.stress[start]
+    before, stress_before = counting.swing[start], counting.stress[start]
     for i in range(1, n + 1):
-        now, stress = N.swing[(start + i) % n], N.stress[(start + i) % n]
-        if (before - N.level[top]) * (now - before) < 0.0:
+        now, stress = counting.swing[(start + i) % n], counting.stress[(start + i) % n]
+        if (before - counting.level[top]) * (now - before) < 0.0:
             top += 1
-            N.level[top], N.highest[top] = before, stress_before
+            counting.level[top], counting.highest[top] = before, stress_before
         while top >= (1 if i == n else 2):
-            first, turn = N.level[top - 1], N.level[top]
+            first, turn = counting.level[top - 1], counting.level[top]
             if abs(now - turn) < abs(first - turn):
                 break
             share = (first - before) / (now - before) if now != before else 1.0
             there = stress_before + share * (stress - stress_before)
-            tension = max(there, N.highest[top - 1], N.highest[top])
+            tension = max(there, counting.highest[top - 1], counting.highest[top])
             if abs(first - turn) > least:
-                N.value[cycles] = value_of(Q, lifted(Q, tension, abs(first - turn), 0.0))
+                counting.value[cycles] = value_of(ask, lifted(ask, tension, abs(first - turn), 0.0))
                 cycles += 1
             top = max(top - 2, 0)
-            N.highest[top] = max(N.highest[top], tension)  # of what is nested in it
-        N.highest[top] = max(N.highest[top], stress)
+            counting.highest[top] = max(counting.highest[top], tension)  # of what is nested in it
+        counting.highest[top] = max(counting.highest[top], stress)
         before, stress_before = now, stress
-    N.cycles = cycles
+    counting.cycles = cycles
 
 
 @jit
-def follow(N, H, W, Q, C, S):
+def follow(counting, history, curves, ask, C, S):
     """Write the history of σ_n and the swing on the plane with cos 2θ = C, sin 2θ = S."""
-    of_b, of_c = swing_weights(Q, C, S)
+    of_b, of_c = swing_weights(ask, C, S)
     n = 0
-    for rank in range(H.parts):
-        z = N.rank[rank]
-        first, intervals = H.first[z], H.intervals[z]
+    for rank in range(history.parts):
+        z = counting.rank[rank]
+        first, intervals = history.first[z], history.intervals[z]
         for j in range(intervals + 1):
-            b, c = W.b[first + j], W.c[first + j]
-            W.curve[0, j] = W.a[first + j] + b * C + c * S
-            W.curve[1, j] = W.d[first + j] + b * of_b + c * of_c
+            b, c = curves.b[first + j], curves.c[first + j]
+            curves.curve[0, j] = curves.a[first + j] + b * C + c * S
+            curves.curve[1, j] = curves.d[first + j] + b * of_b + c * of_c
         for j in range(intervals + 1):
-            stress, swing, raw = W.curve[0, j], W.curve[1, j], W.curve[1, j]
+            stress, swing, raw = curves.curve[0, j], curves.curve[1, j], curves.curve[1, j]
             if intervals > 1:
-                stress = raised(W.curve[0], j, intervals, 1.0)
-                swing = raised(W.curve[1], j, intervals, 1.0)
+                stress = raised(curves.curve[0], j, intervals, 1.0)
+                swing = raised(curves.curve[1], j, intervals, 1.0)
                 if swing == raw:
-                    swing = raised(W.curve[1], j, intervals, -1.0)
+                    swing = raised(curves.curve[1], j, intervals, -1.0)
             if j == 0 and n > 0:  # the end of the part before
                 n -= 1
-                stress = max(stress, N.stress[n])
-                if abs(N.swing[n] - raw) > abs(swing - raw):
-                    swing = N.swing[n]
-            N.stress[n], N.swing[n] = stress, swing
+                stress = max(stress, counting.stress[n])
+                if abs(counting.swing[n] - raw) > abs(swing - raw):
+                    swing = counting.swing[n]
+            counting.stress[n], counting.swing[n] = stress, swing
             n += 1
-    N.points = n
+    counting.points = n
 
 
 @jit
@@ -95,11 +95,17 @@ def raised(values, j, intervals, sign):
 
 
 @jit
-def rank_parts(N, H, L):
+def begin_of(history, load, z):
+    """Time at which part z begins, in a whole cycle."""
+    return history.time[z, 0] + history.mirror[z] * load.period
+
+
+@jit
+def rank_parts(counting, history, load):
     """Write the parts of the sampled cycle in the order of time, without the parts that were cut in two."""
-    for z in range(H.parts):
-        begin, j = H.time[z, 0] + H.mirror[z] * L.period, z
-        while j > 0 and H.time[N.rank[j - 1], 0] + H.mirror[N.rank[j - 1]] * L.period > begin:
-            N.rank[j] = N.rank[j - 1]
+    for z in range(history.parts):
+        begin, j = begin_of(history, load, z), z
+        while j > 0 and begin_of(history, load, counting.rank[j - 1]) > begin:
+            counting.rank[j] = counting.rank[j - 1]
             j -= 1
-        N.rank[j] = z
+        counting.rank[j] = z

@@ -26,24 +26,24 @@ STATE = np.dtype(
 
 
 @jit
-def write_states(C, R, P, L, U, instants, out):
+def write_states(cycle, growth, profile, load, conjugate, instants, out):
     """Write the states of the contact at instants in [0, period]."""
     for i in range(instants.shape[0]):
-        k, t, sign = find_stretch(C, L, instants[i])
+        k, t, sign = find_stretch(cycle, load, instants[i])
         state = out[i]
-        n, v = load_at(L, t)
-        edge, front = coordinates_at(C, L, k, t)
-        state.stretch, state.sign, state.push = k, sign, C.push[k]
-        if sign < 0.0 and C.push[k] != OPEN:
-            state.push = -C.push[k]
-        state.normal, state.tangential, state.bulk = n, sign * v, bulk_at(L, instants[i])
-        state.front, state.edge_s, state.front_s = front, place_of(P, edge), place_of(P, front)
-        state.other_normal = other_at(P, U, state.edge_s)
-        state.answer = sign * answer_at(C, R, P, U, k, state.edge_s, state.front_s)
+        n, v = load_at(load, t)
+        edge, front = coordinates_at(cycle, load, k, t)
+        state.stretch, state.sign, state.push = k, sign, cycle.push[k]
+        if sign < 0.0 and cycle.push[k] != OPEN:
+            state.push = -cycle.push[k]
+        state.normal, state.tangential, state.bulk = n, sign * v, bulk_at(load, instants[i])
+        state.front, state.edge_s, state.front_s = front, place_of(profile, edge), place_of(profile, front)
+        state.other_normal = other_at(profile, conjugate, state.edge_s)
+        state.answer = sign * answer_at(cycle, growth, profile, conjugate, k, state.edge_s, state.front_s)
 
 
 @jit
-def write_springs(C, R, P, L, U, states, places, largest, compression, force):
+def write_springs(cycle, growth, profile, load, conjugate, states, places, largest, compression, force):
     """Write compression and tangential force of springs at places s, by state and spring.
 
     With prescribed forces these are values of springs, too; in the plane, which has no springs, values
@@ -51,57 +51,60 @@ def write_springs(C, R, P, L, U, states, places, largest, compression, force):
     """
     for j in range(places.shape[0]):
         s = places[j]
-        at = coordinate_at(P, s) if s <= largest else np.inf
+        at = coordinate_at(profile, s) if s <= largest else np.inf
         for i in range(states.shape[0]):
             state = states[i]
             k = state.stretch
             compression[i, j], force[i, j] = 0.0, 0.0
             if state.push == OPEN or at >= state.normal:
                 continue
-            of_springs = P.in_force and P.plane == 0
+            of_springs = profile.in_force and profile.plane == 0
             w = state.normal - at
             if of_springs:
-                w = other_at(P, U, state.edge_s) - other_at(P, U, s)
+                w = other_at(profile, conjugate, state.edge_s) - other_at(profile, conjugate, s)
             compression[i, j], force[i, j] = w, state.push * w
             if at < state.front:
-                piece = piece_at(C, C.piece[k], at)
+                piece = piece_at(cycle, cycle.piece[k], at)
                 if of_springs:
-                    held = U.inside[piece] + over_piece(C, R, P, U, piece, s)
+                    held = conjugate.inside[piece] + over_piece(cycle, growth, profile, conjugate, piece, s)
                     force[i, j] = state.answer - state.sign * held
                 else:
-                    force[i, j] = state.tangential - state.sign * offset(C, L, piece, at)
+                    force[i, j] = state.tangential - state.sign * offset(cycle, load, piece, at)
 
 
 @jit
-def write_stress(H, C, R, P, K, Q, states, place, largest, side):
+def write_stress(point, states, place, largest, side):
     """Write the stress at place s on one side, as a history of the instants of the states."""
-    begin_history(H, C, R, P, K, place, largest, side)
+    profile, ask, cycle, table, history = point.profile, point.ask, point.cycle, point.table, point.history
+    begin_history(point, place, largest, side)
     for i in range(states.shape[0]):
         state = states[i]
-        stress(H, i, C, P, K, state.stretch, state.edge_s, state.front_s, state.sign, Q)
-        H.bulk[i] = state.bulk
-    H.instants = states.shape[0]
+        own = state.stretch, state.edge_s, state.front_s, state.sign
+        stress(history, i, cycle, profile, table, *own, ask)
+        history.bulk[i] = state.bulk
+    history.instants = states.shape[0]
 
 
 @jit
-def write_parts(H, C, R, P, K, L, place, largest, side):
+def write_parts(point, place, largest, side):
     """Cut the cycle where the stress at place s on one side has cusps in time.
 
     The times of the parts are in the history; a mirrored cycle has half of them.
     """
-    begin_history(H, C, R, P, K, place, largest, side)
-    for k in range(C.stretches):
-        if H.parts + 7 >= H.first.shape[0]:
-            C.overflow = 1
+    cycle, history = point.cycle, point.history
+    begin_history(point, place, largest, side)
+    for k in range(cycle.stretches):
+        if history.parts + 7 >= history.first.shape[0]:
+            cycle.overflow = 1
             return
-        split(H, C, P, L, k)
+        split(history, cycle, point.profile, point.load, k)
 
 
 @jit
-def write_values(S, H, W, C, R, P, K, L, Q, largest, places, values, angles):
+def write_values(search, point, largest, places, values, angles):
     """Write the criterion and 2θ of the critical plane at places s, at x > 0 and at x < 0."""
     for i in range(places.shape[0]):
-        S.best, S.positions, S.largest = 0.0, 0, largest
-        evaluate(S, (H, W, C, R, P, K, L, Q), places[i], ASKED, ASKED)
+        search.best, search.positions, search.largest = 0.0, 0, largest
+        evaluate(search, point, places[i], ASKED, ASKED)
         for side in range(2):
-            values[i, side], angles[i, side] = S.value[side], S.seen_angle[0, side]
+            values[i, side], angles[i, side] = search.value[side], search.seen_angle[0, side]

@@ -77,53 +77,53 @@ def ask(
 
 
 @jit
-def swing_weights(Q, C, S):
+def swing_weights(ask, C, S):
     """Weights of b and c in the swing of the plane with cos 2θ = C, sin 2θ = S: ε_n or τ."""
-    if Q.criterion == SWT:
-        return (1.0 + Q.poisson_ratio) * C, (1.0 + Q.poisson_ratio) * S
+    if ask.criterion == SWT:
+        return (1.0 + ask.poisson_ratio) * C, (1.0 + ask.poisson_ratio) * S
     return -S, C
 
 
 @jit
-def lifted(Q, T, A, noise):
+def lifted(ask, T, A, noise):
     """H of T and A, 0 at least; a tension up to noise is none."""
-    if Q.criterion == SWT:
+    if ask.criterion == SWT:
         T, A = T if noise < T else 0.0, max(A, 0.0)
-        if Q.power == 1.0:
+        if ask.power == 1.0:
             return T * A
-        return T * A**Q.power if Q.of_swing else A * T**Q.power
-    if Q.criterion == FATEMI_SOCIE:
-        return A * (1.0 + Q.sensitivity * max(T, 0.0))
-    return max(A + 2.0 * Q.sensitivity * T, 0.0)
+        return T * A**ask.power if ask.of_swing else A * T**ask.power
+    if ask.criterion == FATEMI_SOCIE:
+        return A * (1.0 + ask.sensitivity * max(T, 0.0))
+    return max(A + 2.0 * ask.sensitivity * T, 0.0)
 
 
 @jit
-def value_of(Q, h):
+def value_of(ask, h):
     """The criterion from h."""
-    return Q.factor * h if Q.outer == 1.0 else Q.factor * h**Q.outer
+    return ask.factor * h if ask.outer == 1.0 else ask.factor * h**ask.outer
 
 
 @jit
-def lift(Q, value):
+def lift(ask, value):
     """H from the criterion."""
-    h = value / Q.factor
-    return h if Q.outer == 1.0 else h ** (1.0 / Q.outer)
+    h = value / ask.factor
+    return h if ask.outer == 1.0 else h ** (1.0 / ask.outer)
 
 
 @jit
-def partials(Q, T, A):
+def partials(ask, T, A):
     """h_T, h_A, h_TT, h_TA, h_AA."""
-    m, k = Q.power, Q.sensitivity
-    if Q.criterion == SWT:
+    m, k = ask.power, ask.sensitivity
+    if ask.criterion == SWT:
         T, A = max(T, 0.0), max(A, 0.0)
         if m == 1.0:
             return A, T, 0.0, 1.0, 0.0
-        if Q.of_swing:
+        if ask.of_swing:
             x = m * A ** (m - 1.0)
             return A**m, T * x, 0.0, x, m * (m - 1.0) * T * A ** (m - 2.0) if A > 0.0 else 0.0
         x = m * T ** (m - 1.0)
         return A * x, T**m, m * (m - 1.0) * A * T ** (m - 2.0) if T > 0.0 else 0.0, x, 0.0
-    if Q.criterion == FATEMI_SOCIE:
+    if ask.criterion == FATEMI_SOCIE:
         if T <= 0.0:
             return 0.0, 1.0, 0.0, 0.0, 0.0
         return k * A, 1.0 + k * T, 0.0, k, 0.0
@@ -131,12 +131,12 @@ def partials(Q, T, A):
 
 
 @jit
-def curvature_bound(Q, T, A, of_tension, of_swing, slope):
+def curvature_bound(ask, T, A, of_tension, of_swing, slope):
     """Bound of -h″ over 2θ for given maxima of T and A, of |T″|, |A′| and |A″|, and of the slope |T′|.
 
     The terms with h_TT and h_AA, which are not negative, only help.
     """
-    h_t, h_a, _, h_ta, _ = partials(Q, T, A)
+    h_t, h_a, _, h_ta, _ = partials(ask, T, A)
     return h_t * of_tension + 2.0 * h_ta * slope * of_swing + h_a * of_swing
 
 
@@ -147,17 +147,17 @@ def slope_bound(of_tension, highest):
 
 
 @jit
-def sensitivities(Q, T, A):
+def sensitivities(ask, T, A):
     """Relative change of the criterion by a change of T, and by one of A."""
-    h = lifted(Q, T, A, 0.0)
+    h = lifted(ask, T, A, 0.0)
     if h <= 0.0:
         return 0.0, 0.0
-    h_t, h_a, _, _, _ = partials(Q, T, A)
-    return Q.outer * h_t / h, Q.outer * h_a / h
+    h_t, h_a, _, _, _ = partials(ask, T, A)
+    return ask.outer * h_t / h, ask.outer * h_a / h
 
 
 @jit
-def far_field(Q, largest, smallest, plane):
+def far_field(ask, largest, smallest, plane):
     """The criterion under a bulk stress along x alone, and 2θ of its plane (rad).
 
     Parameters
@@ -167,17 +167,17 @@ def far_field(Q, largest, smallest, plane):
     plane
         Whether the bulk stress is one of plane strain.
     """
-    swing, nu, k = largest - smallest, Q.poisson_ratio, Q.sensitivity
-    if Q.criterion == SWT:
-        return value_of(Q, lifted(Q, largest, swing * (1.0 - nu * nu) if plane else swing, 0.0)), 0.0
-    if Q.criterion == FINDLEY:
+    swing, nu, k = largest - smallest, ask.poisson_ratio, ask.sensitivity
+    if ask.criterion == SWT:
+        return value_of(ask, lifted(ask, largest, swing * (1.0 - nu * nu) if plane else swing, 0.0)), 0.0
+    if ask.criterion == FINDLEY:
         pull, shear = k * largest, 0.5 * swing
         return max(0.5 * (pull + hypot(shear, pull)), 0.0), atan2(shear, pull)
     # sin 2θ (1 + m + m cos 2θ) is largest where its derivative, a quadratic form of the cosine, vanishes.
     m = 0.5 * k * max(largest, 0.0)
     cosine = 2.0 * m / (1.0 + m + sqrt((1.0 + m) * (1.0 + m) + 8.0 * m * m))
     T, A = 0.5 * largest * (1.0 + cosine), 0.5 * swing * sqrt(1.0 - cosine * cosine)
-    return value_of(Q, lifted(Q, T, A, 0.0)), acos(cosine)
+    return value_of(ask, lifted(ask, T, A, 0.0)), acos(cosine)
 
 
 @jit

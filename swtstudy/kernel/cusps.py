@@ -25,41 +25,42 @@ GROUPS = 48
 
 
 @jit
-def cusps(S, C, P, L, Q, largest):
+def cusps(search, cycle, profile, load, ask, largest):
     """Write the sorted ends of the pieces of the line, places s; returns how many."""
-    z, b = S.cusp, P.flat_radius
+    z, b = search.cusp, profile.flat_radius
     radius = sqrt(b * b + largest * largest)
     m = put(z, 0, INNERMOST * largest)
-    if P.singular and Q.friction >= TEARING:
+    if profile.singular and ask.friction >= TEARING:
         # With L = ln(b/(|x| - b)) the strain rises like L and σ_n falls like (1 - μ) L, to 0 at the last one.
         L_edge = 4.0
-        while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - Q.friction, 1e-2), 600.0):
+        while L_edge < min(20.0 * (1.0 + radius / b) / max(1.0 - ask.friction, 1e-2), 600.0):
             m = put(z, m, b * sqrt(2.0) * exp(-0.5 * L_edge))
             L_edge *= 2.0
-    anywhere = Q.criterion != SWT or has_bulk(L)  # places in mere pressure, and far outside of the contact
+    # Places in mere pressure, and far outside of the contact.
+    anywhere = ask.criterion != SWT or has_bulk(load)
     if anywhere and b > 0.0:
         m = put(z, m, -b * (1.0 - INNERMOST))
     if anywhere:
-        m = put(z, m, 2.0 * largest - place_of(P, C.smallest))
+        m = put(z, m, 2.0 * largest - place_of(profile, cycle.smallest))
     for k in range(BEYOND.shape[0] if anywhere else NEARBY):
         m = put(z, m, sqrt(BEYOND[k] * BEYOND[k] * radius * radius - b * b))
-    for j in range(1, min(int(largest / P.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
-        m = put(z, m, j * P.longest)
-    for k in range(C.stretches):
+    for j in range(1, min(int(largest / profile.longest) + 1, MAX_STRETCHES)):  # half waves of the profile
+        m = put(z, m, j * profile.longest)
+    for k in range(cycle.stretches):
         for e in range(2):
-            for G in (C.edge[k, e], C.front[k, e]):
+            for G in (cycle.edge[k, e], cycle.front[k, e]):
                 if G > 0.0:
-                    m = put_zone(z, m, C, P, largest, place_of(P, G))
-    for i in range(C.pieces):
-        if C.used[i] and C.start_s[i] > 0.0:
-            m = put_zone(z, m, C, P, largest, C.start_s[i])
+                    m = put_zone(z, m, cycle, profile, largest, place_of(profile, G))
+    for i in range(cycle.pieces):
+        if cycle.used[i] and cycle.start_s[i] > 0.0:
+            m = put_zone(z, m, cycle, profile, largest, cycle.start_s[i])
     return distinct(z, m, 1e-14 * largest)
 
 
 @jit
-def put_zone(z, m, C, P, largest, s):
+def put_zone(z, m, cycle, profile, largest, s):
     """Append the end of a stick zone of size s, or both ends if its centre is not the contact's."""
-    off = abs(centre_of(P, C.shift, C.largest, largest, s))
+    off = abs(centre_of(profile, cycle.shift, cycle.largest, largest, s))
     m = put(z, m, s + off)
     return put(z, m, max(abs(s - off), INNERMOST * largest)) if off > 0.0 else m
 
@@ -73,8 +74,8 @@ def put(z, m, value):
 
 
 @jit
-def ends_group(S, j, last, largest):
+def ends_group(search, j, last, largest):
     """True if cusp j of last + 1 ends a group of pieces: each if there are few, or a long piece ends."""
     step = max(last // GROUPS, 1) if last > 2 * GROUPS else 1
-    gap = max(S.cusp[min(j + 1, last)] - S.cusp[j], S.cusp[j] - S.cusp[max(j - 1, 0)])
+    gap = max(search.cusp[min(j + 1, last)] - search.cusp[j], search.cusp[j] - search.cusp[max(j - 1, 0)])
     return j % step == 0 or j == last or GROUPS * gap > largest

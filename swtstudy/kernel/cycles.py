@@ -25,6 +25,7 @@ from swtstudy.kernel.parts import COARSEST, MAX_INSTANTS, MAX_PARTS, ROOM, refin
 from swtstudy.kernel.planes import MINUS_SWING, STRESS, SWING, fill, find_peaks
 from swtstudy.kernel.point import FINEST_GROWTH, tension_share
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.records import Point
 from swtstudy.kernel.shift import shift_of
 
 #: Powers of the criterion of which the sum is made largest.
@@ -85,16 +86,16 @@ COUNTED = np.dtype(
 
 
 @jit
-def sum_of(N, power):
+def sum_of(counting, power):
     """Sum of the cycles' values to a power, over the largest value at the critical place."""
     total = 0.0
-    for i in range(N.cycles):
-        total += (N.value[i] / N.largest) ** power
+    for i in range(counting.cycles):
+        total += (counting.value[i] / counting.largest) ** power
     return total
 
 
 @jit
-def reach_of(N, Q, top, swing):
+def reach_of(counting, ask, top, swing):
     """Height of the cycles of the history over what would be better for some power: 1 and more may be.
 
     Parameters
@@ -102,235 +103,243 @@ def reach_of(N, Q, top, swing):
     top, swing
         Largest σ_n, and range of the swing.
     """
-    value = value_of(Q, lifted(Q, top, swing, 0.0)) / N.largest
+    value = value_of(ask, lifted(ask, top, swing, 0.0)) / counting.largest
     if value <= 0.0 or swing <= 0.0:
         return 0.0
-    way, turns, last = 0.0, 0, N.swing[0] - N.swing[N.points - 1]
-    for i in range(N.points):
-        step = N.swing[(i + 1) % N.points] - N.swing[i]
+    way, turns, last = 0.0, 0, counting.swing[0] - counting.swing[counting.points - 1]
+    for i in range(counting.points):
+        step = counting.swing[(i + 1) % counting.points] - counting.swing[i]
         way += abs(step)
         if step * last < 0.0:
             turns += 1
         if step != 0.0:
             last = step
-    number, of_swing = 0.5 * way / swing, sensitivities(Q, top, swing)[1] * swing
+    number, of_swing = 0.5 * way / swing, sensitivities(ask, top, swing)[1] * swing
     most = 0.0
     for p in range(POWERS.shape[0]):
         power = POWERS[p] * of_swing
         # A root of the amplitudes adds up to most where all are equal.
         equal = max(turns, 1.0) ** max(1.0 - power, 0.0) * number ** min(power, 1.0)
-        most = max(most, value * (SLACK * equal / ((1.0 + GAIN) * N.known[p])) ** (1.0 / POWERS[p]))
+        most = max(most, value * (SLACK * equal / ((1.0 + GAIN) * counting.known[p])) ** (1.0 / POWERS[p]))
     return most
 
 
 @jit
-def sample_at(N, H, C, R, P, K, L, Q, place, largest, intervals, side):
+def sample_at(counting, point, place, largest, intervals, side):
     """Sample the cycle at place s on one side with so many intervals of each part."""
-    sample_cycle(H, C, R, P, K, L, Q, place, largest, side, COARSEST)
-    sample_closely(H, C, P, K, L, Q, intervals)
-    rank_parts(N, H, L)
+    sample_cycle(point, place, largest, side, COARSEST)
+    sample_closely(point, intervals)
+    rank_parts(counting, point.history, point.load)
 
 
 @jit
-def sample_closely(H, C, P, K, L, Q, intervals):
+def sample_closely(point, intervals):
     """Give all parts of the sampled cycle so many intervals, but short sides of which the ends are enough."""
-    for z in range(H.parts):
-        while 1 < H.intervals[z] < intervals and H.instants + ROOM < MAX_INSTANTS:
-            refine(H, z, C, P, L)
-    write_stress(H, C, P, L, K, Q)
+    load, profile, ask, cycle, growth, table, history, curves = point
+    for z in range(history.parts):
+        while 1 < history.intervals[z] < intervals and history.instants + ROOM < MAX_INSTANTS:
+            refine(history, z, cycle, profile, load)
+    write_stress(point)
 
 
 @jit
-def place_at(N, at):
+def place_at(counting, at):
     """Place s of a number of a piece and the share of its angle."""
-    piece = min(int(at), N.ends - 1)
-    left, right = N.end[piece], N.end[piece + 1]
+    piece = min(int(at), counting.ends - 1)
+    left, right = counting.end[piece], counting.end[piece + 1]
     return left + (right - left) * (0.5 - 0.5 * cos(pi * (at - piece)))
 
 
 @jit
-def look_at(N, H, W, C, R, P, K, L, Q, at, largest):
+def look_at(counting, point, at, largest):
     """Count cycles at one place if they may matter; returns their height over the height that matters."""
+    load, profile, ask, cycle, growth, table, history, curves = point
     highest = 0.0
-    for number in range(1 if L.mirrored else 2):
+    for number in range(1 if load.mirrored else 2):
         side = 1.0 - 2.0 * number
-        if number == 0 or C.shift != 0.0:
-            sample_at(N, H, C, R, P, K, L, Q, place_at(N, at), largest, COARSELY, side)
-        fill(H, W, side, Q)
+        if number == 0 or cycle.shift != 0.0:
+            sample_at(counting, point, place_at(counting, at), largest, COARSELY, side)
+        fill(history, curves, side, ask)
         for plane in range(PLANES):
-            follow(N, H, W, Q, COS_2[plane], SIN_2[plane])
+            follow(counting, history, curves, ask, COS_2[plane], SIN_2[plane])
             top, high, low = -1e300, -1e300, 1e300
-            for i in range(N.points):
-                top, high, low = max(top, N.stress[i]), max(high, N.swing[i]), min(low, N.swing[i])
-            reach = reach_of(N, Q, top, high - low)
+            for i in range(counting.points):
+                top, swing = max(top, counting.stress[i]), counting.swing[i]
+                high, low = max(high, swing), min(low, swing)
+            reach = reach_of(counting, ask, top, high - low)
             highest = max(highest, reach)
             if reach <= 1.0:
                 continue
-            count_cycles(N, Q)
+            count_cycles(counting, ask)
             for p in range(POWERS.shape[0]):
-                total = sum_of(N, POWERS[p])
-                if total > N.better[p]:
-                    N.better[p], N.found[p] = total, 1
-                    N.where[p, 0], N.where[p, 1], N.where[p, 2] = at, side, STEP * plane
+                total = sum_of(counting, POWERS[p])
+                if total > counting.better[p]:
+                    counting.better[p], counting.found[p] = total, 1
+                    counting.where[p, 0], counting.where[p, 1], counting.where[p, 2] = at, side, STEP * plane
     return highest
 
 
 @jit
-def look_along(N, S, H, W, C, R, P, K, L, Q, largest):
+def look_along(counting, search, point, largest):
     """Find the best places of a coarse look along the line: ends of pieces, and within what may matter."""
-    last = cusps(S, C, P, L, Q, largest) - 1
-    N.ends = -1
+    load, profile, ask, cycle, growth, table, history, curves = point
+    last = cusps(search, cycle, profile, load, ask, largest) - 1
+    counting.ends = -1
     for j in range(last + 1):
-        if ends_group(S, j, last, largest):
-            N.ends += 1
-            N.end[N.ends] = S.cusp[j]
+        if ends_group(search, j, last, largest):
+            counting.ends += 1
+            counting.end[counting.ends] = search.cusp[j]
     for p in range(POWERS.shape[0]):
-        N.better[p], N.found[p] = N.known[p], 0
-    for j in range(N.ends + 1):
-        N.reach[j] = look_at(N, H, W, C, R, P, K, L, Q, float(j), largest)
-    for j in range(N.ends):
-        if WITHIN * max(N.reach[j], N.reach[j + 1]) <= 1.0:
+        counting.better[p], counting.found[p] = counting.known[p], 0
+    for j in range(counting.ends + 1):
+        counting.reach[j] = look_at(counting, point, float(j), largest)
+    for j in range(counting.ends):
+        if WITHIN * max(counting.reach[j], counting.reach[j + 1]) <= 1.0:
             continue
         for i in range(1, QUARTERS):
-            look_at(N, H, W, C, R, P, K, L, Q, j + i / QUARTERS, largest)
+            look_at(counting, point, j + i / QUARTERS, largest)
 
 
 @jit
-def look_closer(N, H, W, C, R, P, K, L, Q, power, largest):
+def look_closer(counting, point, power, largest):
     """Count the cycles of the largest sum for one power near the best place and plane of a coarse look."""
-    at, side, angle = N.where[power, 0], N.where[power, 1], N.where[power, 2]
+    load, profile, ask, cycle, growth, table, history, curves = point
+    at, side, angle = counting.where[power, 0], counting.where[power, 1], counting.where[power, 2]
     wide, turned, best_at, best_angle = 1.0 / QUARTERS, STEP, at, angle
     for _ in range(ROUNDS):
         best, at, angle = -1.0, best_at, best_angle
         for i in range(OFFSETS.shape[0]):
-            here = min(max(at + wide * OFFSETS[i], 0.0), float(N.ends))
-            sample_at(N, H, C, R, P, K, L, Q, place_at(N, here), largest, CLOSELY, side)
-            fill(H, W, side, Q)
+            here = min(max(at + wide * OFFSETS[i], 0.0), float(counting.ends))
+            sample_at(counting, point, place_at(counting, here), largest, CLOSELY, side)
+            fill(history, curves, side, ask)
             for j in range(OFFSETS.shape[0]):
                 plane = angle + turned * OFFSETS[j]
-                follow(N, H, W, Q, cos(plane), sin(plane))
-                count_cycles(N, Q)
-                total = sum_of(N, POWERS[power])
+                follow(counting, history, curves, ask, cos(plane), sin(plane))
+                count_cycles(counting, ask)
+                total = sum_of(counting, POWERS[power])
                 if total > best:
                     best, best_at, best_angle = total, here, plane
         wide *= SHRINKING
         turned *= SHRINKING
-    sample_at(N, H, C, R, P, K, L, Q, place_at(N, best_at), largest, FINELY, side)
-    fill(H, W, side, Q)
-    follow(N, H, W, Q, cos(best_angle), sin(best_angle))
-    count_cycles(N, Q)
+    sample_at(counting, point, place_at(counting, best_at), largest, FINELY, side)
+    fill(history, curves, side, ask)
+    follow(counting, history, curves, ask, cos(best_angle), sin(best_angle))
+    count_cycles(counting, ask)
 
 
 @jit
-def keep_cycles(N, out):
+def keep_cycles(counting, out):
     """Append the cycles that were counted to the point's cycles."""
     k = out.begin[out.places]
-    for i in range(N.cycles):
-        share = N.value[i] / N.largest
+    for i in range(counting.cycles):
+        share = counting.value[i] / counting.largest
         if share > SMALLEST:
-            N.shares[k] = share
+            counting.shares[k] = share
             k += 1
     out.places += 1
     out.begin[out.places] = k
 
 
 @jit
-def set_largest(N):
+def set_largest(counting):
     """Note the largest cycle at the critical place, over which all others are told, and the sums there."""
-    N.largest = 0.0
-    for i in range(N.cycles):
-        N.largest = max(N.largest, N.value[i])
-    if N.largest > 0.0:
+    counting.largest = 0.0
+    for i in range(counting.cycles):
+        counting.largest = max(counting.largest, counting.value[i])
+    if counting.largest > 0.0:
         for p in range(POWERS.shape[0]):
-            N.known[p] = sum_of(N, POWERS[p])
+            counting.known[p] = sum_of(counting, POWERS[p])
 
 
 @jit
-def count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest):
+def count_home(counting, point, x, angle, largest):
     """Count the cycles at the critical place and plane."""
-    b, side = P.flat_radius, -1.0 if x < 0.0 else 1.0
+    load, profile, ask, cycle, growth, table, history, curves = point
+    b, side = profile.flat_radius, -1.0 if x < 0.0 else 1.0
     square = (abs(x) - b) * (abs(x) + b)
     place = sqrt(abs(square)) if square >= 0.0 else -sqrt(abs(square))
-    if P.singular and place >= 0.0:
+    if profile.singular and place >= 0.0:
         place = max(place, sqrt(2.0 * BESIDE) * b)
-    asked, needed = Q.growth, Q.growth
+    asked, needed = ask.growth, ask.growth
     while True:
-        growth = lay_out(R, C, P, L, asked)
-        sample_at(N, H, C, R, P, K, L, Q, place, largest, COARSELY, side)
-        fill(H, W, side, Q)
-        find_peaks(H, W, Q, cos(angle), sin(angle))
-        swing = W.top[SWING] + W.top[MINUS_SWING]
-        value = value_of(Q, lifted(Q, W.top[STRESS], swing, 0.0))
+        tolerance = lay_out(growth, cycle, profile, load, asked)
+        sample_at(counting, point, place, largest, COARSELY, side)
+        fill(history, curves, side, ask)
+        find_peaks(history, curves, ask, cos(angle), sin(angle))
+        swing = curves.top[SWING] + curves.top[MINUS_SWING]
+        value = value_of(ask, lifted(ask, curves.top[STRESS], swing, 0.0))
         if value > 0.0:  # as for s itself: what grew is told to a share of the tension
-            needed = Q.growth * min(tension_share(C, Q, min(W.top[STRESS], 0.5 * swing)), 1.0)
-        if growth > asked or R.panels == 0 or needed >= 0.5 * growth or growth <= FINEST_GROWTH:
+            needed = ask.growth * min(tension_share(cycle, ask, min(curves.top[STRESS], 0.5 * swing)), 1.0)
+        if tolerance > asked or growth.panels == 0 or needed >= 0.5 * tolerance or tolerance <= FINEST_GROWTH:
             break
         asked = max(0.5 * needed, FINEST_GROWTH)
-    resolve(H, W, C, P, K, L, side, value, angle, Q, value)
-    sample_closely(H, C, P, K, L, Q, FINELY)
-    rank_parts(N, H, L)
-    fill(H, W, side, Q)
-    follow(N, H, W, Q, cos(angle), sin(angle))
-    count_cycles(N, Q)
+    resolve(point, side, value, angle, value)
+    sample_closely(point, FINELY)
+    rank_parts(counting, history, load)
+    fill(history, curves, side, ask)
+    follow(counting, history, curves, ask, cos(angle), sin(angle))
+    count_cycles(counting, ask)
 
 
 @jit
-def count_far(N, P, L, Q):
+def count_far(counting, profile, load, ask):
     """Count the cycles far from the contact, where there is a bulk stress alone."""
-    angle = far_field(Q, L.bulk_range[1], L.bulk_range[0], P.plane)[1]
-    C, S, nu = cos(angle), sin(angle), Q.poisson_ratio
-    of_b, of_c = swing_weights(Q, C, S)
+    angle = far_field(ask, load.bulk_range[1], load.bulk_range[0], profile.plane)[1]
+    C, S, nu = cos(angle), sin(angle), ask.poisson_ratio
+    of_b, of_c = swing_weights(ask, C, S)
     of_tension = 0.5 * (1.0 + C)
     of_swing = 0.5 * of_b
-    if Q.criterion == SWT:  # (1-ν²) ε_n
-        of_swing += 0.5 * (1.0 + nu) - nu * (1.0 + nu if P.plane else 1.0)
-    count = L.sides if L.sides > 0 else min(SAMPLES * L.fastest, MAX_INSTANTS)
-    step = L.period / count
+    if ask.criterion == SWT:  # (1-ν²) ε_n
+        of_swing += 0.5 * (1.0 + nu) - nu * (1.0 + nu if profile.plane else 1.0)
+    count = load.sides if load.sides > 0 else min(SAMPLES * load.fastest, MAX_INSTANTS)
+    step = load.period / count
     for i in range(count):
-        stress = bulk_at(L, i * step)
-        if L.sides == 0:
-            before, after = bulk_at(L, (i - 1) * step), bulk_at(L, (i + 1) * step)
+        stress = bulk_at(load, i * step)
+        if load.sides == 0:
+            before, after = bulk_at(load, (i - 1) * step), bulk_at(load, (i + 1) * step)
             if (after - stress) * (stress - before) <= 0.0:
                 top = vertex(-1.0, 0.0, 1.0, before, stress, after)[1]
                 low = -vertex(-1.0, 0.0, 1.0, -before, -stress, -after)[1]
                 stress = top if top > stress else low
-        N.stress[i], N.swing[i] = of_tension * stress, of_swing * stress
-    N.points = count
-    count_cycles(N, Q)
+        counting.stress[i], counting.swing[i] = of_tension * stress, of_swing * stress
+    counting.points = count
+    count_cycles(counting, ask)
 
 
 @jit
-def count_point(C, R, S, H, W, K, N, P, L, Q, x, angle, out):
+def count_point(counting, search, point, x, angle, out):
     """Cycles of one point: on the critical plane, then at up to one place and plane for each power."""
+    load, profile, ask, cycle = point.load, point.profile, point.ask, point.cycle
     out.places = 0
     if isnan(angle):
         return
-    solve_cycle(C, L)
-    if not C.overflow and isnan(x):
-        count_far(N, P, L, Q)
-        set_largest(N)
-        if N.largest > 0.0:
-            keep_cycles(N, out)
-    elif not C.overflow:
-        C.shift, largest = shift_of(L, P, Q, C.event, C.events), place_of(P, C.largest)
-        count_home(N, H, W, C, R, P, K, L, Q, x, angle, largest)
-        set_largest(N)
-        if N.largest > 0.0:
-            keep_cycles(N, out)
-            look_along(N, S, H, W, C, R, P, K, L, Q, largest)
+    solve_cycle(cycle, load)
+    if not cycle.overflow and isnan(x):
+        count_far(counting, profile, load, ask)
+        set_largest(counting)
+        if counting.largest > 0.0:
+            keep_cycles(counting, out)
+    elif not cycle.overflow:
+        cycle.shift = shift_of(load, profile, ask, cycle.event, cycle.events)
+        largest = place_of(profile, cycle.largest)
+        count_home(counting, point, x, angle, largest)
+        set_largest(counting)
+        if counting.largest > 0.0:
+            keep_cycles(counting, out)
+            look_along(counting, search, point, largest)
             for power in range(POWERS.shape[0]):
-                if not N.found[power]:
+                if not counting.found[power]:
                     continue
-                look_closer(N, H, W, C, R, P, K, L, Q, power, largest)
-                if sum_of(N, POWERS[power]) > (1.0 + GAIN) * N.known[power]:
+                look_closer(counting, point, power, largest)
+                if sum_of(counting, POWERS[power]) > (1.0 + GAIN) * counting.known[power]:
                     for p in range(POWERS.shape[0]):
-                        N.known[p] = max(N.known[p], sum_of(N, POWERS[p]))
-                    keep_cycles(N, out)
-    out.overflow = C.overflow
+                        counting.known[p] = max(counting.known[p], sum_of(counting, POWERS[p]))
+                    keep_cycles(counting, out)
+    out.overflow = cycle.overflow
 
 
 @jit
-def count_points(C, R, S, H, W, K, N, profiles, which, loads, asks, x, angle, first, out):
+def count_points(counting, search, room, profiles, which, loads, asks, x, angle, first, out):
     """Point i from the first on: profile which[i], loads[i], asks[i], its critical x and 2θ.
 
     Returns the first point that has not been counted, for want of room for its cycles.
@@ -340,6 +349,7 @@ def count_points(C, R, S, H, W, K, N, profiles, which, loads, asks, x, angle, fi
         if used + MAX_PLACES * MAX_INSTANTS // 2 > MAX_SHARES:
             return i
         out[i].begin[0] = used
-        count_point(C, R, S, H, W, K, N, profiles[which[i]], loads[i], asks[i], x[i], angle[i], out[i])
+        point = Point(loads[i], profiles[which[i]], asks[i], *room)
+        count_point(counting, search, point, x[i], angle[i], out[i])
         used = out[i].begin[out[i].places]
     return which.shape[0]

@@ -8,7 +8,7 @@ from swtstudy.kernel.planes import extremes, fill
 
 
 @jit
-def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, halved, found):
+def highest_on_planes(point, largest, places, cosines, sines, halved, found):
     """Write the largest value over planes at places s, and the number of its plane, at x > 0 and x < 0.
 
     Parameters
@@ -22,21 +22,22 @@ def highest_on_planes(H, W, C, R, P, K, L, Q, largest, places, cosines, sines, h
     found
         Shape (X, 2, 2): by place and side the value and the number of the plane.
     """
+    profile, ask, cycle, history, curves = point.profile, point.ask, point.cycle, point.history, point.curves
     for i in range(places.shape[0]):
         for side in range(2):
             sign = 1.0 - 2.0 * side
-            if side == 0 or C.shift != 0.0:
-                sample_cycle(H, C, R, P, K, L, Q, places[i], largest, sign, COARSEST)
+            if side == 0 or cycle.shift != 0.0:
+                sample_cycle(point, places[i], largest, sign, COARSEST)
                 for _ in range(halved):
-                    for z in range(H.parts):
-                        if may_be_refined(H, C, z) and H.instants + 2 * ROOM < MAX_INSTANTS:
-                            refine(H, z, C, P, L)
-                write_stress(H, C, P, L, K, Q)
-            fill(H, W, sign, Q)
+                    for z in range(history.parts):
+                        if may_be_refined(history, cycle, z) and history.instants + 2 * ROOM < MAX_INSTANTS:
+                            refine(history, z, cycle, profile, point.load)
+                write_stress(point)
+            fill(history, curves, sign, ask)
             found[i, side, 0], found[i, side, 1] = 0.0, 0.0
             for k in range(cosines.shape[0]):
-                of_b, of_c = swing_weights(Q, cosines[k], sines[k])
-                top, high, low = extremes(W, H.instants, cosines[k], sines[k], of_b, of_c)
-                value = value_of(Q, lifted(Q, top, high - low, 0.0))
+                of_b, of_c = swing_weights(ask, cosines[k], sines[k])
+                top, high, low = extremes(curves, history.instants, cosines[k], sines[k], of_b, of_c)
+                value = value_of(ask, lifted(ask, top, high - low, 0.0))
                 if value > found[i, side, 0]:
                     found[i, side, 0], found[i, side, 1] = value, k

@@ -7,17 +7,18 @@ import numpy as np
 from swtstudy.kernel.along import map_line, plane_at
 from swtstudy.kernel.at_place import MAX_SEEN
 from swtstudy.kernel.batch import _refuse_overflow, chunks, memory
-from swtstudy.kernel.beneath import PLACE, edges, stress_field
-from swtstudy.kernel.body import HERE, OF_BODY, largest_at_places, von_mises_at_places
+from swtstudy.kernel.beneath import edges, stress_field
+from swtstudy.kernel.body import OF_BODY, largest_at_places, von_mises_at_places
 from swtstudy.kernel.chebyshev import FINEST
-from swtstudy.kernel.contact import CYCLE, solve_cycle
+from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, far_field
-from swtstudy.kernel.growth import GROWTH, lay_out
-from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.mean import CELLS, FIRST, mean_at
+from swtstudy.kernel.growth import lay_out
+from swtstudy.kernel.line import SEARCH
+from swtstudy.kernel.mean import FIRST, MEAN, mean_at
 from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.records import Body, Point
 from swtstudy.kernel.shift import centre_of, shift_of
 
 #: Tolerance of what grew, of the stress itself: 1e-8 of the largest pressure.
@@ -35,17 +36,13 @@ class Opened(NamedTuple):
 
     Attributes
     ----------
-    contact, growth, profile, load, ask
-        Records of CYCLE, GROWTH, PROFILE, LOAD and ASK.
+    point
+        The records of the point.
     largest
         Place s of the largest contact.
     """
 
-    contact: np.record
-    growth: np.record
-    profile: np.record
-    load: np.record
-    ask: np.record
+    point: Point
     largest: float
 
 
@@ -65,62 +62,64 @@ def open_cycle(tolerance=OF_GROWTH, **given):
         None if there is no equilibrium.
     """
     _, profiles, _, loads, asks = next(iter(chunks(**given)))
-    C, R = memory(CYCLE, GROWTH)
-    P, L, Q = profiles[0], loads[0], asks[0]
-    solve_cycle(C, L)
-    if C["no_equilibrium"]:
+    load, profile, ask, cycle, growth, *_ = point = Point(loads[0], profiles[0], asks[0], *memory(*OF_POINT))
+    solve_cycle(cycle, load)
+    if cycle["no_equilibrium"]:
         return None
-    _refuse_overflow(C["overflow"])
-    C["shift"] = shift_of(L, P, Q, C["event"], np.int64(C["events"]))
-    lay_out(R, C, P, L, tolerance)
-    return Opened(C, R, P, L, Q, float(place_of(P, float(C["largest"]))))
+    _refuse_overflow(cycle["overflow"])
+    cycle["shift"] = shift_of(load, profile, ask, cycle["event"], np.int64(cycle["events"]))
+    lay_out(growth, cycle, profile, load, tolerance)
+    return Opened(point, float(place_of(profile, float(cycle["largest"]))))
+
+
+def body_of(opened):
+    """The records for places of the body of an opened point."""
+    return Body(*memory(*OF_BODY), opened.point)
 
 
 def instants_of(opened, angle):
     """Instants of the record from angles of the common period, [0, 2π)."""
-    load = opened.load
+    load = opened.point.load
     return np.mod(angle * (load["rounds"] * load["period"] / (2.0 * np.pi)), load["period"])
 
 
 def contact_radii(opened, angle):
     """Contact radius at angles of the common period, (m,), in a_H; 0 out of contact."""
     radius = np.empty(angle.size)
-    edges(opened.profile, opened.load, instants_of(opened, angle), radius)
+    edges(opened.point.profile, opened.point.load, instants_of(opened, angle), radius)
     return radius
 
 
 def largest_radius(opened):
     """Largest contact radius of the cycle in a_H."""
-    return float(radius_of(opened.profile, opened.largest))
+    return float(radius_of(opened.point.profile, opened.largest))
 
 
 def passed_radii(opened, most):
     """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
-    C, _, P, *_ = opened
-    pieces, stretches = int(C["pieces"]), int(C["stretches"])
-    starts = C["start_s"][:pieces][C["used"][:pieces] == 1]
-    every = np.unique(np.concatenate([starts, C["place"][:stretches, :: FINEST // 4].ravel()]))
-    if C["shift"] != 0.0:
-        off = [centre_of(P, C["shift"], C["largest"], opened.largest, s) for s in every]
+    cycle, profile = opened.point.cycle, opened.point.profile
+    pieces, stretches = int(cycle["pieces"]), int(cycle["stretches"])
+    starts = cycle["start_s"][:pieces][cycle["used"][:pieces] == 1]
+    every = np.unique(np.concatenate([starts, cycle["place"][:stretches, :: FINEST // 4].ravel()]))
+    if cycle["shift"] != 0.0:
+        off = [centre_of(profile, cycle["shift"], cycle["largest"], opened.largest, s) for s in every]
         every = np.unique(np.abs(np.concatenate([every, every + off, every - off])))
     if len(every) > most:
         every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
-    return np.sqrt(every * every + float(P["flat_radius"]) ** 2)
+    return np.sqrt(every * every + float(profile["flat_radius"]) ** 2)
 
 
 def far_field_of(opened):
     """The criterion far from the contact, where there is the bulk stress alone."""
-    low, high = map(float, opened.load["bulk_range"])
-    return float(far_field(opened.ask, high, low, opened.profile["plane"])[0])
+    low, high = map(float, opened.point.load["bulk_range"])
+    return float(far_field(opened.point.ask, high, low, opened.point.profile["plane"])[0])
 
 
 def stress_at(opened, places, angle):
     """Stress at places (n, 3) in a_H and angles of the common period (m,), shape (n, m, 6)."""
-    C, R, P, L, Q, largest = opened
-    (B,) = memory(PLACE)
-    stress = np.empty((len(places), angle.size, 6))
-    stress_field(B, C, R, P, L, Q, places, instants_of(opened, angle), largest, stress)
-    _refuse_overflow(B["overflow"])
+    body, stress = body_of(opened), np.empty((len(places), angle.size, 6))
+    stress_field(body, places, instants_of(opened, angle), opened.largest, stress)
+    _refuse_overflow(body.below["overflow"])
     return stress
 
 
@@ -147,11 +146,10 @@ def criterion_at(opened, places, tolerance, floor=0.0, coarsest=SINGLE):
     normals
         Shape (n, 3): unit normals of the planes; n and -n are one plane.
     """
-    C, R, P, L, Q, largest = opened
-    B, S, G, H, W, K = memory(*OF_BODY, *OF_POINT[3:])
     found, normals = np.empty((len(places), 2)), np.empty((len(places), 3))
-    own = places, largest, floor, tolerance, coarsest, AVERAGED if coarsest == MANY else ALONE
-    largest_at_places(S, B, H, W, G, C, R, P, K, L, Q, *own, found, normals)
+    alone = AVERAGED if coarsest == MANY else ALONE
+    own = opened.largest, floor, tolerance, coarsest, alone
+    largest_at_places(body_of(opened), places, *own, found, normals)
     _refuse_overflow(np.isnan(found).any())
     return *found.T, normals
 
@@ -179,12 +177,11 @@ def mean_about(opened, kind, x, direction, distance, known, rtol, first=FIRST):
     first
         `FIRST`, or `ROUGHLY` of a mean that only leads to another: cells at first.
     """
-    C, R, P, L, Q, largest = opened
-    B, S, G, H, W, K, M = memory(*OF_BODY, *OF_POINT[3:], CELLS)
-    own = kind, float(x), *direction, float(distance), largest, float(known), float(rtol), first
-    mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, *own)
-    _refuse_overflow(np.isnan(M["average"]))
-    return float(M["average"]), float(M["error"])
+    (mean,) = memory(MEAN)
+    own = kind, float(x), *direction, float(distance), opened.largest, float(known), float(rtol), first
+    mean_at(mean, body_of(opened), *own)
+    _refuse_overflow(np.isnan(mean["average"]))
+    return float(mean["average"]), float(mean["error"])
 
 
 def surface_above(opened, limit, s):
@@ -203,15 +200,13 @@ def surface_above(opened, limit, s):
         Shape (n,): ascending signed places in a_H, only x ≥ 0 of a mirrored load, and the values;
         values below the limit may be low.
     """
-    C, R, P, L, Q, _ = opened
-    S, H, W, K = memory(*OF_POINT[2:])
-    Q = Q.copy()
-    Q["near"] = min(float(Q["near"]), limit / s)
-    map_line(S, H, W, C, R, P, K, L, Q, float(limit))
-    count = min(int(S["positions"]), MAX_SEEN)
-    place, value = S["seen"][:count], S["seen_value"][:count]
-    x = np.sqrt(np.maximum(float(P["flat_radius"]) ** 2 + place * np.abs(place), 0.0))
-    if not L["mirrored"]:
+    (search,), ask = memory(SEARCH), opened.point.ask.copy()
+    ask["near"] = min(float(ask["near"]), limit / s)
+    map_line(search, opened.point._replace(ask=ask), float(limit))
+    count = min(int(search["positions"]), MAX_SEEN)
+    place, value = search["seen"][:count], search["seen_value"][:count]
+    x = np.sqrt(np.maximum(float(opened.point.profile["flat_radius"]) ** 2 + place * np.abs(place), 0.0))
+    if not opened.point.load["mirrored"]:
         x, value = np.concatenate([-x, x]), np.concatenate([value[:, 1], value[:, 0]])
     else:
         value = value[:, 0]
@@ -222,19 +217,15 @@ def surface_above(opened, limit, s):
 
 def direction_at(opened, x):
     """Direction into the body along the critical plane at x of the surface line: to the right, and down."""
-    C, R, P, L, Q, largest = opened
-    S, H, W, K = memory(*OF_POINT[2:])
-    angle = 0.5 * plane_at(S, H, W, C, R, P, K, L, Q, largest, float(x))
+    angle = 0.5 * plane_at(*memory(SEARCH), opened.point, opened.largest, float(x))
     sign = 1.0 if np.cos(angle) >= 0.0 else -1.0
     return -np.sin(angle) * sign, np.cos(angle) * sign
 
 
 def von_mises_at(opened, places):
     """Largest von Mises stress of the cycle at places (n, 3), in E* δ0/a_H."""
-    C, R, P, L, Q, largest = opened
-    H, B, S = memory(HISTORY, PLACE, HERE)
     values = np.empty(len(places))
-    von_mises_at_places(S, B, H, C, R, P, L, Q, places, largest, values)
+    von_mises_at_places(body_of(opened), places, opened.largest, values)
     _refuse_overflow(np.isnan(values).any())
     return values
 
@@ -245,20 +236,20 @@ def instants_at(opened, place, tolerance):
     They include the angles that gave the value, and others close to the extremes of its curves.
     """
     normal = criterion_at(opened, place[None], tolerance)[2][0]
-    load, (H,) = opened.load, memory(HISTORY)
+    load, history, ask = opened.point.load, opened.point.history, opened.point.ask
     time = [
-        H["instant"][first : first + count + 1] + 0.5 * load["period"] * mirrored
+        history["instant"][first : first + count + 1] + 0.5 * load["period"] * mirrored
         for first, count, mirrored in zip(
-            *(H[name][: H["parts"]] for name in ("first", "intervals", "mirror")), strict=True
+            *(history[name][: history["parts"]] for name in ("first", "intervals", "mirror")), strict=True
         )
     ]
     angle = np.mod(np.concatenate(time) * (2.0 * np.pi / load["period"]), 2.0 * np.pi)
     angle = np.unique(np.concatenate([angle, [0.0, 2.0 * np.pi]]))
-    nu = float(opened.ask["poisson_ratio"]) if opened.ask["criterion"] == SWT else 0.0
+    nu = float(ask["poisson_ratio"]) if ask["criterion"] == SWT else 0.0
     share = np.arange(1, CLOSER) / CLOSER
     for _ in range(LOOKS):
         stress = stress_at(opened, place[None], angle / load["rounds"])[0]
-        curves = curves_on_plane(stress, normal, nu, opened.ask["criterion"] == SWT)
+        curves = curves_on_plane(stress, normal, nu, ask["criterion"] == SWT)
         ends = np.array([index for curve in curves for index in (curve.argmin(), curve.argmax())])
         left = np.unique(np.concatenate([ends - 1, ends]))
         left = left[(left >= 0) & (left < len(angle) - 1)]

@@ -39,68 +39,70 @@ HISTORY = np.dtype(
 
 
 @jit
-def functionals(P, K, s, H):
+def functionals(profile, table, s, history):
     """T1, T3, B, V of the profile up to s, about the centre of the stick zone of this size."""
-    if P.is_hertz:
-        x = H.x - centre_of(P, H.shift, H.load, H.reach, s)
-        t1, t3, b, v = strip_hertz(s, abs(x)) if P.plane else hertz(s, abs(x))
+    if profile.is_hertz:
+        x = history.x - centre_of(profile, history.shift, history.load, history.reach, s)
+        t1, t3, b, v = strip_hertz(s, abs(x)) if profile.plane else hertz(s, abs(x))
         return (t1, t3, b, v) if x >= 0.0 else (-t1, -t3, b, v)
-    return running(K, FIRST, s, H.X, H.all_outside)
+    return running(table, FIRST, s, history.X, history.all_outside)
 
 
 @jit
-def is_sharp(P):
+def is_sharp(profile):
     """True for ξⁿ with 1 < n < 2, a tip sharper than a paraboloid."""
-    return 0.0 < P.exponent < 2.0
+    return 0.0 < profile.exponent < 2.0
 
 
 @jit
-def turn_at_centre(P):
+def turn_at_centre(profile):
     """κ/t of a sharp tip."""
-    m, half = P.exponent - 1.0, 0.5 if P.plane else 1.0
+    m, half = profile.exponent - 1.0, 0.5 if profile.plane else 1.0
     of_t = gamma(half + 0.5 * m) / gamma(half + 0.5 + 0.5 * m)
     return gamma(1.0 - 0.5 * m) / (m * gamma(0.5 - 0.5 * m) * of_t)
 
 
 @jit
-def slope_of(C, i):
+def slope_of(cycle, i):
     """do/dG of a piece that did not grow."""
-    return 0.0 if i == NONE else C.slope[i]
+    return 0.0 if i == NONE else cycle.slope[i]
 
 
 @jit
-def integrate_pieces(H, C, R, P, K, largest):
+def integrate_pieces(history, cycle, growth, profile, table, largest):
     """Tabulate the profile and what grew at x, and ∫ o′ (T1, T3, B) up to the start of each piece."""
-    k, b, x, X, outside, plane = FIRST, P.flat_radius, H.x, H.X, H.all_outside, P.plane
-    if not P.is_hertz:
-        panels = P.begin[:], P.end[:], P.density[:]
-        k = tabulate(K, FIRST, FIRST, *panels, FIRST, P.panels, largest, b, x, X, outside, plane)
-    for i in range(C.pieces):
-        if C.used[i] == 0:
+    k, b, plane = FIRST, profile.flat_radius, profile.plane
+    x, X, outside = history.x, history.X, history.all_outside
+    if not profile.is_hertz:
+        panels = profile.begin[:], profile.end[:], profile.density[:]
+        k = tabulate(table, FIRST, FIRST, *panels, FIRST, profile.panels, largest, b, x, X, outside, plane)
+    for i in range(cycle.pieces):
+        if cycle.used[i] == 0:
             continue
-        if C.kind[i] == GROWN:
-            first, last = R.first[i], R.last[i]
-            panels = R.begin[:], R.end[:], R.density[:]
-            k = tabulate(K, 1 + i, k, *panels, first, last, 1e300, b, x, X, outside, plane)
+        if cycle.kind[i] == GROWN:
+            first, last = growth.first[i], growth.last[i]
+            panels = growth.begin[:], growth.end[:], growth.density[:]
+            k = tabulate(table, 1 + i, k, *panels, first, last, 1e300, b, x, X, outside, plane)
         if k + 2 >= MAX_TABLES:
-            C.overflow = 1
-        beneath, s = C.beneath[i], C.start_s[i]
-        t1, t3, b1, v1 = functionals(P, K, s, H)
+            cycle.overflow = 1
+        beneath, s = cycle.beneath[i], cycle.start_s[i]
+        t1, t3, b1, v1 = functionals(profile, table, s, history)
         o1, o3, ob = 0.0, 0.0, 0.0
         if beneath != NONE:
-            o1, o3, ob = H.up_to_start[beneath, 0], H.up_to_start[beneath, 1], H.up_to_start[beneath, 2]
-            if C.kind[beneath] == GROWN:
-                g1, g3, gb, gv = running(K, 1 + beneath, s, H.X, H.all_outside)
+            before = history.up_to_start[beneath]
+            o1, o3, ob = before[0], before[1], before[2]
+            if cycle.kind[beneath] == GROWN:
+                g1, g3, gb, gv = running(table, 1 + beneath, s, history.X, history.all_outside)
                 o1 += g1
                 o3 += g3
                 ob += gb
-        jump = slope_of(C, beneath) - slope_of(C, i)
-        H.up_to_start[i, 0], H.up_to_start[i, 1] = o1 + jump * t1, o3 + jump * t3
-        H.up_to_start[i, 2] = ob + jump * b1
+        jump = slope_of(cycle, beneath) - slope_of(cycle, i)
+        history.up_to_start[i, 0], history.up_to_start[i, 1] = o1 + jump * t1, o3 + jump * t3
+        history.up_to_start[i, 2] = ob + jump * b1
 
 
 @jit
-def stress(H, m, C, P, K, k, edge, front, sign, Q):
+def stress(history, m, cycle, profile, table, k, edge, front, sign, ask):
     """Write instant m: the stress at x in stretch k with its edge and front at these places s.
 
     The sign is -1 in the mirrored half of the cycle, else 1.
@@ -108,76 +110,80 @@ def stress(H, m, C, P, K, k, edge, front, sign, Q):
     over the pieces of the diagram, each a slope times a running integral. In plane strain
     σ_yy = ν (σ_xx + σ_zz).
     """
-    push, i = C.push[k], C.piece[k]
+    push, i = cycle.push[k], cycle.piece[k]
     if push == OPEN or edge <= 0.0:
-        H.p[m], H.within[m], H.xx[m], H.yy[m], H.q[m] = 0.0, 0.0, 0.0, 0.0, 0.0
+        history.p[m], history.within[m], history.xx[m], history.yy[m], history.q[m] = 0.0, 0.0, 0.0, 0.0, 0.0
         return
-    n1, n3, nb, nv = functionals(P, K, edge, H)
-    rise = H.turn * n1  # of B, up to the centre
+    n1, n3, nb, nv = functionals(profile, table, edge, history)
+    rise = history.turn * n1  # of B, up to the centre
     o1, o3, ob = push * n1, push * n3, push * nb  # ∫ o′ beyond the front
     if i != NONE:
-        o1 += H.up_to_start[i, 0]
-        o3 += H.up_to_start[i, 1]
-        ob += H.up_to_start[i, 2]
-        if C.kind[i] == GROWN:
-            g1, g3, gb, gv = running(K, 1 + i, front, H.X, H.all_outside)
+        o1 += history.up_to_start[i, 0]
+        o3 += history.up_to_start[i, 1]
+        ob += history.up_to_start[i, 2]
+        if cycle.kind[i] == GROWN:
+            g1, g3, gb, gv = running(table, 1 + i, front, history.X, history.all_outside)
             o1 += g1
             o3 += g3
             ob += gb
-        jump = slope_of(C, i) - push
+        jump = slope_of(cycle, i) - push
         if jump != 0.0:
             if push != STICK:
-                n1, n3, f_b, f_v = functionals(P, K, front, H)
+                n1, n3, f_b, f_v = functionals(profile, table, front, history)
             else:
                 f_b = nb
             o1 += jump * n1
             o3 += jump * n3
             ob += jump * f_b
-    ob += H.rest * H.turn * o1
-    o1, o3 = (1.0 - H.rest) * o1, (1.0 - H.rest) * o3
-    nu, friction = Q.poisson_ratio, sign * Q.friction / pi
-    H.p[m], H.q[m] = (nb + H.rest * rise) / pi, friction * ob
-    if P.plane:
-        H.within[m], H.xx[m], H.yy[m] = 0.0, -friction * o1, -friction * nu * o1
+    ob += history.rest * history.turn * o1
+    o1, o3 = (1.0 - history.rest) * o1, (1.0 - history.rest) * o3
+    nu, friction = ask.poisson_ratio, sign * ask.friction / pi
+    history.p[m], history.q[m] = (nb + history.rest * rise) / pi, friction * ob
+    if profile.plane:
+        history.within[m], history.xx[m], history.yy[m] = 0.0, -friction * o1, -friction * nu * o1
         return
-    if H.all_outside == 0:
-        nv += force_at(P, min(edge, H.X)) / (H.x * H.x)
-    H.within[m] = (1.0 - 2.0 * nu) / pi * ((1.0 - H.rest) * nv + H.rest * 0.5 * (nb + rise))
-    H.xx[m] = -friction * ((1.0 + nu) * o1 - nu * o3)
-    H.yy[m] = -friction * nu * o3
+    if history.all_outside == 0:
+        nv += force_at(profile, min(edge, history.X)) / (history.x * history.x)
+    history.within[m] = (1.0 - 2.0 * nu) / pi * ((1.0 - history.rest) * nv + history.rest * 0.5 * (nb + rise))
+    history.xx[m] = -friction * ((1.0 + nu) * o1 - nu * o3)
+    history.yy[m] = -friction * nu * o3
 
 
 @jit
-def write_stress(H, C, P, L, K, Q):
+def write_stress(point):
     """Write the stress at the new instants; a known one is copied, perhaps to where the load is mirrored."""
-    for m in range(H.written, H.instants):
-        i, z = H.known[m], H.part[m]
+    load, profile, ask, cycle, growth, table, history, curves = point
+    for m in range(history.written, history.instants):
+        i, z = history.known[m], history.part[m]
         if i == NONE:
-            sign = -1.0 if H.mirror[z] else 1.0
-            stress(H, m, C, P, K, H.stretch[z], H.state[m, 0], H.state[m, 1], sign, Q)
-            H.bulk[m] = bulk_at(L, H.instant[m])
+            edge, front, sign = history.state[m, 0], history.state[m, 1], -1.0 if history.mirror[z] else 1.0
+            stress(history, m, cycle, profile, table, history.stretch[z], edge, front, sign, ask)
+            history.bulk[m] = bulk_at(load, history.instant[m])
             continue
-        sign = 1.0 if H.mirror[z] == H.mirror[H.part[i]] else -1.0
-        H.p[m], H.within[m], H.bulk[m] = H.p[i], H.within[i], H.bulk[i]
-        H.xx[m], H.yy[m], H.q[m] = sign * H.xx[i], sign * H.yy[i], sign * H.q[i]
-    H.written = H.instants
+        sign = 1.0 if history.mirror[z] == history.mirror[history.part[i]] else -1.0
+        history.p[m], history.within[m], history.bulk[m] = history.p[i], history.within[i], history.bulk[i]
+        history.xx[m], history.yy[m] = sign * history.xx[i], sign * history.yy[i]
+        history.q[m] = sign * history.q[i]
+    history.written = history.instants
 
 
 @jit
-def begin_history(H, C, R, P, K, place, largest, side):
+def begin_history(point, place, largest, side):
     """Prepare a history at place s of the line, still without an instant; parameters as of `sample_cycle`."""
-    H.turn, H.rest, innermost = 0.0, 0.0, INNERMOST * largest
-    if is_sharp(P) and place < innermost:
-        H.turn, H.rest = turn_at_centre(P), 1.0 - (place / innermost) ** (P.exponent - 1.0)
+    profile, history = point.profile, point.history
+    history.turn, history.rest, innermost = 0.0, 0.0, INNERMOST * largest
+    if is_sharp(profile) and place < innermost:
+        history.turn = turn_at_centre(profile)
+        history.rest = 1.0 - (place / innermost) ** (profile.exponent - 1.0)
         place = innermost
-    x = sqrt(P.flat_radius * P.flat_radius + place * abs(place))
-    begin_parts(H, C, P, place, x, 0.0, largest, side * C.shift)
-    H.plane = P.plane
-    integrate_pieces(H, C, R, P, K, largest)
+    x = sqrt(profile.flat_radius * profile.flat_radius + place * abs(place))
+    begin_parts(history, point.cycle, profile, place, x, 0.0, largest, side * point.cycle.shift)
+    history.plane = profile.plane
+    integrate_pieces(history, point.cycle, point.growth, profile, point.table, largest)
 
 
 @jit
-def sample_cycle(H, C, R, P, K, L, Q, place, largest, side, coarsest):
+def sample_cycle(point, place, largest, side, coarsest):
     """All parts of the cycle at x, coarsely.
 
     Parameters
@@ -191,6 +197,6 @@ def sample_cycle(H, C, R, P, K, L, Q, place, largest, side, coarsest):
     coarsest
         Intervals of a part.
     """
-    begin_history(H, C, R, P, K, place, largest, side)
-    lay_parts(H, C, P, L, coarsest)
-    write_stress(H, C, P, L, K, Q)
+    begin_history(point, place, largest, side)
+    lay_parts(point.history, point.cycle, point.profile, point.load, coarsest)
+    write_stress(point)

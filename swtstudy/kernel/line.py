@@ -75,301 +75,306 @@ GRADED = 20.0
 
 
 @jit
-def bound_of(S, k, side):
+def bound_of(search, k, side):
     """Bound of interval k on one side."""
-    f1, f2, drop = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.drop[k, side]
-    if S.unseen[k] and (S.crowd == 0.0 or max(f1, f2) > 0.0):  # else this side has been ruled out
+    f1, f2, drop = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.drop[k, side]
+    if search.unseen[k] and (search.crowd == 0.0 or max(f1, f2) > 0.0):  # else this side has been ruled out
         return 1e300
-    if S.crowd > 0.0 and S.ends[k, 1] - S.ends[k, 0] > 3.0:
+    if search.crowd > 0.0 and search.ends[k, 1] - search.ends[k, 0] > 3.0:
         return max(f1, f2) + 0.125 * drop
     return above(f1, f2, drop)
 
 
 @jit
-def set_bound(S, k):
+def set_bound(search, k):
     """Bound of interval k over both sides."""
-    S.bound[k] = max(bound_of(S, k, 0), bound_of(S, k, 1))
+    search.bound[k] = max(bound_of(search, k, 0), bound_of(search, k, 1))
 
 
 @jit
-def position(S, k, angle):
+def position(search, k, angle):
     """Place at an angle on the piece of interval k."""
-    left, right = S.piece[k, 0], S.piece[k, 1]
+    left, right = search.piece[k, 0], search.piece[k, 1]
     share = 0.5 - 0.5 * cos(angle)
-    if S.singular and left > 0.0 and right > GRADED * left:
+    if search.singular and left > 0.0 and right > GRADED * left:
         return left * (right / left) ** share
     return left + (right - left) * share
 
 
 @jit
-def set_piece(S, k, left, right):
+def set_piece(search, k, left, right):
     """Make interval k a whole piece from left to right, between whose values the trust is a bound."""
-    S.piece[k, 0], S.piece[k, 1], S.ends[k, 0], S.ends[k, 1] = left, right, 0.0, pi
-    S.upper[k] = 0
+    search.piece[k, 0], search.piece[k, 1], search.ends[k, 0], search.ends[k, 1] = left, right, 0.0, pi
+    search.upper[k] = 0
     trust = TRUST
-    if S.crowd > 0.0:  # roots of distances within the piece
-        trust *= min(1.0, S.rise[k] * sqrt((right - left) / S.crowd))
+    if search.crowd > 0.0:  # roots of distances within the piece
+        trust *= min(1.0, search.rise[k] * sqrt((right - left) / search.crowd))
     for side in range(2):
-        S.drop[k, side] = trust * max(S.at_ends[k, 0, side], S.at_ends[k, 1, side])
-    set_bound(S, k)
+        search.drop[k, side] = trust * max(search.at_ends[k, 0, side], search.at_ends[k, 1, side])
+    set_bound(search, k)
 
 
 @jit
-def set_group(S, k, first, last, L):
+def set_group(search, k, first, last, load):
     """Make interval k the pieces between two cusps: a group, or a piece if there is but one."""
-    left, right = S.cusp[first], S.cusp[last]
-    S.cusps[k, 0], S.cusps[k, 1] = (first, last) if last > first + 1 else (0, 0)
-    S.unseen[k] = 0
+    left, right = search.cusp[first], search.cusp[last]
+    search.cusps[k, 0], search.cusps[k, 1] = (first, last) if last > first + 1 else (0, 0)
+    search.unseen[k] = 0
     if last == first + 1:
-        inside = left >= S.smallest * (1.0 - 1e-9) and right <= S.largest * (1.0 + 1e-9)
-        S.unseen[k] = L.sides == 0 and inside and right - left > NARROW * S.largest
-        S.beside[k, 0] = left - S.cusp[first - 1] if first > 0 else right - left
-        S.beside[k, 1] = S.cusp[last + 1] - right if last < S.last else right
-    set_piece(S, k, left, right)
+        inside = left >= search.smallest * (1.0 - 1e-9) and right <= search.largest * (1.0 + 1e-9)
+        search.unseen[k] = load.sides == 0 and inside and right - left > NARROW * search.largest
+        search.beside[k, 0] = left - search.cusp[first - 1] if first > 0 else right - left
+        search.beside[k, 1] = search.cusp[last + 1] - right if last < search.last else right
+    set_piece(search, k, left, right)
 
 
 @jit
-def grade(S, point, k):
+def grade(search, point, k):
     """Cut interval k beside much shorter pieces, where the value may be the largest.
 
     The cusps at the other end of a short piece are close to this one, too. A piece that is at most GRADED
     times as long as its neighbour has them at some distance, in its angle. New intervals are the last ones.
     """
-    near, new = point[7].near * S.best, S.intervals
-    while k < S.intervals and S.intervals + 1 < MAX_INTERVALS and S.cusps[k, 1] == 0:
+    near, new = point.ask.near * search.best, search.intervals
+    while k < search.intervals and search.intervals + 1 < MAX_INTERVALS and search.cusps[k, 1] == 0:
         cut = False
         for end in range(2):
-            length, f = S.piece[k, 1] - S.piece[k, 0], S.at_ends[k]
-            if length <= 2.0 * GRADED * S.beside[k, end] or max(f[end, 0], f[end, 1]) < near:
+            length, f = search.piece[k, 1] - search.piece[k, 0], search.at_ends[k]
+            if length <= 2.0 * GRADED * search.beside[k, end] or max(f[end, 0], f[end, 1]) < near:
                 continue
-            step, m = GRADED * S.beside[k, end], S.intervals
-            x = S.piece[k, 1] - step if end else S.piece[k, 0] + step
+            step, m = GRADED * search.beside[k, end], search.intervals
+            x = search.piece[k, 1] - step if end else search.piece[k, 0] + step
             # A side that has not been looked at, since it cannot matter, has the value 0 at both ends.
-            evaluate(S, point, x, max(f[0, 0], f[1, 0]) > 0.0, max(f[0, 1], f[1, 1]) > 0.0)
-            near, outer = point[7].near * S.best, S.piece[k, end]
+            evaluate(search, point, x, max(f[0, 0], f[1, 0]) > 0.0, max(f[0, 1], f[1, 1]) > 0.0)
+            near, outer = point.ask.near * search.best, search.piece[k, end]
             for side in range(2):
-                S.at_ends[m, end, side], S.at_ends[m, 1 - end, side] = f[end, side], S.value[side]
-                f[end, side] = S.value[side]
-            S.beside[m, end], S.beside[m, 1 - end], S.beside[k, end] = S.beside[k, end], length - step, step
-            S.unseen[m], S.cusps[m, 0], S.cusps[m, 1], S.rise[m] = S.unseen[k], 0, 0, S.rise[k]
-            set_piece(S, m, x if end else outer, outer if end else x)
-            set_piece(S, k, S.piece[k, 0] if end else x, x if end else S.piece[k, 1])
-            S.intervals += 1
+                search.at_ends[m, end, side] = f[end, side]
+                search.at_ends[m, 1 - end, side] = search.value[side]
+                f[end, side] = search.value[side]
+            search.beside[m, end], search.beside[m, 1 - end] = search.beside[k, end], length - step
+            search.beside[k, end] = step
+            search.unseen[m], search.rise[m] = search.unseen[k], search.rise[k]
+            search.cusps[m, 0], search.cusps[m, 1] = 0, 0
+            set_piece(search, m, x if end else outer, outer if end else x)
+            set_piece(search, k, search.piece[k, 0] if end else x, x if end else search.piece[k, 1])
+            search.intervals += 1
             cut = True
         if not cut:
             k = max(k + 1, new)
 
 
 @jit
-def divide(S, point, k, limit):
+def divide(search, point, k, limit):
     """Divide the group of pieces k at its middle cusp. A side without a value above the limit is left out."""
-    first, last, m, L = S.cusps[k, 0], S.cusps[k, 1], S.intervals, point[6]
+    first, last, m, load = search.cusps[k, 0], search.cusps[k, 1], search.intervals, point.load
     middle = (first + last) // 2
-    plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
-    evaluate(S, point, S.cusp[middle], plus, minus)
-    left, right, seen = S.piece[k, 0], S.piece[k, 1], 0.0
-    share = (S.cusp[middle] - left) / (right - left)
+    plus, minus = bound_of(search, k, 0) > limit, bound_of(search, k, 1) > limit
+    evaluate(search, point, search.cusp[middle], plus, minus)
+    left, right, seen = search.piece[k, 0], search.piece[k, 1], 0.0
+    share = (search.cusp[middle] - left) / (right - left)
     for side in range(2):
-        f1, f2, f = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.value[side]
+        f1, f2, f = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.value[side]
         if plus if side == 0 else minus:
             seen = max(seen, abs(f - f1 - share * (f2 - f1)) / max(f1, f2, f))
         else:  # nothing here can matter
-            S.at_ends[k, 0, side], S.at_ends[k, 1, side] = 0.0, 0.0
-        S.at_ends[m, 0, side], S.at_ends[m, 1, side] = S.value[side], S.at_ends[k, 1, side]
-        S.at_ends[k, 1, side] = S.value[side]
-    seen *= RISE * sqrt(S.crowd / (right - left))
-    S.rise[k] = S.rise[m] = min(max(seen, MEMORY * S.rise[k]), RISE)
-    set_group(S, k, first, middle, L)
-    set_group(S, m, middle, last, L)
-    S.intervals += 1
-    grade(S, point, k)
-    grade(S, point, m)
+            search.at_ends[k, 0, side], search.at_ends[k, 1, side] = 0.0, 0.0
+        search.at_ends[m, 0, side], search.at_ends[m, 1, side] = search.value[side], f2
+        search.at_ends[k, 1, side] = search.value[side]
+    seen *= RISE * sqrt(search.crowd / (right - left))
+    search.rise[k] = search.rise[m] = min(max(seen, MEMORY * search.rise[k]), RISE)
+    set_group(search, k, first, middle, load)
+    set_group(search, m, middle, last, load)
+    search.intervals += 1
+    grade(search, point, k)
+    grade(search, point, m)
 
 
 @jit
-def first_intervals(S, point):
+def first_intervals(search, point):
     """Evaluate cusps and make intervals of the pieces between them, and groups if there are many."""
-    S.crowd, S.intervals, L = 0.0, 0, point[6]
-    if S.last > 2 * GROUPS:
+    search.crowd, search.intervals, load = 0.0, 0, point.load
+    if search.last > 2 * GROUPS:
         k = 0
-        while S.cusp[k] < 0.5 * S.smallest:
+        while search.cusp[k] < 0.5 * search.smallest:
             k += 1
-        S.crowd = max(S.largest - S.cusp[k], 1e-6 * S.largest)
+        search.crowd = max(search.largest - search.cusp[k], 1e-6 * search.largest)
     after, plus, minus = -1, 0.0, 0.0
-    for j in range(S.last, -1, -1):  # the largest values are near the edges
-        if not ends_group(S, j, S.last, S.largest):
+    for j in range(search.last, -1, -1):  # the largest values are near the edges
+        if not ends_group(search, j, search.last, search.largest):
             continue
-        evaluate(S, point, S.cusp[j], ASKED, ASKED)
+        evaluate(search, point, search.cusp[j], ASKED, ASKED)
         if after > 0:
-            m = S.intervals
-            S.at_ends[m, 0, 0], S.at_ends[m, 0, 1] = S.value[0], S.value[1]
-            S.at_ends[m, 1, 0], S.at_ends[m, 1, 1] = plus, minus
-            S.rise[m] = RISE
-            set_group(S, m, j, after, L)
-            S.intervals += 1
-        after, plus, minus = j, S.value[0], S.value[1]
-    for k in range(S.intervals):
-        grade(S, point, k)
+            m = search.intervals
+            search.at_ends[m, 0, 0], search.at_ends[m, 0, 1] = search.value[0], search.value[1]
+            search.at_ends[m, 1, 0], search.at_ends[m, 1, 1] = plus, minus
+            search.rise[m] = RISE
+            set_group(search, m, j, after, load)
+            search.intervals += 1
+        after, plus, minus = j, search.value[0], search.value[1]
+    for k in range(search.intervals):
+        grade(search, point, k)
 
 
 @jit
-def begin_search(S, point):
+def begin_search(search, point):
     """Make the first intervals of the line."""
-    _, _, C, _, P, _, L, Q = point
-    S.smallest, S.largest = place_of(P, C.smallest), place_of(P, C.largest)
-    S.last = cusps(S, C, P, L, Q, S.largest) - 1
-    S.best, S.place, S.sign, S.angle, S.tension = 0.0, 0.0, 1.0, 0.0, 0.0
-    S.positions, S.singular = 0, P.singular
-    first_intervals(S, point)
+    load, profile, ask, cycle = point.load, point.profile, point.ask, point.cycle
+    search.smallest, search.largest = place_of(profile, cycle.smallest), place_of(profile, cycle.largest)
+    search.last = cusps(search, cycle, profile, load, ask, search.largest) - 1
+    search.best, search.place, search.sign, search.angle, search.tension = 0.0, 0.0, 1.0, 0.0, 0.0
+    search.positions, search.singular = 0, profile.singular
+    first_intervals(search, point)
 
 
 @jit
-def search_tip(S, point):
+def search_tip(search, point):
     """Search next to a sharp tip, where the stress is linear in x^m: evenly spaced, then uphill.
 
     A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
     """
-    P, Q = point[4], point[7]
-    power, best, at, step = 1.0 / (P.exponent - 1.0), -1.0, 0.0, 1.0 / TIP
+    profile, ask = point.profile, point.ask
+    power, best, at, step = 1.0 / (profile.exponent - 1.0), -1.0, 0.0, 1.0 / TIP
     for j in range(TIP):
-        evaluate(S, point, INNERMOST * S.largest * (j * step) ** power, ASKED, ASKED)
-        if max(S.value[0], S.value[1]) > best:
-            best, at = max(S.value[0], S.value[1]), j * step
-    while best >= Q.near * S.best and step > 0.1 * sqrt(Q.line):
+        evaluate(search, point, INNERMOST * search.largest * (j * step) ** power, ASKED, ASKED)
+        if max(search.value[0], search.value[1]) > best:
+            best, at = max(search.value[0], search.value[1]), j * step
+    while best >= ask.near * search.best and step > 0.1 * sqrt(ask.line):
         step *= 0.5
         for other in (at - step, at + step):
             if 0.0 <= other < 1.0:
-                evaluate(S, point, INNERMOST * S.largest * other**power, ASKED, ASKED)
-                if max(S.value[0], S.value[1]) > best:
-                    best, at = max(S.value[0], S.value[1]), other
+                evaluate(search, point, INNERMOST * search.largest * other**power, ASKED, ASKED)
+                if max(search.value[0], search.value[1]) > best:
+                    best, at = max(search.value[0], search.value[1]), other
 
 
 @jit
-def search_line(S, point):
+def search_line(search, point):
     """Find the largest swt on the line; returns by how much a higher one may be hidden.
 
     Parameters
     ----------
-    S
+    search
         Record of `SEARCH`.
     point
-        Records of HISTORY, WORK, CYCLE, GROWTH, PROFILE, TABLE, LOAD and ASK.
+        `swtstudy.kernel.records.Point`.
     """
-    P, L, Q = point[4], point[6], point[7]
-    begin_search(S, point)
-    if is_sharp(P):
-        search_tip(S, point)
+    profile, load, ask = point.profile, point.load, point.ask
+    begin_search(search, point)
+    if is_sharp(profile):
+        search_tip(search, point)
     while True:
-        k, limit = highest_bound(S), S.best * (1.0 + Q.line)
-        if S.bound[k] <= limit:
-            share_curvature(S)
-            if L.sides > 0 and L.bulk_moves:
-                look_beside_cusps(S, limit)
-            k = highest_bound(S)
-        if S.bound[k] <= limit or S.intervals + 2 > MAX_INTERVALS or S.positions > MOST_POSITIONS:
-            return max(S.bound[k] - S.best, 0.0)
-        cut(S, point, k, limit)
+        k, limit = highest_bound(search), search.best * (1.0 + ask.line)
+        if search.bound[k] <= limit:
+            share_curvature(search)
+            if load.sides > 0 and load.bulk_moves:
+                look_beside_cusps(search, limit)
+            k = highest_bound(search)
+        full = search.intervals + 2 > MAX_INTERVALS or search.positions > MOST_POSITIONS
+        if search.bound[k] <= limit or full:
+            return max(search.bound[k] - search.best, 0.0)
+        cut(search, point, k, limit)
 
 
 @jit
-def highest_bound(S):
+def highest_bound(search):
     """The interval with the highest bound."""
     highest = FIRST
-    for k in range(S.intervals):
-        if S.bound[k] > S.bound[highest]:
+    for k in range(search.intervals):
+        if search.bound[k] > search.bound[highest]:
             highest = k
     return highest
 
 
 @jit
-def share_curvature(S):
+def share_curvature(search):
     """Give the two intervals that meet at the best place the curvature through their three values.
 
     A narrow interval shows a curvature that the wide one beside it has not met.
     """
-    left, right, side = NONE, NONE, 0 if S.sign > 0.0 else 1
-    for k in range(S.intervals):
-        if S.cusps[k, 1] == 0 and S.piece[k, 0] < S.place < S.piece[k, 1]:
-            if position(S, k, S.ends[k, 1]) == S.place:
+    left, right, side = NONE, NONE, 0 if search.sign > 0.0 else 1
+    for k in range(search.intervals):
+        if search.cusps[k, 1] == 0 and search.piece[k, 0] < search.place < search.piece[k, 1]:
+            if position(search, k, search.ends[k, 1]) == search.place:
                 left = k
-            elif position(S, k, S.ends[k, 0]) == S.place:
+            elif position(search, k, search.ends[k, 0]) == search.place:
                 right = k
     if left == NONE or right == NONE:
         return
-    before, after = S.ends[left, 1] - S.ends[left, 0], S.ends[right, 1] - S.ends[right, 0]
-    rise, fall = S.best - S.at_ends[left, 0, side], S.best - S.at_ends[right, 1, side]
+    before, after = search.ends[left, 1] - search.ends[left, 0], search.ends[right, 1] - search.ends[right, 0]
+    rise, fall = search.best - search.at_ends[left, 0, side], search.best - search.at_ends[right, 1, side]
     curvature = 2.0 * (rise / before + fall / after) / (before + after)
-    S.drop[left, side] = max(S.drop[left, side], curvature * before * before)
-    S.drop[right, side] = max(S.drop[right, side], curvature * after * after)
-    set_bound(S, left)
-    set_bound(S, right)
+    search.drop[left, side] = max(search.drop[left, side], curvature * before * before)
+    search.drop[right, side] = max(search.drop[right, side], curvature * after * after)
+    set_bound(search, left)
+    set_bound(search, right)
 
 
 @jit
-def look_beside_cusps(S, limit):
+def look_beside_cusps(search, limit):
     """Have intervals halved in which the value falls from a high cusp by more than the tolerance.
 
     At a vertex of the load the bulk stress may fall at once while slip begins, whose tension rises like a
     root. The sum has a peak beside the cusp, as narrow as the square of the friction: no value farther away
     shows it.
     """
-    for k in range(S.intervals):
-        if S.cusps[k, 1] > 0 or S.ends[k, 1] - S.ends[k, 0] < FINEST_ANGLE:
+    for k in range(search.intervals):
+        if search.cusps[k, 1] > 0 or search.ends[k, 1] - search.ends[k, 0] < FINEST_ANGLE:
             continue
         for end in range(2):
-            if S.ends[k, end] != (0.0 if end == 0 else pi):
+            if search.ends[k, end] != (0.0 if end == 0 else pi):
                 continue
             for side in range(2):
-                f = S.at_ends[k, end, side]
-                fall = f - S.at_ends[k, 1 - end, side]
-                if f > HIGH * S.best and fall > BESIDE * (limit - S.best):
-                    S.drop[k, side] = max(S.drop[k, side], 8.0 * (limit - f) + 4.0 * fall)  # a bound above
-                    set_bound(S, k)
+                f = search.at_ends[k, end, side]
+                fall = f - search.at_ends[k, 1 - end, side]
+                if f > HIGH * search.best and fall > BESIDE * (limit - search.best):
+                    drop = 8.0 * (limit - f) + 4.0 * fall  # a bound above
+                    search.drop[k, side] = max(search.drop[k, side], drop)
+                    set_bound(search, k)
 
 
 @jit
-def cut(S, point, k, limit):
+def cut(search, point, k, limit):
     """Cut interval k in two, be it a group of pieces or not; below the limit nothing matters."""
-    if S.cusps[k, 1] > 0:
-        divide(S, point, k, limit)
+    if search.cusps[k, 1] > 0:
+        divide(search, point, k, limit)
     else:
-        halve(S, point, k, limit)
+        halve(search, point, k, limit)
 
 
 @jit
-def halve(S, point, k, limit):
+def halve(search, point, k, limit):
     """Halve interval k. Its upper half becomes the last interval.
 
     Curvature follows from the second difference, and from how far the new value is off the parabola through
     the three values before: four times that distance is what a third derivative changes in the drop.
     """
-    middle, m = 0.5 * (S.ends[k, 0] + S.ends[k, 1]), S.intervals
-    whole = S.ends[k, 1] - S.ends[k, 0] > 3.0
-    plus, minus = bound_of(S, k, 0) > limit, bound_of(S, k, 1) > limit
-    evaluate(S, point, position(S, k, middle), plus, minus)
-    S.intervals += 1
-    S.piece[m, 0], S.piece[m, 1] = S.piece[k, 0], S.piece[k, 1]
-    S.ends[m, 0], S.ends[m, 1], S.ends[k, 1] = middle, S.ends[k, 1], middle
+    middle, m = 0.5 * (search.ends[k, 0] + search.ends[k, 1]), search.intervals
+    whole = search.ends[k, 1] - search.ends[k, 0] > 3.0
+    plus, minus = bound_of(search, k, 0) > limit, bound_of(search, k, 1) > limit
+    evaluate(search, point, position(search, k, middle), plus, minus)
+    search.intervals += 1
+    search.piece[m, 0], search.piece[m, 1] = search.piece[k, 0], search.piece[k, 1]
+    search.ends[m, 0], search.ends[m, 1], search.ends[k, 1] = middle, search.ends[k, 1], middle
     # On a piece on which the growth may turn, values at three places within tell what the first one does not.
-    unseen = 1 if whole and S.unseen[k] else 0
-    S.unseen[k], S.unseen[m], S.cusps[m, 0], S.cusps[m, 1] = unseen, unseen, 0, 0
-    upper = S.upper[k]
-    S.upper[k], S.upper[m] = 0, 1
+    unseen = 1 if whole and search.unseen[k] else 0
+    search.unseen[k], search.unseen[m], search.cusps[m, 0], search.cusps[m, 1] = unseen, unseen, 0, 0
+    upper = search.upper[k]
+    search.upper[k], search.upper[m] = 0, 1
     for side in range(2):
-        f1, f2, f = S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.value[side]
+        f1, f2, f = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.value[side]
         if (side == 0 and plus) or (side == 1 and minus):
             drop = 2.0 * f - f1 - f2
             if whole:
                 drop = max(drop, TRUST * (max(f1, f2, f) - min(f1, f2, f)))
             else:
                 near, far = (f1, f2) if upper else (f2, f1)
-                expected = 0.125 * (3.0 * far + 6.0 * near - S.beyond[k, side])
+                expected = 0.125 * (3.0 * far + 6.0 * near - search.beyond[k, side])
                 drop = max(drop, 0.0) + TRUST * abs(f - expected)
-                drop = max(drop, MEMORY * S.drop[k, side])
+                drop = max(drop, MEMORY * search.drop[k, side])
         else:  # nothing here can matter
             f1, f2, f, drop = 0.0, 0.0, 0.0, 0.0
-        S.at_ends[k, 0, side], S.at_ends[k, 1, side], S.beyond[k, side] = f1, f, f2
-        S.at_ends[m, 0, side], S.at_ends[m, 1, side], S.beyond[m, side] = f, f2, f1
-        S.drop[k, side] = S.drop[m, side] = drop
-    set_bound(S, k)
-    set_bound(S, m)
+        search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.beyond[k, side] = f1, f, f2
+        search.at_ends[m, 0, side], search.at_ends[m, 1, side], search.beyond[m, side] = f, f2, f1
+        search.drop[k, side] = search.drop[m, side] = drop
+    set_bound(search, k)
+    set_bound(search, m)

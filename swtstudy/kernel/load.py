@@ -67,120 +67,121 @@ def power(c, s, k):
 
 
 @jit
-def mapped(L, x):
+def mapped(load, x):
     """The diagram's normal load n of a prescribed one, and two derivatives; bodies that are apart stay so."""
     if x <= 0.0:
         return x, 1.0, 0.0
-    first = L.map_begin[1] if L.map == BY_SERIES else LEAST
-    if L.map == BY_POWER or x < first:
-        p = L.map_power
+    first = load.map_begin[1] if load.map == BY_SERIES else LEAST
+    if load.map == BY_POWER or x < first:
+        p = load.map_power
         scale = 1.0
-        if L.map == BY_SERIES:  # up to the first panel
-            scale = L.map_series[0, 0] / first**p
+        if load.map == BY_SERIES:  # up to the first panel
+            scale = load.map_series[0, 0] / first**p
         elif x < first:
             scale, p = LEAST ** (p - 1.0), 1.0
         value = scale * x**p
         return value, p * value / x, p * (p - 1.0) * value / (x * x)
-    k = panel_of(L.map_begin, np.int64(1), L.map_panels, x)
-    width = 2.0 / (L.map_begin[k + 1] - L.map_begin[k])
-    y = (x - L.map_begin[k]) * width - 1.0
+    k = panel_of(load.map_begin, np.int64(1), load.map_panels, x)
+    width = 2.0 / (load.map_begin[k + 1] - load.map_begin[k])
+    y = (x - load.map_begin[k]) * width - 1.0
     b1, b2, d1, d2, e1, e2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(MAP_ORDER - 1, 0, -1):
         e1, e2 = 4.0 * d1 + 2.0 * y * e1 - e2, e1
         d1, d2 = 2.0 * b1 + 2.0 * y * d1 - d2, d1
-        b1, b2 = L.map_series[k, i] + 2.0 * y * b1 - b2, b1
-    value, rate, bend = L.map_series[k, 0] + y * b1 - b2, b1 + y * d1 - d2, 2.0 * d1 + y * e1 - e2
+        b1, b2 = load.map_series[k, i] + 2.0 * y * b1 - b2, b1
+    value, rate, bend = load.map_series[k, 0] + y * b1 - b2, b1 + y * d1 - d2, 2.0 * d1 + y * e1 - e2
     return value, width * rate, width * width * bend
 
 
 @jit
-def side_at(L, t):
+def side_at(load, t):
     """The side of a polygon at an instant, and the share of it that has passed."""
     side = int(t)
-    return side - L.sides if side >= L.sides else side, t - side
+    return side - load.sides if side >= load.sides else side, t - side
 
 
 @jit
-def on_side(L, component, t):
+def on_side(load, component, t):
     """A component of a polygon at one instant."""
-    side, share = side_at(L, t)
-    return L.vertex[component, side] + share * (L.vertex[component, side + 1] - L.vertex[component, side])
+    side, share = side_at(load, t)
+    before, after = load.vertex[component, side], load.vertex[component, side + 1]
+    return before + share * (after - before)
 
 
 @jit
-def load_at(L, t):
+def load_at(load, t):
     """N and v at one instant."""
-    if L.sides > 0:
-        return on_side(L, NORMAL, t), on_side(L, TANGENTIAL, t)
-    n, v = L.rest[0], L.rest[1]
+    if load.sides > 0:
+        return on_side(load, NORMAL, t), on_side(load, TANGENTIAL, t)
+    n, v = load.rest[0], load.rest[1]
     x, y = cos(t), sin(t)
-    for i in range(L.terms):
-        c, s = power(x, y, L.order[i])
-        n += L.cosine[0, i] * c + L.sine[0, i] * s
-        v += L.cosine[1, i] * c + L.sine[1, i] * s
-    if L.map != UNMAPPED:
-        n = mapped(L, n)[0]
+    for i in range(load.terms):
+        c, s = power(x, y, load.order[i])
+        n += load.cosine[0, i] * c + load.sine[0, i] * s
+        v += load.cosine[1, i] * c + load.sine[1, i] * s
+    if load.map != UNMAPPED:
+        n = mapped(load, n)[0]
     return n, v
 
 
 @jit
-def rates_at(L, t):
+def rates_at(load, t):
     """N, v and their first and second derivatives: n, v, n′, v′, n″, v″."""
-    if L.sides > 0:
-        side, (n, v) = side_at(L, t)[0], load_at(L, t)
-        dn = L.vertex[0, side + 1] - L.vertex[0, side]
-        dv = L.vertex[1, side + 1] - L.vertex[1, side]
+    if load.sides > 0:
+        side, (n, v) = side_at(load, t)[0], load_at(load, t)
+        dn = load.vertex[0, side + 1] - load.vertex[0, side]
+        dv = load.vertex[1, side + 1] - load.vertex[1, side]
         return n, v, dn, dv, 0.0, 0.0
-    n, v, dn, dv, ddn, ddv = L.rest[0], L.rest[1], 0.0, 0.0, 0.0, 0.0
+    n, v, dn, dv, ddn, ddv = load.rest[0], load.rest[1], 0.0, 0.0, 0.0, 0.0
     x, y = cos(t), sin(t)
-    for i in range(L.terms):
-        k = float(L.order[i])
-        c, s = power(x, y, L.order[i])
-        term = L.cosine[0, i] * c + L.sine[0, i] * s
+    for i in range(load.terms):
+        k = float(load.order[i])
+        c, s = power(x, y, load.order[i])
+        term = load.cosine[0, i] * c + load.sine[0, i] * s
         n += term
         ddn -= k * k * term
-        dn += k * (L.sine[0, i] * c - L.cosine[0, i] * s)
-        term = L.cosine[1, i] * c + L.sine[1, i] * s
+        dn += k * (load.sine[0, i] * c - load.cosine[0, i] * s)
+        term = load.cosine[1, i] * c + load.sine[1, i] * s
         v += term
         ddv -= k * k * term
-        dv += k * (L.sine[1, i] * c - L.cosine[1, i] * s)
-    if L.map != UNMAPPED:
-        n, rate, bend = mapped(L, n)
+        dv += k * (load.sine[1, i] * c - load.cosine[1, i] * s)
+    if load.map != UNMAPPED:
+        n, rate, bend = mapped(load, n)
         dn, ddn = rate * dn, rate * ddn + bend * dn * dn
     return n, v, dn, dv, ddn, ddv
 
 
 @jit
-def bulk_at(L, t):
+def bulk_at(load, t):
     """B at one instant."""
-    if L.bulk_moves == 0:
-        return L.rest[BULK]
-    if L.sides > 0:
-        return on_side(L, BULK, t)
-    total = L.rest[BULK]
+    if load.bulk_moves == 0:
+        return load.rest[BULK]
+    if load.sides > 0:
+        return on_side(load, BULK, t)
+    total = load.rest[BULK]
     x, y = cos(t), sin(t)
-    for i in range(L.terms):
-        c, s = power(x, y, L.order[i])
-        total += L.cosine[BULK, i] * c + L.sine[BULK, i] * s
+    for i in range(load.terms):
+        c, s = power(x, y, load.order[i])
+        total += load.cosine[BULK, i] * c + load.sine[BULK, i] * s
     return total
 
 
 @jit
-def has_bulk(L):
+def has_bulk(load):
     """True if there is a bulk stress."""
-    return L.bulk_range[0] != 0.0 or L.bulk_range[1] != 0.0
+    return load.bulk_range[0] != 0.0 or load.bulk_range[1] != 0.0
 
 
 @jit
-def bulk_rates(L, t):
+def bulk_rates(load, t):
     """The first and second derivative of B, for harmonics."""
     rate, bend = 0.0, 0.0
     x, y = cos(t), sin(t)
-    for i in range(L.terms):
-        k = float(L.order[i])
-        c, s = power(x, y, L.order[i])
-        rate += k * (L.sine[BULK, i] * c - L.cosine[BULK, i] * s)
-        bend -= k * k * (L.cosine[BULK, i] * c + L.sine[BULK, i] * s)
+    for i in range(load.terms):
+        k = float(load.order[i])
+        c, s = power(x, y, load.order[i])
+        rate += k * (load.sine[BULK, i] * c - load.cosine[BULK, i] * s)
+        bend -= k * k * (load.cosine[BULK, i] * c + load.sine[BULK, i] * s)
     return rate, bend
 
 
@@ -195,44 +196,44 @@ def combined(which, n, v):
 
 
 @jit
-def function_at(L, which, t):
+def function_at(load, which, t):
     """One of n, v, α, β and its rate."""
-    n, v, dn, dv, ddn, ddv = rates_at(L, t)
+    n, v, dn, dv, ddn, ddv = rates_at(load, t)
     return combined(which, n, v), combined(which, dn, dv)
 
 
 @jit
-def value_at(L, which, t):
+def value_at(load, which, t):
     """One of n, v, α, β."""
-    n, v = load_at(L, t)
+    n, v = load_at(load, t)
     return combined(which, n, v)
 
 
 @jit
-def instant_of(L, which, level, begin, end):
+def instant_of(load, which, level, begin, end):
     """Instant in [begin, end] at which a function that is monotone there passes a level.
 
     Newton's method within a bracket, to rounding: the sign of v - o(n) hangs on it where unloading retraces
     the growth.
     """
-    at_begin = value_at(L, which, begin) - level
-    at_end = value_at(L, which, end) - level
+    at_begin = value_at(load, which, begin) - level
+    at_end = value_at(load, which, end) - level
     if at_begin * at_end > 0.0:
         return begin if abs(at_begin) < abs(at_end) else end
     if at_begin == at_end:
         return begin
     share = -at_begin / (at_end - at_begin)
-    if L.sides > 0:
+    if load.sides > 0:
         return begin + (end - begin) * share
-    rate_begin = function_at(L, which, begin)[1]
-    rate_end = function_at(L, which, end)[1]
+    rate_begin = function_at(load, which, begin)[1]
+    rate_end = function_at(load, which, end)[1]
     t = begin + (end - begin) * share
     if abs(rate_begin) * (end - begin) < 0.2 * abs(at_end - at_begin):  # starts like a parabola
         t = begin + (end - begin) * sqrt(share)
     elif abs(rate_end) * (end - begin) < 0.2 * abs(at_end - at_begin):
         t = end - (end - begin) * sqrt(1.0 - share)
     for _ in range(60):
-        f, rate = function_at(L, which, t)
+        f, rate = function_at(load, which, t)
         f -= level
         if f == 0.0:
             return t

@@ -75,7 +75,7 @@ GAUSS, WEIGHT = gauss_legendre(FINE)
 GAUSS, WEIGHT = 0.5 + 0.5 * GAUSS, 0.5 * WEIGHT
 #: Values that a cell's polynomial is made of: the criterion, and what it may miss.
 WHAT = 2
-CELLS = np.dtype(
+MEAN = np.dtype(
     [
         *fields("i8", "kind plane along cells evaluated"),
         *fields("f8", "x centre"),  # the place, and its distance from the axis
@@ -100,41 +100,41 @@ def legendre(p, y):
 
 
 @jit
-def half_arc(M, d, r):
+def half_arc(mean, d, r):
     """Half of the angle of the arc that the sphere cuts out of a circle about the axis."""
-    chord = sqrt(max((M.reach - d) * (M.reach + d), 0.0))
-    return 2.0 * asin(min(chord / max(2.0 * sqrt(M.centre * r), 1e-150), 1.0))
+    chord = sqrt(max((mean.reach - d) * (mean.reach + d), 0.0))
+    return 2.0 * asin(min(chord / max(2.0 * sqrt(mean.centre * r), 1e-150), 1.0))
 
 
 @jit
-def place_in(M, u, w):
+def place_in(mean, u, w):
     """Distance from the centre, and radius and depth, of (u, w), and the largest inclination."""
-    d, most = M.reach * u * u, pi
-    if M.plane == 0:  # up to the axis
-        most = acos(-M.centre / max(d, M.centre)) if M.centre > 0.0 else 0.5 * pi
+    d, most = mean.reach * u * u, pi
+    if mean.plane == 0:  # up to the axis
+        most = acos(-mean.centre / max(d, mean.centre)) if mean.centre > 0.0 else 0.5 * pi
     phi = most * w * w * (3.0 - 2.0 * w)
-    r = M.centre + d * cos(phi)
-    return d, r if M.plane else max(r, 0.0), d * sin(phi), most
+    r = mean.centre + d * cos(phi)
+    return d, r if mean.plane else max(r, 0.0), d * sin(phi), most
 
 
 @jit
-def node_of(M, k, i, j, m):
+def node_of(mean, k, i, j, m):
     """Place x, y, z of node (i, j) of cell k, value number m on its arc."""
-    u = M.low[k, 0] + (M.high[k, 0] - M.low[k, 0]) * NODE[i]
-    w = M.low[k, 1] + (M.high[k, 1] - M.low[k, 1]) * NODE[j]
-    if M.kind == LINE:
-        d = M.reach * u * u
-        return M.x + d * M.into[0], 0.0, d * M.into[1]
-    d, r, z, _ = place_in(M, u, w)
-    side = 1.0 if M.x >= 0.0 else -1.0
-    theta = 0.0 if M.plane else half_arc(M, d, r) * ALONG[M.along, m]
+    u = mean.low[k, 0] + (mean.high[k, 0] - mean.low[k, 0]) * NODE[i]
+    w = mean.low[k, 1] + (mean.high[k, 1] - mean.low[k, 1]) * NODE[j]
+    if mean.kind == LINE:
+        d = mean.reach * u * u
+        return mean.x + d * mean.into[0], 0.0, d * mean.into[1]
+    d, r, z, _ = place_in(mean, u, w)
+    side = 1.0 if mean.x >= 0.0 else -1.0
+    theta = 0.0 if mean.plane else half_arc(mean, d, r) * ALONG[mean.along, m]
     return side * r * cos(theta), r * sin(theta), z
 
 
 @jit
-def write_series(M, at):
+def write_series(mean, at):
     """Write the polynomials of a cell from values at its nodes, (WHAT, NODES, NODES)."""
-    rows = NODES if M.kind == SPHERE else 1
+    rows = NODES if mean.kind == SPHERE else 1
     for what in range(WHAT):
         for a in range(NODES):
             for b in range(rows):
@@ -142,128 +142,128 @@ def write_series(M, at):
                 for i in range(NODES):
                     for j in range(rows):
                         total += TO_SERIES[a, i] * (TO_SERIES[b, j] if rows > 1 else 1.0) * at[what, i, j]
-                M.value[what, a, b] = total
+                mean.value[what, a, b] = total
 
 
 @jit
-def fill_cell(M, k, body, largest, floor, tolerance, proof):
+def fill_cell(mean, k, body, largest, floor, tolerance, proof):
     """Evaluate the criterion at the nodes of cell k, and integrate it."""
     at = np.zeros((WHAT, NODES, NODES))
     for i in range(NODES):
-        for j in range(NODES if M.kind == SPHERE else 1):
-            for m in range(M.along):
-                x, y, z = node_of(M, k, i, j, m)
+        for j in range(NODES if mean.kind == SPHERE else 1):
+            for m in range(mean.along):
+                x, y, z = node_of(mean, k, i, j, m)
                 value, missing = largest_at(body, x, y, z, largest, floor, tolerance, proof, COARSEST)
-                at[0, i, j] += OF_ALONG[M.along, m] * value
-                at[1, i, j] += OF_ALONG[M.along, m] * missing
-                M.largest = max(M.largest, value)
-                M.evaluated += 1
-    write_series(M, at)
-    integrate_cell(M, k)
+                at[0, i, j] += OF_ALONG[mean.along, m] * value
+                at[1, i, j] += OF_ALONG[mean.along, m] * missing
+                mean.largest = max(mean.largest, value)
+                mean.evaluated += 1
+    write_series(mean, at)
+    integrate_cell(mean, k)
 
 
 @jit
-def integrate_cell(M, k):
+def integrate_cell(mean, k):
     """Integrals of cell k, and what it lacks."""
-    rows = NODES if M.kind == SPHERE else 1
-    u0, u1, w0, w1 = M.low[k, 0], M.high[k, 0], M.low[k, 1], M.high[k, 1]
-    M.integral[k], M.missing[k], M.volume[k] = 0.0, 0.0, 0.0
+    rows = NODES if mean.kind == SPHERE else 1
+    u0, u1, w0, w1 = mean.low[k, 0], mean.high[k, 0], mean.low[k, 1], mean.high[k, 1]
+    mean.integral[k], mean.missing[k], mean.volume[k] = 0.0, 0.0, 0.0
     change_u, change_w, off_u, off_w = 0.0, 0.0, 0.0, 0.0
     for e in range(FINE):
         # A sphere's arcs end like a root at its pole.
         t, of_u = GAUSS[e], WEIGHT[e] * (u1 - u0)
-        if u1 == 1.0 and M.kind == SPHERE:
+        if u1 == 1.0 and mean.kind == SPHERE:
             of_u *= 2.0 * (1.0 - t)
             t = t * (2.0 - t)
         u = u0 + (u1 - u0) * t
-        legendre(M.p[0], 2.0 * t - 1.0)
+        legendre(mean.p[0], 2.0 * t - 1.0)
         for f in range(FINE if rows > 1 else 1):
-            weight = of_u * 2.0 * M.reach * u
-            M.p[1, 0] = 1.0
+            weight = of_u * 2.0 * mean.reach * u
+            mean.p[1, 0] = 1.0
             if rows > 1:
                 w = w0 + (w1 - w0) * GAUSS[f]
-                legendre(M.p[1], 2.0 * GAUSS[f] - 1.0)
-                d, r, _, most = place_in(M, u, w)
+                legendre(mean.p[1], 2.0 * GAUSS[f] - 1.0)
+                d, r, _, most = place_in(mean, u, w)
                 weight *= WEIGHT[f] * (w1 - w0) * 6.0 * w * (1.0 - w) * most * d
-                if M.plane == 0:
-                    weight *= r * half_arc(M, d, r)
+                if mean.plane == 0:
+                    weight *= r * half_arc(mean, d, r)
             value, lack, top_u, top_w = 0.0, 0.0, 0.0, 0.0
             for a in range(NODES):
                 for b in range(rows):
-                    base = M.p[0, a] * M.p[1, b]
-                    term = base * M.value[0, a, b]
+                    base = mean.p[0, a] * mean.p[1, b]
+                    term = base * mean.value[0, a, b]
                     value += term
-                    lack += base * M.value[1, a, b]
+                    lack += base * mean.value[1, a, b]
                     if a >= NODES - TOP:
                         top_u += term
                     if rows > 1 and b >= NODES - TOP:
                         top_w += term
-            M.integral[k] += weight * value
-            M.missing[k] += weight * lack
-            M.volume[k] += weight
+            mean.integral[k] += weight * value
+            mean.missing[k] += weight * lack
+            mean.volume[k] += weight
             change_u += weight * top_u
             change_w += weight * top_w
             off_u += weight * abs(top_u)
             off_w += weight * abs(top_w)
-    M.lacking[k, 0] = OF_CHANGE * abs(change_u) + OF_OFF[M.kind] * off_u
-    M.lacking[k, 1] = OF_CHANGE * abs(change_w) + OF_OFF[M.kind] * off_w
+    mean.lacking[k, 0] = OF_CHANGE * abs(change_u) + OF_OFF[mean.kind] * off_u
+    mean.lacking[k, 1] = OF_CHANGE * abs(change_w) + OF_OFF[mean.kind] * off_w
 
 
 @jit
-def sum_cells(M):
+def sum_cells(mean):
     """Write the mean and its error."""
     whole, missing, volume, lacking = 0.0, 0.0, 0.0, 0.0
-    for k in range(M.cells):
-        whole += M.integral[k]
-        missing += M.missing[k]
-        volume += M.volume[k]
-        lacking += M.lacking[k, 0] + M.lacking[k, 1]
-    M.average, M.of_cells = whole / volume, lacking / volume
-    M.error = CLAIMED * M.of_cells + abs(missing / volume) + OF_VALUE * abs(M.average)
-    if M.average < 0.0:  # a mean of values that are never negative
-        M.error -= M.average
-        M.average = 0.0
+    for k in range(mean.cells):
+        whole += mean.integral[k]
+        missing += mean.missing[k]
+        volume += mean.volume[k]
+        lacking += mean.lacking[k, 0] + mean.lacking[k, 1]
+    mean.average, mean.of_cells = whole / volume, lacking / volume
+    mean.error = CLAIMED * mean.of_cells + abs(missing / volume) + OF_VALUE * abs(mean.average)
+    if mean.average < 0.0:  # a mean of values that are never negative
+        mean.error -= mean.average
+        mean.average = 0.0
 
 
 @jit
-def worst_cell(M, rtol):
+def worst_cell(mean, rtol):
     """The cell that most is lacking in, and the axis; -1 if the mean is accurate enough."""
-    size, of_values = ENOUGH * rtol * M.average, M.error - CLAIMED * M.of_cells
-    least = OF_LARGEST * M.largest if M.kind == LINE else 0.0
-    if M.of_cells <= max(size - of_values, 0.5 * size, least):
+    size, of_values = ENOUGH * rtol * mean.average, mean.error - CLAIMED * mean.of_cells
+    least = OF_LARGEST * mean.largest if mean.kind == LINE else 0.0
+    if mean.of_cells <= max(size - of_values, 0.5 * size, least):
         return -1, 0
     k, axis, most = 0, 0, 0.0
-    for i in range(M.cells):
+    for i in range(mean.cells):
         for a in range(2):
-            if M.lacking[i, a] > most:
-                k, axis, most = i, a, M.lacking[i, a]
+            if mean.lacking[i, a] > most:
+                k, axis, most = i, a, mean.lacking[i, a]
     return k, axis
 
 
 @jit
-def lay_cells(M, first):
+def lay_cells(mean, first):
     """Lay out the first cells."""
-    along, across = (first, first) if M.kind == SPHERE else (first * first, 1)
-    M.cells = along * across
-    for k in range(M.cells):
+    along, across = (first, first) if mean.kind == SPHERE else (first * first, 1)
+    mean.cells = along * across
+    for k in range(mean.cells):
         i, j = k // across, k % across
-        M.low[k, 0], M.high[k, 0] = i / along, (i + 1.0) / along
-        M.low[k, 1], M.high[k, 1] = j / across, (j + 1.0) / across
+        mean.low[k, 0], mean.high[k, 0] = i / along, (i + 1.0) / along
+        mean.low[k, 1], mean.high[k, 1] = j / across, (j + 1.0) / across
 
 
 @jit
-def halve_cell(M, k, axis):
+def halve_cell(mean, k, axis):
     """Halve cell k along an axis; the other half is the last cell."""
-    y = M.cells
-    M.cells += 1
-    middle = 0.5 * (M.low[k, axis] + M.high[k, axis])
+    y = mean.cells
+    mean.cells += 1
+    middle = 0.5 * (mean.low[k, axis] + mean.high[k, axis])
     for a in range(2):
-        M.low[y, a], M.high[y, a] = M.low[k, a], M.high[k, a]
-    M.high[k, axis], M.low[y, axis] = middle, middle
+        mean.low[y, a], mean.high[y, a] = mean.low[k, a], mean.high[k, a]
+    mean.high[k, axis], mean.low[y, axis] = middle, middle
 
 
 @jit
-def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, largest, known, rtol, first):
+def mean_at(mean, body, kind, x, right, down, distance, largest, known, rtol, first):
     """Write the mean about the place x of the surface line, or the value at ℓ/2 from it, and its error.
 
     Cells are halved until the mean is accurate, or there are too many values.
@@ -281,32 +281,33 @@ def mean_at(M, S, B, H, W, G, C, R, P, K, L, Q, kind, x, right, down, distance, 
     first
         `FIRST`, or `ROUGHLY` of a mean that only leads to another.
     """
-    body = S, B, H, W, G, C, R, P, K, L, Q
-    M.kind, M.plane, M.x, M.centre, M.largest, M.evaluated = kind, P.plane, x, abs(x), 0.0, 0
-    M.into[0], M.into[1] = right, down
-    G.normal[0], G.normal[1], G.normal[2] = 0.0, 0.0, 0.0
+    plane, normal = body.point.profile.plane, body.planes.normal
+    mean.kind, mean.plane, mean.x, mean.centre = kind, plane, x, abs(x)
+    mean.largest, mean.evaluated = 0.0, 0
+    mean.into[0], mean.into[1] = right, down
+    normal[0], normal[1], normal[2] = 0.0, 0.0, 0.0
     if kind == POINT:
         half, tolerance = 0.5 * distance, SINGLE * rtol
         own = x + half * right, 0.0, half * down, largest, 0.0, tolerance, 0.5 * tolerance, 2 * COARSEST
         value, missing = largest_at(body, *own)
-        M.average, M.error = value, max(missing + OF_VALUE * value, OF_POINT * value)
+        mean.average, mean.error = value, max(missing + OF_VALUE * value, OF_POINT * value)
         return
-    M.reach, M.along = (distance if kind == SPHERE else 2.0 * distance), 1
-    if kind == SPHERE and M.plane == 0:
+    mean.reach, mean.along = (distance if kind == SPHERE else 2.0 * distance), 1
+    if kind == SPHERE and mean.plane == 0:
         for i in range(REACH.shape[0]):
-            M.along += distance > REACH[i] * M.centre
+            mean.along += distance > REACH[i] * mean.centre
     floor, tolerance = FLOOR * known, AVERAGED * rtol
     proof = PROOF * tolerance
-    lay_cells(M, first)
-    for k in range(M.cells):
-        fill_cell(M, k, body, largest, floor, tolerance, proof)
+    lay_cells(mean, first)
+    for k in range(mean.cells):
+        fill_cell(mean, k, body, largest, floor, tolerance, proof)
     while True:
-        sum_cells(M)
-        k, axis = worst_cell(M, rtol)
-        if k < 0 or M.cells >= MAX_CELLS or M.evaluated >= MOST_VALUES:
+        sum_cells(mean)
+        k, axis = worst_cell(mean, rtol)
+        if k < 0 or mean.cells >= MAX_CELLS or mean.evaluated >= MOST_VALUES:
             break
-        halve_cell(M, k, axis)
-        for cell in (k, M.cells - 1):
-            fill_cell(M, cell, body, largest, floor, tolerance, proof)
+        halve_cell(mean, k, axis)
+        for cell in (k, mean.cells - 1):
+            fill_cell(mean, cell, body, largest, floor, tolerance, proof)
     if kind == LINE:
-        M.error += OF_LARGEST * M.largest
+        mean.error += OF_LARGEST * mean.largest

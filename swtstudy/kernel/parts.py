@@ -60,7 +60,7 @@ SPACED = _spaced()
 
 
 @jit
-def begin_parts(H, C, P, place, x, y, largest, shift):
+def begin_parts(history, cycle, profile, place, x, y, largest, shift):
     """Prepare parts at (x, y), with the place s of the springs there; no part yet.
 
     Parameters
@@ -72,121 +72,125 @@ def begin_parts(H, C, P, place, x, y, largest, shift):
     shift
         Of the stick zone, towards x.
     """
-    H.instants, H.written, H.parts = 0, 0, 0
-    H.G = -1.0 if place <= 0.0 else coordinate_at(P, place) if place <= largest else np.inf
-    H.x, H.X, H.all_outside = x, abs(place), 1 if place <= 0.0 else 0
-    H.shift, H.load, H.reach = shift, C.largest, largest
-    find_passing(H, P, x, y)
+    history.instants, history.written, history.parts = 0, 0, 0
+    history.G = -1.0 if place <= 0.0 else coordinate_at(profile, place) if place <= largest else np.inf
+    history.x, history.X, history.all_outside = x, abs(place), 1 if place <= 0.0 else 0
+    history.shift, history.load, history.reach = shift, cycle.largest, largest
+    find_passing(history, profile, x, y)
 
 
 @jit
-def find_passing(H, P, x, y):
+def find_passing(history, profile, x, y):
     """Note the stick zone that ends at (x, y): the smaller ones do not reach it."""
-    H.front_G, H.front_X = H.G, H.X
-    if H.shift == 0.0 or H.G < 0.0:
+    history.front_G, history.front_X = history.G, history.X
+    if history.shift == 0.0 or history.G < 0.0:
         return
-    low, high = 0.0, H.reach
+    low, high = 0.0, history.reach
     if hypot(x, y) >= high:
-        H.front_G = np.inf
+        history.front_G = np.inf
         return
     for _ in range(60):
         s = 0.5 * (low + high)
-        if hypot(x - centre_of(P, H.shift, H.load, H.reach, s), y) > s:
+        if hypot(x - centre_of(profile, history.shift, history.load, history.reach, s), y) > s:
             low = s
         else:
             high = s
-    H.front_G, H.front_X = coordinate_at(P, high), high
+    history.front_G, history.front_X = coordinate_at(profile, high), high
 
 
 @jit
-def add_part(H, k, begin, end, edge_begin, edge_end, front_begin, front_end, cusps):
+def add_part(history, k, begin, end, edge_begin, edge_end, front_begin, front_end, cusps):
     """A new part of stretch k, not yet sampled; returns its index."""
-    z = H.parts
-    H.parts += 1
-    H.stretch[z], H.mirror[z], H.intervals[z], H.cusps[z] = k, 0, 0, cusps
-    H.time[z, 0], H.time[z, 1] = begin, end
-    H.places[z, 0, 0], H.places[z, 1, 0] = edge_begin, edge_end
-    H.places[z, 0, 1], H.places[z, 1, 1] = front_begin, front_end
+    z = history.parts
+    history.parts += 1
+    history.stretch[z], history.mirror[z], history.intervals[z], history.cusps[z] = k, 0, 0, cusps
+    history.time[z, 0], history.time[z, 1] = begin, end
+    history.places[z, 0, 0], history.places[z, 1, 0] = edge_begin, edge_end
+    history.places[z, 0, 1], history.places[z, 1, 1] = front_begin, front_end
     return z
 
 
 @jit
-def add_instant(H, z, t, edge, front, known):
+def add_instant(history, z, t, edge, front, known):
     """A new instant of part z with its edge and front at these places s."""
-    m = H.instants
-    H.part[m], H.instant[m], H.state[m, 0], H.state[m, 1], H.known[m] = z, t, edge, front, known
-    H.instants += 1
+    m = history.instants
+    history.part[m], history.instant[m], history.known[m] = z, t, known
+    history.state[m, 0], history.state[m, 1] = edge, front
+    history.instants += 1
 
 
 @jit
-def sample(H, z, intervals, C, P, L):
+def sample(history, z, intervals, cycle, profile, load):
     """Sample part z at the Lobatto points of so many intervals; it may have some of these instants."""
-    k, cusps = H.stretch[z], H.cusps[z]
-    begin, end = H.time[z, 0], H.time[z, 1]
-    whole = cusps == 0 and begin == C.time[k, 0] and end == C.time[k, 1] and intervals <= C.intervals[k]
-    old, known, step = H.first[z], H.intervals[z], FINEST // intervals
-    H.first[z], H.intervals[z] = H.instants, intervals
+    k, cusps = history.stretch[z], history.cusps[z]
+    begin, end = history.time[z, 0], history.time[z, 1]
+    whole = cusps == 0 and begin == cycle.time[k, 0] and end == cycle.time[k, 1]
+    whole = whole and intervals <= cycle.intervals[k]
+    old, known, step = history.first[z], history.intervals[z], FINEST // intervals
+    history.first[z], history.intervals[z] = history.instants, intervals
     for j in range(intervals + 1):
         t = begin + 0.5 * (end - begin) * (SPACED[cusps, j * step] + 1.0)
         if known > 0 and j * known % intervals == 0:
-            add_instant(H, z, t, 0.0, 0.0, old + j * known // intervals)
+            add_instant(history, z, t, 0.0, 0.0, old + j * known // intervals)
             continue
         if j == 0 or j == intervals:
-            edge, front = H.places[z, j // intervals, 0], H.places[z, j // intervals, 1]
+            edge, front = history.places[z, j // intervals, 0], history.places[z, j // intervals, 1]
         elif whole:
-            edge, front = C.place[k, j * step, 0], C.place[k, j * step, 1]
+            edge, front = cycle.place[k, j * step, 0], cycle.place[k, j * step, 1]
         else:
-            edge, front = places_at(C, P, L, k, t, H.weight)
-        add_instant(H, z, t, edge, front, NONE)
+            edge, front = places_at(cycle, profile, load, k, t, history.weight)
+        add_instant(history, z, t, edge, front, NONE)
 
 
 @jit
-def refine(H, z, C, P, L):
+def refine(history, z, cycle, profile, load):
     """Double the intervals of part z, or give it some if only its ends are known; cut the finest in two."""
-    if H.intervals[z] < FINEST:
-        sample(H, z, max(2 * H.intervals[z], COARSEST), C, P, L)
+    if history.intervals[z] < FINEST:
+        sample(history, z, max(2 * history.intervals[z], COARSEST), cycle, profile, load)
         return
-    k, begin, end = H.stretch[z], H.time[z, 0], H.time[z, 1]
-    t = begin + 0.5 * (end - begin) * (SPACED[H.cusps[z], FINEST // 2] + 1.0)
-    edge, front = places_at(C, P, L, k, t, H.weight)
-    y = add_part(H, k, t, end, edge, H.places[z, 1, 0], front, H.places[z, 1, 1], H.cusps[z] & 2)
-    H.mirror[y] = H.mirror[z]
-    H.time[z, 1], H.cusps[z], H.intervals[z] = t, H.cusps[z] & 1, 0
-    H.places[z, 1, 0], H.places[z, 1, 1] = edge, front
-    sample(H, z, FINEST // 2, C, P, L)
-    sample(H, y, FINEST // 2, C, P, L)
+    k, begin, end = history.stretch[z], history.time[z, 0], history.time[z, 1]
+    t = begin + 0.5 * (end - begin) * (SPACED[history.cusps[z], FINEST // 2] + 1.0)
+    edge, front = places_at(cycle, profile, load, k, t, history.weight)
+    last = history.places[z, 1]
+    y = add_part(history, k, t, end, edge, last[0], front, last[1], history.cusps[z] & 2)
+    history.mirror[y] = history.mirror[z]
+    history.time[z, 1], history.cusps[z], history.intervals[z] = t, history.cusps[z] & 1, 0
+    history.places[z, 1, 0], history.places[z, 1, 1] = edge, front
+    sample(history, z, FINEST // 2, cycle, profile, load)
+    sample(history, y, FINEST // 2, cycle, profile, load)
 
 
 @jit
-def refine_marked(H, C, P, L, count):
+def refine_marked(history, cycle, profile, load, count):
     """Refine the marked parts, as many as told; returns whether there was one, and room for them."""
-    if count == 0 or H.instants + count * ROOM > MAX_INSTANTS or H.parts + count >= MAX_PARTS:
+    if count == 0 or history.instants + count * ROOM > MAX_INSTANTS or history.parts + count >= MAX_PARTS:
         return False
-    for z in range(H.parts):
-        if H.marked[z]:
-            refine(H, z, C, P, L)
+    for z in range(history.parts):
+        if history.marked[z]:
+            refine(history, z, cycle, profile, load)
     return True
 
 
 @jit
-def may_be_refined(H, C, z):
+def may_be_refined(history, cycle, z):
     """True if part z can be sampled more closely: it is not yet as short as rounding."""
-    shortest = max(1e-6 * (H.time[z, 1] - C.time[0, 0]), SHORTEST)
-    return H.intervals[z] < FINEST or (H.parts + 1 < MAX_PARTS and H.time[z, 1] - H.time[z, 0] > shortest)
+    shortest = max(1e-6 * (history.time[z, 1] - cycle.time[0, 0]), SHORTEST)
+    has_length = history.time[z, 1] - history.time[z, 0] > shortest
+    return history.intervals[z] < FINEST or (history.parts + 1 < MAX_PARTS and has_length)
 
 
 @jit
-def is_calm(H, C, L, k):
+def is_calm(history, cycle, load, k):
     """True if stretch k is short, on a straight side, and neither its edge nor its front passes x.
 
     Then stresses are next to monotone, and its ends tell how much higher they can be.
     """
-    if L.sides == 0 or C.push[k] == OPEN:
+    if load.sides == 0 or cycle.push[k] == OPEN:
         return False
-    e0, e1 = C.edge[k, 0] - H.G, C.edge[k, 1] - H.G
-    f0, f1 = C.front[k, 0] - H.front_G, C.front[k, 1] - H.front_G
+    e0, e1 = cycle.edge[k, 0] - history.G, cycle.edge[k, 1] - history.G
+    f0, f1 = cycle.front[k, 0] - history.front_G, cycle.front[k, 1] - history.front_G
     moved = max(abs(e1 - e0), abs(f1 - f0))
-    return moved <= SHORT * C.largest and e0 * e1 > 0.0 and (f0 * f1 > 0.0 or C.push[k] == STICK)
+    return moved <= SHORT * cycle.largest and e0 * e1 > 0.0 and (f0 * f1 > 0.0 or cycle.push[k] == STICK)
 
 
 @jit
@@ -197,27 +201,27 @@ def approaches(G, at_begin, at_end):
 
 
 @jit
-def split(H, C, P, L, k):
+def split(history, cycle, profile, load, k):
     """Append the parts of stretch k: it is cut where its edge and its front pass x."""
-    begin, end = C.time[k, 0], C.time[k, 1]
-    push, i, G = C.push[k], C.piece[k], H.G
-    edge, front = C.place[k, 0, 0], C.place[k, 0, 1]
-    edge_end, front_end = C.place[k, FINEST, 0], C.place[k, FINEST, 1]
+    begin, end = cycle.time[k, 0], cycle.time[k, 1]
+    push, i, G = cycle.push[k], cycle.piece[k], history.G
+    edge, front = cycle.place[k, 0, 0], cycle.place[k, 0, 1]
+    edge_end, front_end = cycle.place[k, FINEST, 0], cycle.place[k, FINEST, 1]
     if push == OPEN:
-        add_part(H, k, begin, end, edge, edge_end, front, front_end, 0)
+        add_part(history, k, begin, end, edge, edge_end, front, front_end, 0)
         return
-    at_edge, at_front, near = end, end, approaches(G, C.edge[k, 0], C.edge[k, 1])
-    if (C.edge[k, 0] - G) * (C.edge[k, 1] - G) < 0.0:
-        at_edge = instant_of(L, NORMAL, G, begin, end)
+    at_edge, at_front, near = end, end, approaches(G, cycle.edge[k, 0], cycle.edge[k, 1])
+    if (cycle.edge[k, 0] - G) * (cycle.edge[k, 1] - G) < 0.0:
+        at_edge = instant_of(load, NORMAL, G, begin, end)
     if push != STICK and i != NONE:
-        G = H.front_G
-        near |= approaches(G, C.front[k, 0], C.front[k, 1])
-        if (C.front[k, 0] - G) * (C.front[k, 1] - G) < 0.0:
+        G = history.front_G
+        near |= approaches(G, cycle.front[k, 0], cycle.front[k, 1])
+        if (cycle.front[k, 0] - G) * (cycle.front[k, 1] - G) < 0.0:
             which = DIFFERENCE if push == ALPHA else SUM
-            at_front = instant_of(L, which, offset(C, L, i, G) - push * G, begin, end)
-    if C.edge[k, 0] <= 0.0:  # touch-down
+            at_front = instant_of(load, which, offset(cycle, load, i, G) - push * G, begin, end)
+    if cycle.edge[k, 0] <= 0.0:  # touch-down
         near |= 1
-    if C.edge[k, 1] <= 0.0:
+    if cycle.edge[k, 1] <= 0.0:
         near |= 2
     t, cusps = begin, near & 1
     for stop in (min(at_edge, at_front), max(at_edge, at_front), end):
@@ -225,43 +229,46 @@ def split(H, C, P, L, k):
             continue
         e, f = edge_end, front_end
         if stop < end:
-            e, f = places_at(C, P, L, k, stop, H.weight)
+            e, f = places_at(cycle, profile, load, k, stop, history.weight)
             if stop == at_edge:
-                e = H.X
+                e = history.X
             if stop == at_front or (stop == at_edge and push == STICK):
-                f = H.front_X
-        add_part(H, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
+                f = history.front_X
+        add_part(history, k, t, stop, edge, e, front, f, cusps | (2 if stop < end or near & 2 else 0))
         t, edge, front, cusps = stop, e, f, 1
 
 
 @jit
-def lay_parts(H, C, P, L, coarsest):
+def lay_parts(history, cycle, profile, load, coarsest):
     """Lay out all parts of the cycle, coarsely; the mirror image of half a cycle is the other half."""
-    for k in range(C.stretches):
-        if 2 * (H.parts + 7) >= MAX_PARTS or 2 * (H.instants + ROOM) >= MAX_INSTANTS:
-            C.overflow = 1
+    for k in range(cycle.stretches):
+        if 2 * (history.parts + 7) >= MAX_PARTS or 2 * (history.instants + ROOM) >= MAX_INSTANTS:
+            cycle.overflow = 1
             return
-        before, begin, end = H.parts, C.time[k, 0], C.time[k, 1]
-        if is_calm(H, C, L, k):
-            near = approaches(H.G, C.edge[k, 0], C.edge[k, 1])
-            near |= approaches(H.front_G, C.front[k, 0], C.front[k, 1])
-            first, last = C.place[k, 0], C.place[k, FINEST]
-            z = add_part(H, k, begin, end, first[0], last[0], first[1], last[1], near)
-            if k == 0 or abs(begin - C.time[k - 1, 1]) > SHORTEST * L.period:  # else the part before has it
-                add_instant(H, z, begin, first[0], first[1], NONE)
-            H.first[z], H.intervals[z] = H.instants - 1, 1
-            add_instant(H, z, end, last[0], last[1], NONE)
+        before, begin, end = history.parts, cycle.time[k, 0], cycle.time[k, 1]
+        if is_calm(history, cycle, load, k):
+            near = approaches(history.G, cycle.edge[k, 0], cycle.edge[k, 1])
+            near |= approaches(history.front_G, cycle.front[k, 0], cycle.front[k, 1])
+            first, last = cycle.place[k, 0], cycle.place[k, FINEST]
+            z = add_part(history, k, begin, end, first[0], last[0], first[1], last[1], near)
+            # Else the part before has its first instant.
+            if k == 0 or abs(begin - cycle.time[k - 1, 1]) > SHORTEST * load.period:
+                add_instant(history, z, begin, first[0], first[1], NONE)
+            history.first[z], history.intervals[z] = history.instants - 1, 1
+            add_instant(history, z, end, last[0], last[1], NONE)
             continue
-        split(H, C, P, L, k)
-        for z in range(before, H.parts):
-            if H.intervals[z] == 0:
-                sample(H, z, coarsest, C, P, L)
-    if L.mirrored:
-        parts, instants = H.parts, H.instants
+        split(history, cycle, profile, load, k)
+        for z in range(before, history.parts):
+            if history.intervals[z] == 0:
+                sample(history, z, coarsest, cycle, profile, load)
+    if load.mirrored:
+        parts, instants = history.parts, history.instants
         for y in range(parts):
-            begin, end = H.places[y, 0], H.places[y, 1]
-            own = begin[0], end[0], begin[1], end[1], H.cusps[y]
-            z = add_part(H, H.stretch[y], H.time[y, 0], H.time[y, 1], *own)
-            H.mirror[z], H.intervals[z], H.first[z] = 1, H.intervals[y], H.first[y] + instants
+            begin, end = history.places[y, 0], history.places[y, 1]
+            own = begin[0], end[0], begin[1], end[1], history.cusps[y]
+            z = add_part(history, history.stretch[y], history.time[y, 0], history.time[y, 1], *own)
+            history.mirror[z], history.intervals[z] = 1, history.intervals[y]
+            history.first[z] = history.first[y] + instants
         for i in range(instants):
-            add_instant(H, H.part[i] + parts, H.instant[i], H.state[i, 0], H.state[i, 1], i)
+            edge, front = history.state[i, 0], history.state[i, 1]
+            add_instant(history, history.part[i] + parts, history.instant[i], edge, front, i)

@@ -11,10 +11,11 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import SEARCH, search_line
+from swtstudy.kernel.line import search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, load_at
-from swtstudy.kernel.planes import NOISE, WORK
+from swtstudy.kernel.planes import CURVES, NOISE
 from swtstudy.kernel.profile import place_of
+from swtstudy.kernel.records import Point
 from swtstudy.kernel.shift import shift_of
 from swtstudy.kernel.surface import TABLE
 from swtstudy.vocabulary.choices import REGIMES
@@ -46,139 +47,140 @@ RESULT = np.dtype(
         ("growth", "f8"),  # tolerance of the tables of what grew
     ]
 )
-#: Kinds of the records that a thread needs to solve points.
-OF_POINT = CYCLE, GROWTH, SEARCH, HISTORY, WORK, TABLE
+#: Kinds of the records of a point that are not given, as `swtstudy.kernel.records.Point` has them.
+OF_POINT = CYCLE, GROWTH, TABLE, HISTORY, CURVES
 
 
 @jit
-def regime_of(C, L, P, Q):
+def regime_of(cycle, load, profile, ask):
     """Regime of the stationary cycle."""
-    if P.singular and is_torn(C, L, P, Q):
+    if profile.singular and is_torn(cycle, load, profile, ask):
         return NOT_FINITE
-    if C.lift_off:
+    if cycle.lift_off:
         return LIFT_OFF
-    if C.gross_slip:
+    if cycle.gross_slip:
         return GROSS_SLIP
-    return PARTIAL_SLIP if C.any_slip else STICK
+    return PARTIAL_SLIP if cycle.any_slip else STICK
 
 
 @jit
-def is_torn(C, L, P, Q):
+def is_torn(cycle, load, profile, ask):
     """True if swt grows without bound, or nearly, towards the singular edge of a face.
 
     With |τ| = w at the innermost spring a plane near 45° is in tension that grows like ln(1/ε) for μ > 1; in
     gross slip the strain does, too. If contact is lost, springs pull before the pressure comes.
     """
-    b, largest = P.flat_radius, place_of(P, C.largest)
+    b, largest = profile.flat_radius, place_of(profile, cycle.largest)
     ring = sqrt(b * b + largest * largest) - b
     nearest = NEAREST * min(ring, max(b, 1e-3 * (b + ring)))
     # Depth g = ξ √(ξ² - b²) at ξ = b + nearest.
     margin = (b + nearest) * sqrt(nearest * (2.0 * b + nearest))
-    lost = C.smallest <= margin
+    lost = cycle.smallest <= margin
     slips, pulled, moves = False, False, False
-    for k in range(C.stretches):
+    for k in range(cycle.stretches):
         for e in range(2):
-            n, v = load_at(L, C.time[k, e])
+            n, v = load_at(load, cycle.time[k, e])
             slips = slips or abs(v) >= n - margin
             moves = moves or v != 0.0
-            pulled = pulled or (n <= margin and bulk_at(L, C.time[k, e]) > 0.0)
-    torn = (slips and Q.friction > 1.0) or (C.gross_slip and Q.friction >= TEARS) or lost
-    if torn and Q.friction > 0.0 and moves:
+            pulled = pulled or (n <= margin and bulk_at(load, cycle.time[k, e]) > 0.0)
+    torn = (slips and ask.friction > 1.0) or (cycle.gross_slip and ask.friction >= TEARS) or lost
+    if torn and ask.friction > 0.0 and moves:
         return True
-    return lost and pulled and Q.poisson_ratio < 0.5
+    return lost and pulled and ask.poisson_ratio < 0.5
 
 
 @jit
-def is_idle(C, L, P, Q):
+def is_idle(cycle, load, profile, ask):
     """True if s is 0: nothing moves, or pressure alone makes no tension at ν = 1/2 and in the plane."""
-    still, pulls, v0 = C.largest == C.smallest, False, load_at(L, C.time[0, 0])[1]
-    for k in range(C.stretches):
-        v = load_at(L, C.time[k, 1])[1]
-        still = still and (v == v0 or Q.friction == 0.0)
-        pulls = pulls or (v != 0.0 and Q.friction > 0.0)
-    if has_bulk(L):
-        return still and L.bulk_range[1] == L.bulk_range[0]
-    return still or (Q.criterion == SWT and not pulls and (Q.poisson_ratio == 0.5 or P.plane))
+    still, pulls, v0 = cycle.largest == cycle.smallest, False, load_at(load, cycle.time[0, 0])[1]
+    for k in range(cycle.stretches):
+        v = load_at(load, cycle.time[k, 1])[1]
+        still = still and (v == v0 or ask.friction == 0.0)
+        pulls = pulls or (v != 0.0 and ask.friction > 0.0)
+    if has_bulk(load):
+        return still and load.bulk_range[1] == load.bulk_range[0]
+    return still or (ask.criterion == SWT and not pulls and (ask.poisson_ratio == 0.5 or profile.plane))
 
 
 @jit
-def tension_share(C, Q, tension):
+def tension_share(cycle, ask, tension):
     """Tension over the largest stress that slip can make, μ times the pressure; 1 without friction."""
-    return tension / (Q.friction * sqrt(C.largest)) if Q.friction > 0.0 else 1.0
+    return tension / (ask.friction * sqrt(cycle.largest)) if ask.friction > 0.0 else 1.0
 
 
 @jit
-def rounding_share(C, P, Q, place, tension):
+def rounding_share(cycle, profile, ask, place, tension):
     """Largest stress that rounding makes at a place, over the tension.
 
     Shear tractions, over μ, go like the root of the distance to an edge or a front, where these turn. The
     rounding of a distance matters if it is small and not 0: then the place itself is not this turning point.
     """
-    largest, nearest = place_of(P, C.largest), 1.0
-    for k in range(C.stretches):
+    largest, nearest = place_of(profile, cycle.largest), 1.0
+    for k in range(cycle.stretches):
         for e in range(2):
-            for G in (C.edge[k, e], C.front[k, e]):
-                distance = abs(place_of(P, G) - place) / largest
+            for G in (cycle.edge[k, e], cycle.front[k, e]):
+                distance = abs(place_of(profile, G) - place) / largest
                 if distance > ONE_PLACE:
                     nearest = min(nearest, distance)
     root = sqrt(nearest + OF_DISTANCE) - sqrt(max(nearest - OF_DISTANCE, 0.0))
-    of_pressure = OF_PRESSURE if C.largest > C.smallest or not P.is_hertz else 0.0
-    return (Q.friction * sqrt(2.0) * root + of_pressure) * sqrt(C.largest) / tension
+    of_pressure = OF_PRESSURE if cycle.largest > cycle.smallest or not profile.is_hertz else 0.0
+    return (ask.friction * sqrt(2.0) * root + of_pressure) * sqrt(cycle.largest) / tension
 
 
 @jit
-def solve_point(C, R, S, H, W, K, P, L, Q, out):
+def solve_point(search, point, out):
     """From the load cycle to s at one point.
 
     The growth is tabulated to a share of the tension that makes s: where s is a small difference of large
     stresses the table is made again, and the search with it.
     """
+    load, profile, ask, cycle, growth = point.load, point.profile, point.ask, point.cycle, point.growth
     out.s, out.s_error, out.critical_x, out.critical_angle = nan, nan, nan, nan
     out.shift = 0.0
     out.positions, out.instants, out.overflow, out.regime = 0, 0, 0, NO_EQUILIBRIUM
-    out.s_surface, out.circle, out.place, out.growth = nan, 0, 0.0, Q.growth
-    solve_cycle(C, L)
-    if C.no_equilibrium:
+    out.s_surface, out.circle, out.place, out.growth = nan, 0, 0.0, ask.growth
+    solve_cycle(cycle, load)
+    if cycle.no_equilibrium:
         return
-    out.overflow, out.regime = C.overflow, regime_of(C, L, P, Q)
-    if out.regime == NOT_FINITE or C.overflow:
+    out.overflow, out.regime = cycle.overflow, regime_of(cycle, load, profile, ask)
+    if out.regime == NOT_FINITE or cycle.overflow:
         return
-    C.shift = out.shift = shift_of(L, P, Q, C.event, C.events)
-    out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(L, P, Q)
-    if is_idle(C, L, P, Q):
+    cycle.shift = out.shift = shift_of(load, profile, ask, cycle.event, cycle.events)
+    out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(load, profile, ask)
+    if is_idle(cycle, load, profile, ask):
         return
-    growth, gap, share, coarse = Q.growth, 0.0, 1.0, 0.0
+    tolerance, gap, share, coarse = ask.growth, 0.0, 1.0, 0.0
     for _ in range(5):
-        out.growth, growth = growth, lay_out(R, C, P, L, growth)
-        coarse = growth if growth > out.growth else 0.0
-        gap = search_line(S, (H, W, C, R, P, K, L, Q))
-        share = tension_share(C, Q, S.tension)
-        needed = Q.growth * min(share, 1.0)
-        done = needed >= 0.5 * growth or growth <= FINEST_GROWTH
-        if done or coarse > 0.0 or R.panels == 0 or S.best <= 0.0:
+        out.growth, tolerance = tolerance, lay_out(growth, cycle, profile, load, tolerance)
+        coarse = tolerance if tolerance > out.growth else 0.0
+        gap = search_line(search, point)
+        share = tension_share(cycle, ask, search.tension)
+        needed = ask.growth * min(share, 1.0)
+        done = needed >= 0.5 * tolerance or tolerance <= FINEST_GROWTH
+        if done or coarse > 0.0 or growth.panels == 0 or search.best <= 0.0:
             break
-        growth = max(0.5 * needed, FINEST_GROWTH)
-    out.positions, out.instants, out.overflow = S.positions, H.instants, C.overflow
-    out.s, out.place = S.best, S.place
-    rounding = coarse / share + rounding_share(C, P, Q, S.place, S.tension) if S.best > 0.0 else 0.0
-    out.s_error = gap + (Q.time + rounding + P.left_out) * S.best
-    if S.best == 0.0:  # tension within rounding is taken for none
-        out.s_error += NOISE * C.largest
+        tolerance = max(0.5 * needed, FINEST_GROWTH)
+    out.positions, out.instants, out.overflow = search.positions, point.history.instants, cycle.overflow
+    out.s, out.place = search.best, search.place
+    if search.best == 0.0:  # tension within rounding is taken for none
+        out.s_error = gap + NOISE * cycle.largest
     else:
-        b = P.flat_radius
-        out.critical_x = S.sign * sqrt(b * b + S.place * abs(S.place)) + 0.0  # no -0 at the centre
-        out.critical_angle = degrees(S.angle)
-    if has_bulk(L):
-        far, angle = far_field(Q, L.bulk_range[1], L.bulk_range[0], P.plane)
-        if far > 0.0 and far >= (1.0 - SAME) * S.best:
+        rounding = coarse / share + rounding_share(cycle, profile, ask, search.place, search.tension)
+        out.s_error = gap + (ask.time + rounding + profile.left_out) * search.best
+        x = sqrt(profile.flat_radius * profile.flat_radius + search.place * abs(search.place))
+        out.critical_x = search.sign * x + 0.0  # no -0 at the centre
+        out.critical_angle = degrees(search.angle)
+    if has_bulk(load):
+        far, angle = far_field(ask, load.bulk_range[1], load.bulk_range[0], profile.plane)
+        if far > 0.0 and far >= (1.0 - SAME) * search.best:
             out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
-    if beside_singular_edge(P, out.critical_x, BESIDE_EDGE):
-        out.circle = not P.plane
-    out.s_surface = nan if beside_singular_edge(P, out.critical_x, NEAREST) else out.s
+    if beside_singular_edge(profile, out.critical_x, BESIDE_EDGE):
+        out.circle = not profile.plane
+    out.s_surface = nan if beside_singular_edge(profile, out.critical_x, NEAREST) else out.s
 
 
 @jit
-def solve_points(C, R, S, H, W, K, profiles, which, loads, asks, out):
-    """Point i: profile which[i], loads[i], asks[i]."""
+def solve_points(search, room, profiles, which, loads, asks, out):
+    """Point i: profile which[i], loads[i], asks[i]; ``room`` has the records of the kinds `OF_POINT`."""
     for i in range(which.shape[0]):
-        solve_point(C, R, S, H, W, K, profiles[which[i]], loads[i], asks[i], out[i])
+        solve_point(search, Point(loads[i], profiles[which[i]], asks[i], *room), out[i])

@@ -86,17 +86,17 @@ def settle(values, lower, upper, tolerance, floor, narrowest, settled, count, ro
 
 
 @jit
-def assemble(P, settled, order, largest):
+def assemble(profile, settled, order, largest):
     """Write the panels in their order, up to where the coordinate exceeds largest, and their integrals.
 
     Under prescribed forces to G = 1 at least, where the unit of force is.
     """
-    weighted = P.in_force and P.plane == 0
-    depth, raw, unit = 0.0, 0.0, MEAN_LOAD if P.plane else 1.0
+    weighted = profile.in_force and profile.plane == 0
+    depth, raw, unit = 0.0, 0.0, MEAN_LOAD if profile.plane else 1.0
     if weighted:
         unit = -1.0
     values, weight, rise = np.empty(ORDER), np.empty(ORDER), np.empty(ORDER + 1)
-    P.coordinate_begin[0], P.force_begin[0] = 0.0, 0.0
+    profile.coordinate_begin[0], profile.force_begin[0] = 0.0, 0.0
     status = MORE
     for p in range(order.shape[0]):
         if p >= MAX_PANELS:
@@ -104,36 +104,36 @@ def assemble(P, settled, order, largest):
         row = settled[order[p]]
         begin, end = row[0], row[1]
         half = 0.5 * (end - begin)
-        P.begin[p], P.end[p] = begin, end
+        profile.begin[p], profile.end[p] = begin, end
         for i in range(ORDER):
             s = begin + half * (GAUSS[i] + 1.0)
-            values[i], weight[i] = row[3 + i], sqrt(P.flat_radius * P.flat_radius + s * s)
-        fit(values, P.density[p])
+            values[i], weight[i] = row[3 + i], sqrt(profile.flat_radius * profile.flat_radius + s * s)
+        fit(values, profile.density[p])
         gain, load = 0.0, 0.0
         for k in range(ORDER + 1):
-            rise[k], P.force[p, k] = 0.0, 0.0
+            rise[k], profile.force[p, k] = 0.0, 0.0
             for i in range(ORDER):
                 rise[k] += half * values[i] * RUN[i, k]
-                P.force[p, k] += half * values[i] * weight[i] * RUN[i, k]
-            P.coordinate[p, k] = P.force[p, k] if weighted else rise[k]
+                profile.force[p, k] += half * values[i] * weight[i] * RUN[i, k]
+            profile.coordinate[p, k] = profile.force[p, k] if weighted else rise[k]
             gain += rise[k]
-            load += P.force[p, k]
+            load += profile.force[p, k]
         if weighted and depth < 1.0 <= depth + gain:
-            unit = P.force_begin[p] + clenshaw(P.force[p], root_of(rise, 1.0 - depth))
+            unit = profile.force_begin[p] + clenshaw(profile.force[p], root_of(rise, 1.0 - depth))
         depth += gain
-        P.force_begin[p + 1] = P.force_begin[p] + load
-        raw = P.force_begin[p + 1] if weighted else depth
-        P.coordinate_begin[p + 1] = raw
-        P.panels = p + 1
+        profile.force_begin[p + 1] = profile.force_begin[p] + load
+        raw = profile.force_begin[p + 1] if weighted else depth
+        profile.coordinate_begin[p + 1] = raw
+        profile.panels = p + 1
         if unit > 0.0 and raw >= largest * unit:
             status = ENOUGH
             break
-    P.unit = unit
-    for p in range(P.panels):
-        P.coordinate_begin[p + 1] /= unit
+    profile.unit = unit
+    for p in range(profile.panels):
+        profile.coordinate_begin[p + 1] /= unit
         for k in range(ORDER + 1):
-            P.coordinate[p, k] /= unit
-    first_panel(P, settled[order[0]], weighted)
+            profile.coordinate[p, k] /= unit
+    first_panel(profile, settled[order[0]], weighted)
     return status
 
 
@@ -151,22 +151,22 @@ def root_of(rise, goal):
 
 
 @jit
-def first_panel(P, row, weighted):
+def first_panel(profile, row, weighted):
     """Series of density and coordinate over their powers of s: digits are kept down to the smallest depth."""
     values = np.empty(ORDER)
     for i in range(ORDER):
         s = 0.5 * row[1] * (GAUSS[i] + 1.0)
-        values[i] = row[3 + i] / power_of(s, P.rises[0])
-    fit(values, P.first_density)
+        values[i] = row[3 + i] / power_of(s, profile.rises[0])
+    fit(values, profile.first_density)
     for i in range(ORDER):
         s = 0.5 * row[1] * (GAUSS[i] + 1.0)
-        if weighted and P.flat_radius > 0.0:  # else ξ = s is in the power
-            values[i] *= sqrt(P.flat_radius * P.flat_radius + s * s)
+        if weighted and profile.flat_radius > 0.0:  # else ξ = s is in the power
+            values[i] *= sqrt(profile.flat_radius * profile.flat_radius + s * s)
     for k in range(ORDER + 1):
-        P.coordinate[0, k] = 0.0
+        profile.coordinate[0, k] = 0.0
     for k in range(ORDER):
         for i in range(ORDER):
-            P.coordinate[0, k] += MEANS[P.rises[1] - 1, k, i] * values[i] / P.unit
+            profile.coordinate[0, k] += MEANS[profile.rises[1] - 1, k, i] * values[i] / profile.unit
 
 
 @jit
@@ -184,70 +184,79 @@ def any_power(s, n):
 
 
 @jit
-def coordinate_on(P, p, s):
+def on_panel(profile, p, s):
+    """The variable of the series of panel p, from -1 to 1, at s."""
+    return 2.0 * (s - profile.begin[p]) / (profile.end[p] - profile.begin[p]) - 1.0
+
+
+@jit
+def coordinate_on(profile, p, s):
     """Coordinate of the diagram at s on panel p."""
-    value = clenshaw(P.coordinate[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
-    return power_of(s, P.rises[1]) * value if p == 0 else P.coordinate_begin[p] + value
+    value = clenshaw(profile.coordinate[p], on_panel(profile, p, s))
+    return power_of(s, profile.rises[1]) * value if p == 0 else profile.coordinate_begin[p] + value
 
 
 @jit
-def density_on(P, p, s):
+def density_on(profile, p, s):
     """Density dG/ds at s on panel p."""
-    y = 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0
-    return power_of(s, P.rises[0]) * clenshaw(P.first_density, y) if p == 0 else clenshaw(P.density[p], y)
+    y = on_panel(profile, p, s)
+    if p > 0:
+        return clenshaw(profile.density[p], y)
+    return power_of(s, profile.rises[0]) * clenshaw(profile.first_density, y)
 
 
 @jit
-def coordinate_at(P, s):
+def coordinate_at(profile, s):
     """Coordinate of the diagram, depth or force, at s."""
-    if P.exponent > 0.0:
-        return any_power(s, P.power)
-    return coordinate_on(P, panel_of(P.begin, 0, P.panels, s), s)
+    if profile.exponent > 0.0:
+        return any_power(s, profile.power)
+    return coordinate_on(profile, panel_of(profile.begin, 0, profile.panels, s), s)
 
 
 @jit
-def density_at(P, s):
+def density_at(profile, s):
     """Density dG/ds, or dN/ds in the plane, at s."""
-    n = P.exponent
+    n = profile.exponent
     if n > 0.0:
         rate = 2.0 * s if n == 2.0 else n * s ** (n - 1.0)
-        return MEAN_LOAD * rate if P.plane else rate
-    return density_on(P, panel_of(P.begin, 0, P.panels, s), s)
+        return MEAN_LOAD * rate if profile.plane else rate
+    return density_on(profile, panel_of(profile.begin, 0, profile.panels, s), s)
 
 
 @jit
-def force_at(P, s):
+def force_at(profile, s):
     """∫ ξ dG up to s, of a disc."""
-    n = P.exponent
+    n = profile.exponent
     if n > 0.0:
         return n / (n + 1.0) * any_power(s, n + 1.0)
-    p = panel_of(P.begin, 0, P.panels, s)
-    return P.force_begin[p] + clenshaw(P.force[p], 2.0 * (s - P.begin[p]) / (P.end[p] - P.begin[p]) - 1.0)
+    p = panel_of(profile.begin, 0, profile.panels, s)
+    return profile.force_begin[p] + clenshaw(profile.force[p], on_panel(profile, p, s))
 
 
 @jit
-def place_of(P, coordinate):
+def place_of(profile, coordinate):
     """Inverse of `coordinate_at`, by Newton's method within a panel."""
     if coordinate <= 0.0:
         return 0.0
-    if P.exponent > 0.0:
-        return sqrt(coordinate) if P.power == 2.0 else coordinate ** (1.0 / P.power)
-    p = panel_of(P.coordinate_begin, 0, P.panels, coordinate)
-    low, high = P.begin[p], P.end[p]
-    share = (coordinate - P.coordinate_begin[p]) / (P.coordinate_begin[p + 1] - P.coordinate_begin[p])
+    if profile.exponent > 0.0:
+        return sqrt(coordinate) if profile.power == 2.0 else coordinate ** (1.0 / profile.power)
+    p = panel_of(profile.coordinate_begin, 0, profile.panels, coordinate)
+    low, high = profile.begin[p], profile.end[p]
+    below, above = profile.coordinate_begin[p], profile.coordinate_begin[p + 1]
+    share = (coordinate - below) / (above - below)
     share = min(max(share, 0.0), 1.0)
     if p == 0:
-        share = share ** (1.0 / P.rises[1])
+        share = share ** (1.0 / profile.rises[1])
     s = low + (high - low) * share
     for _ in range(60):
-        f = coordinate_on(P, p, s) - coordinate
+        f = coordinate_on(profile, p, s) - coordinate
         if f > 0.0:
             high = s
         else:
             low = s
-        rate = density_on(P, p, s) / P.unit
-        if P.in_force and P.plane == 0:
-            rate *= sqrt(P.flat_radius * P.flat_radius + s * s)
+        rate = density_on(profile, p, s) / profile.unit
+        if profile.in_force and profile.plane == 0:
+            rate *= sqrt(profile.flat_radius * profile.flat_radius + s * s)
         new = s - f / rate if rate > 0.0 else 0.5 * (low + high)
         if not (new >= low and new <= high):
             new = 0.5 * (low + high)
@@ -259,19 +268,28 @@ def place_of(P, coordinate):
 
 
 @jit
-def radius_of(P, s):
+def radius_of(profile, s):
     """Radius ξ at s."""
-    return sqrt(s * s + P.flat_radius * P.flat_radius)
+    return sqrt(s * s + profile.flat_radius * profile.flat_radius)
 
 
 def tabulate_profile(
-    P, density, rises, largest, tolerance, floor=1e-3, narrowest=1e-9, span=2.0, knots=(), first_edges=()
+    profile,
+    density,
+    rises,
+    largest,
+    tolerance,
+    floor=1e-3,
+    narrowest=1e-9,
+    span=2.0,
+    knots=(),
+    first_edges=(),
 ):
     """Fill in the panels of a profile, from the axis to where the coordinate exceeds `largest`.
 
     Parameters
     ----------
-    P
+    profile
         Record whose kind, coordinate, flat_radius and longest are known.
     density
         dG/ds as a function of an array of s; dN/ds in the plane.
@@ -296,12 +314,12 @@ def tabulate_profile(
         The largest share that panels as narrow as allowed miss of the density, each times the root of its
         share of the whole: so much it is of tractions. Infinite if there are too many panels.
     """
-    P.rises[0], P.rises[1] = rises - 1, rises
-    if P.in_force and not P.plane and P.flat_radius == 0.0:
-        P.rises[1] += 1
+    profile.rises[0], profile.rises[1] = rises - 1, rises
+    if profile.in_force and not profile.plane and profile.flat_radius == 0.0:
+        profile.rises[1] += 1
     settled, count, begin = np.empty((2 * MAX_PANELS, 3 + ORDER)), 0, 0.0
     while True:
-        edges = np.linspace(begin, begin + span, max(int(np.ceil(span / P.longest - 1e-9)), 1) + 1)
+        edges = np.linspace(begin, begin + span, max(int(np.ceil(span / profile.longest - 1e-9)), 1) + 1)
         if begin == 0.0 and len(first_edges):
             edges = np.union1d(edges, first_edges[first_edges < span])
         lower, upper = edges[:-1], edges[1:]
@@ -317,14 +335,14 @@ def tabulate_profile(
             if len(knots) and lower.size:
                 middle = _at_knots(knots, lower, middle, upper)
             lower, upper = np.concatenate([lower, middle]), np.concatenate([middle, upper])
-        status = assemble(P, settled, np.argsort(settled[:count, 0]), largest)
+        status = assemble(profile, settled, np.argsort(settled[:count, 0]), largest)
         if status == TOO_MANY:
             return np.inf
         if status == ENOUGH:
             break
         begin += span
     begin, end, missed = settled[:count, :3].T
-    whole = P.end[P.panels - 1]
+    whole = profile.end[profile.panels - 1]
     share = np.sqrt((end - begin) / whole) * np.where((missed > tolerance) & (begin < whole), missed, 0.0)
     return float(share.max())
 

@@ -23,28 +23,28 @@ ROUNDING = 1e-9
 
 
 @jit
-def shift_of(L, P, Q, T, m):
+def shift_of(load, profile, ask, events, m):
     """Shift of a stick zone over how far the coordinate of its end is below the edge's; 0 where it stays.
 
     Parameters
     ----------
-    T, m
+    events, m
         Events of the load, and how many there are.
     """
-    if L.bulk_slope == 0.0 or Q.pulled == 0.0 or Q.friction == 0.0 or not P.is_hertz:
+    if load.bulk_slope == 0.0 or ask.pulled == 0.0 or ask.friction == 0.0 or not profile.is_hertz:
         return 0.0
-    stick, nu = stick_limit(L, T, m), Q.poisson_ratio
+    stick, nu = stick_limit(load, events, m), ask.poisson_ratio
     if stick < -ROUNDING:  # the whole contact slides
         return 0.0
-    stiffness = 4.0 if P.plane else (1.0 + nu) * (4.0 - 3.0 * nu)
-    shift = 2.0 * Q.pulled * L.bulk_slope / (Q.friction * stiffness)
-    edge, stick = load_at(L, 0.0)[0], max(stick, 0.0)
-    room = place_of(P, edge) - place_of(P, stick)
+    stiffness = 4.0 if profile.plane else (1.0 + nu) * (4.0 - 3.0 * nu)
+    shift = 2.0 * ask.pulled * load.bulk_slope / (ask.friction * stiffness)
+    edge, stick = load_at(load, 0.0)[0], max(stick, 0.0)
+    room = place_of(profile, edge) - place_of(profile, stick)
     return shift if abs(shift) * (edge - stick) <= room * (1.0 + ROUNDING) else 0.0
 
 
 @jit
-def centre_of(P, shift, load, reach, s):
+def centre_of(profile, shift, load, reach, s):
     """Centre of the stick zone of size s, which reaches the edge at most.
 
     Parameters
@@ -55,11 +55,11 @@ def centre_of(P, shift, load, reach, s):
     if shift == 0.0:
         return 0.0
     room = max(reach - s, 0.0)
-    return min(max(shift * (load - coordinate_at(P, s)), -room), room)
+    return min(max(shift * (load - coordinate_at(profile, s)), -room), room)
 
 
 @jit
-def more_work(P, shift, nu, moved, force, rate):
+def more_work(profile, shift, nu, moved, force, rate):
     """By how much the shift raises the work of friction over the change of the load.
 
     While the load rises from 0 to Q, friction does k d² Q more than without the shift: k is the curvature
@@ -72,5 +72,5 @@ def more_work(P, shift, nu, moved, force, rate):
     force, rate
         The tangential force that has moved it, and its derivative.
     """
-    curvature = 0.5 if P.plane else (4.0 - 3.0 * nu) / (4.0 * (2.0 - nu))
+    curvature = 0.5 if profile.plane else (4.0 - 3.0 * nu) / (4.0 * (2.0 - nu))
     return curvature * shift * shift * moved * (2.0 * force + moved * rate)

@@ -61,10 +61,10 @@ def inside_end(low, end, X):
 
 
 @jit
-def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, plane):
+def tabulate(table, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, plane):
     """Tabulate panels p0 to p1 of a density up to s = top, from table k on; returns the next free table."""
-    K.first[row] = k
-    K.total[row, 0], K.total[row, 1] = 0.0, 0.0
+    table.first[row] = k
+    table.total[row, 0], table.total[row, 1] = 0.0, 0.0
     sums, inner = np.zeros(4), 0.0 if all_outside else X
     for p in range(p0, p1):
         if begin[p] >= top or k + 2 >= MAX_TABLES:
@@ -73,7 +73,7 @@ def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, 
         while low < last and k + 1 < MAX_TABLES:
             high = inside_end(low, last, X)
             tabulate_panel(
-                K, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, plane, sums
+                table, k, density[p], begin[p], end[p], low, high, b, x, X, 1, all_outside, plane, sums
             )
             k += 1
             low = high
@@ -82,27 +82,27 @@ def tabulate(K, row, k, begin, end, density, p0, p1, top, b, x, X, all_outside, 
             if high > 0.9 * end[p]:
                 high = end[p]
             tabulate_panel(
-                K, k, density[p], begin[p], end[p], low, high, b, x, X, 0, all_outside, plane, sums
+                table, k, density[p], begin[p], end[p], low, high, b, x, X, 0, all_outside, plane, sums
             )
             k += 1
             low = high
-    K.last[row] = k
-    K.total[row, 0], K.total[row, 1] = sums[0], sums[1]
+    table.last[row] = k
+    table.total[row, 0], table.total[row, 1] = sums[0], sums[1]
     return k
 
 
 @jit
-def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_outside, plane, sums):
+def tabulate_panel(table, k, density, begin, end, low, high, b, x, X, inside, all_outside, plane, sums):
     """Table k: running integrals of the panel's density from low to high, added to the sums up to there."""
     f, h = np.empty(ORDER), np.empty(ORDER)
-    K.begin[k] = low
+    table.begin[k] = low
     if inside:
         z0, z1 = asin(low / X), asin(high / X)
     elif all_outside:
         z0, z1 = asinh(low / X), asinh(high / X)
     else:
         z0, z1 = acosh(low / X), acosh(high / X)
-    K.angle[k, 0], K.angle[k, 1], K.inside[k] = z0, z1, inside
+    table.angle[k, 0], table.angle[k, 1], table.inside[k] = z0, z1, inside
     half, width = 0.5 * (z1 - z0), 2.0 / (end - begin)
     for i in range(ORDER):
         z = z0 + half * (GAUSS[i] + 1.0)
@@ -118,7 +118,7 @@ def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_ou
             root = X * (cosh(z) if all_outside else sinh(z))
             f[i] = half * clenshaw(density, (s - begin) * width - 1.0)
             h[i] = f[i] * root / (sqrt(b * b + s * s) + root)
-    F, H = K.series[k, 0], K.series[k, 1]
+    F, H = table.series[k, 0], table.series[k, 1]
     for c in range(ORDER + 1):
         F[c] = f[0] * RUN[0, c]
         H[c] = h[0] * RUN[0, c]
@@ -127,31 +127,31 @@ def tabulate_panel(K, k, density, begin, end, low, high, b, x, X, inside, all_ou
             F[c] += f[i] * RUN[i, c]
             H[c] += h[i] * RUN[i, c]
     first = 0 if inside else 2
-    K.before[k, 0], K.before[k, 1] = sums[first], sums[first + 1]
+    table.before[k, 0], table.before[k, 1] = sums[first], sums[first + 1]
     for c in range(ORDER + 1):
         sums[first] += F[c]
         sums[first + 1] += H[c]
 
 
 @jit
-def running(K, row, s, X, all_outside):
+def running(table, row, s, X, all_outside):
     """T1, T3, B and the part of V outside x, of a density up to s."""
-    first, last = K.first[row], K.last[row]
-    if first == last or s <= K.begin[first]:
+    first, last = table.first[row], table.last[row]
+    if first == last or s <= table.begin[first]:
         return 0.0, 0.0, 0.0, 0.0
-    k = panel_of(K.begin, first, last, s)
-    if K.inside[k]:
+    k = panel_of(table.begin, first, last, s)
+    if table.inside[k]:
         z = asin(min(s / X, 1.0))
     elif all_outside:
         z = asinh(s / X)
     else:
         z = acosh(s / X)
-    y = min(2.0 * (z - K.angle[k, 0]) / (K.angle[k, 1] - K.angle[k, 0]) - 1.0, 1.0)
-    of_f = K.before[k, 0] + clenshaw(K.series[k, 0], y)
-    of_h = K.before[k, 1] + clenshaw(K.series[k, 1], y)
-    if K.inside[k]:
+    y = min(2.0 * (z - table.angle[k, 0]) / (table.angle[k, 1] - table.angle[k, 0]) - 1.0, 1.0)
+    of_f = table.before[k, 0] + clenshaw(table.series[k, 0], y)
+    of_h = table.before[k, 1] + clenshaw(table.series[k, 1], y)
+    if table.inside[k]:
         return of_f, of_h, 0.0, 0.0
-    return K.total[row, 0], K.total[row, 1], of_f, of_h
+    return table.total[row, 0], table.total[row, 1], of_f, of_h
 
 
 @jit

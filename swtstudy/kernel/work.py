@@ -99,223 +99,232 @@ GROWTH_TOLERANCE = 1e-9
 
 
 @jit
-def weight_of(P, U, s):
+def weight_of(profile, conjugate, s):
     """dC over the density's ds, at a place s."""
-    xi = radius_of(P, s)
-    if P.plane:
+    xi = radius_of(profile, s)
+    if profile.plane:
         return -0.5 * log(xi) / MEAN_LOAD
-    return 1.0 if P.in_force else xi / U.unit
+    return 1.0 if profile.in_force else xi / conjugate.unit
 
 
 @jit
-def slope_at(P, U, s):
+def slope_at(profile, conjugate, s):
     """C′, by the diagram's coordinate."""
-    xi = radius_of(P, s)
-    if P.plane:
+    xi = radius_of(profile, s)
+    if profile.plane:
         return -0.5 * log(xi)
-    return U.unit / xi if P.in_force else xi / U.unit
+    return conjugate.unit / xi if profile.in_force else xi / conjugate.unit
 
 
 @jit
-def bend_at(P, U, s):
+def bend_at(profile, conjugate, s):
     """dC′/ds, without its sign."""
-    xi = radius_of(P, s)
-    if P.plane:
+    xi = radius_of(profile, s)
+    if profile.plane:
         return 0.5 * s / (xi * xi)
-    return U.unit * s / (xi * xi * xi) if P.in_force else s / (xi * U.unit)
+    return conjugate.unit * s / (xi * xi * xi) if profile.in_force else s / (xi * conjugate.unit)
 
 
 @jit
-def integral(P, a, b):
+def integral(profile, a, b):
     """∫ N dξ/ξ of a strip, or G, from s = a to b within a panel of the profile."""
-    if P.plane == 0:
-        return rise(P, a, b)
-    p = panel_of(P.begin, 0, P.panels, 0.5 * (a + b))
+    if profile.plane == 0:
+        return rise(profile, a, b)
+    p = panel_of(profile.begin, 0, profile.panels, 0.5 * (a + b))
     total = 0.0
     for i in range(NODE.shape[0]):
         s = a + 0.5 * (b - a) * (NODE[i] + 1.0)
-        xi = radius_of(P, s)
-        total += WEIGHT[i] * coordinate_on(P, p, s) * s / (xi * xi)
+        xi = radius_of(profile, s)
+        total += WEIGHT[i] * coordinate_on(profile, p, s) * s / (xi * xi)
     return 0.5 * (b - a) * total
 
 
 @jit
-def other_at(P, U, s):
+def other_at(profile, conjugate, s):
     """The other coordinate C at a place s."""
     if s <= 0.0:
         return 0.0
-    n = P.exponent
-    if P.plane == 0 and P.in_force == 0:
-        return force_at(P, s) / U.unit
+    n = profile.exponent
+    if profile.plane == 0 and profile.in_force == 0:
+        return force_at(profile, s) / conjugate.unit
     if n > 0.0:
         total = any_power(s, n)
-        return total * (0.5 / n - 0.5 * log(s)) if P.plane else total
-    p = panel_of(P.begin, 0, P.panels, s)
-    total = U.before[p] + integral(P, P.begin[p], s)
-    return 0.5 * (total - coordinate_on(P, p, s) * log(radius_of(P, s))) if P.plane else total
-
-
-@jit
-def unit_of(P):
-    """∫ ξ dG up to G = 1."""
-    n = P.exponent
-    if n > 0.0:
-        return n / (n + 1.0)
-    return P.unit if P.in_force else force_at(P, place_of(P, 1.0))
-
-
-@jit
-def tabulate_other(U, P):
-    """Prepare the other coordinate of a profile."""
-    U.unit = 1.0 if P.plane else unit_of(P)
-    if P.exponent > 0.0 or (P.plane == 0 and P.in_force == 0):
-        return
-    U.before[0] = 0.0
-    for p in range(P.panels):
-        U.before[p + 1] = U.before[p] + integral(P, P.begin[p], P.end[p])
-
-
-@jit
-def grown_from(R, P, U, k, s):
-    """∫ o′ dC over panel k of what grew, up to s."""
-    a, b = R.begin[k], min(s, R.end[k])
-    width, total = 2.0 / (R.end[k] - a), 0.0
-    for i in range(NODE.shape[0]):
-        at = a + 0.5 * (b - a) * (NODE[i] + 1.0)
-        total += WEIGHT[i] * clenshaw(R.density[k], (at - a) * width - 1.0) * weight_of(P, U, at)
-    return 0.5 * (b - a) * total
-
-
-@jit
-def over_piece(C, R, P, U, i, s):
-    """∫ o′ dC over piece i, from its start up to s."""
-    if s <= C.start_s[i]:
-        return 0.0
-    if C.kind[i] != GROWN:
-        slope = C.slope[i]
-        return slope * (other_at(P, U, s) - other_at(P, U, C.start_s[i])) if slope != 0.0 else 0.0
-    first, last = R.first[i], R.last[i]
-    if first == last or s <= R.begin[first]:
-        return 0.0
-    k = panel_of(R.begin, first, last, s)
-    return U.grown[k] + grown_from(R, P, U, k, s)
-
-
-@jit
-def tabulate_answer(U, C, R, P):
-    """Prepare the component that is not prescribed; the diagram lies on the radius."""
-    for i in range(C.pieces):
-        if C.used[i] == 0:
-            continue
-        if C.kind[i] == GROWN:
-            total = 0.0
-            for k in range(R.first[i], R.last[i]):
-                U.grown[k] = total
-                total += grown_from(R, P, U, k, R.end[k])
-        beneath = C.beneath[i]
-        U.inside[i] = 0.0
-        if beneath != NONE:
-            U.inside[i] = U.inside[beneath] + over_piece(C, R, P, U, beneath, C.start_s[i])
-
-
-@jit
-def answer_at(C, R, P, U, k, edge, front):
-    """The component that is not prescribed, in stretch k with its edge and front at these places s."""
-    push, i = C.push[k], C.piece[k]
-    if push == OPEN or edge <= 0.0:
-        return 0.0
-    if i == NONE:
-        return push * other_at(P, U, edge)
-    total = U.inside[i] + over_piece(C, R, P, U, i, front)
-    if push != STICK:
-        total += push * (other_at(P, U, edge) - other_at(P, U, front))
+        return total * (0.5 / n - 0.5 * log(s)) if profile.plane else total
+    p = panel_of(profile.begin, 0, profile.panels, s)
+    total = conjugate.before[p] + integral(profile, profile.begin[p], s)
+    if profile.plane:
+        total = 0.5 * (total - coordinate_on(profile, p, s) * log(radius_of(profile, s)))
     return total
 
 
 @jit
-def slipped(P, U, n, edge, front, whole):
+def unit_of(profile):
+    """∫ ξ dG up to G = 1."""
+    n = profile.exponent
+    if n > 0.0:
+        return n / (n + 1.0)
+    return profile.unit if profile.in_force else force_at(profile, place_of(profile, 1.0))
+
+
+@jit
+def tabulate_other(conjugate, profile):
+    """Prepare the other coordinate of a profile."""
+    conjugate.unit = 1.0 if profile.plane else unit_of(profile)
+    if profile.exponent > 0.0 or (profile.plane == 0 and profile.in_force == 0):
+        return
+    conjugate.before[0] = 0.0
+    for p in range(profile.panels):
+        conjugate.before[p + 1] = conjugate.before[p] + integral(profile, profile.begin[p], profile.end[p])
+
+
+@jit
+def grown_from(growth, profile, conjugate, k, s):
+    """∫ o′ dC over panel k of what grew, up to s."""
+    a, b = growth.begin[k], min(s, growth.end[k])
+    width, total = 2.0 / (growth.end[k] - a), 0.0
+    for i in range(NODE.shape[0]):
+        at = a + 0.5 * (b - a) * (NODE[i] + 1.0)
+        density = clenshaw(growth.density[k], (at - a) * width - 1.0)
+        total += WEIGHT[i] * density * weight_of(profile, conjugate, at)
+    return 0.5 * (b - a) * total
+
+
+@jit
+def over_piece(cycle, growth, profile, conjugate, i, s):
+    """∫ o′ dC over piece i, from its start up to s."""
+    if s <= cycle.start_s[i]:
+        return 0.0
+    if cycle.kind[i] != GROWN:
+        if cycle.slope[i] == 0.0:
+            return 0.0
+        start = other_at(profile, conjugate, cycle.start_s[i])
+        return cycle.slope[i] * (other_at(profile, conjugate, s) - start)
+    first, last = growth.first[i], growth.last[i]
+    if first == last or s <= growth.begin[first]:
+        return 0.0
+    k = panel_of(growth.begin, first, last, s)
+    return conjugate.grown[k] + grown_from(growth, profile, conjugate, k, s)
+
+
+@jit
+def tabulate_answer(conjugate, cycle, growth, profile):
+    """Prepare the component that is not prescribed; the diagram lies on the radius."""
+    for i in range(cycle.pieces):
+        if cycle.used[i] == 0:
+            continue
+        if cycle.kind[i] == GROWN:
+            total = 0.0
+            for k in range(growth.first[i], growth.last[i]):
+                conjugate.grown[k] = total
+                total += grown_from(growth, profile, conjugate, k, growth.end[k])
+        beneath = cycle.beneath[i]
+        conjugate.inside[i] = 0.0
+        if beneath != NONE:
+            inside = over_piece(cycle, growth, profile, conjugate, beneath, cycle.start_s[i])
+            conjugate.inside[i] = conjugate.inside[beneath] + inside
+
+
+@jit
+def answer_at(cycle, growth, profile, conjugate, k, edge, front):
+    """The component that is not prescribed, in stretch k with its edge and front at these places s."""
+    push, i = cycle.push[k], cycle.piece[k]
+    if push == OPEN or edge <= 0.0:
+        return 0.0
+    if i == NONE:
+        return push * other_at(profile, conjugate, edge)
+    total = conjugate.inside[i] + over_piece(cycle, growth, profile, conjugate, i, front)
+    if push != STICK:
+        total += push * (other_at(profile, conjugate, edge) - other_at(profile, conjugate, front))
+    return total
+
+
+@jit
+def slipped(profile, conjugate, n, edge, front, whole):
     """∫ (n - G) dC′ over the slip zone, without its sign, and n - G at the front."""
-    if whole or (front <= 0.0 and P.flat_radius == 0.0):
-        return abs(other_at(P, U, edge)), n
-    width = n - coordinate_at(P, front)
-    if edge - front > min(NARROW * edge, OF_WAVE * P.longest):
-        return abs(other_at(P, U, edge) - other_at(P, U, front) - width * slope_at(P, U, front)), width
+    if whole or (front <= 0.0 and profile.flat_radius == 0.0):
+        return abs(other_at(profile, conjugate, edge)), n
+    width = n - coordinate_at(profile, front)
+    if edge - front > min(NARROW * edge, OF_WAVE * profile.longest):
+        rise_of_other = other_at(profile, conjugate, edge) - other_at(profile, conjugate, front)
+        return abs(rise_of_other - width * slope_at(profile, conjugate, front)), width
     total = 0.0
     for i in range(NODE.shape[0]):
         s = front + 0.5 * (edge - front) * (NODE[i] + 1.0)
-        total += WEIGHT[i] * (n - coordinate_at(P, s)) * bend_at(P, U, s)
+        total += WEIGHT[i] * (n - coordinate_at(profile, s)) * bend_at(profile, conjugate, s)
     return 0.5 * (edge - front) * abs(total), width
 
 
 @jit
-def work_of(C, L, P, Q, U, k, m):
+def work_of(cycle, load, profile, ask, conjugate, k, m):
     """Work of stretch k by m points in time, and by how much rounding may change it."""
-    begin, end, push, whole = C.time[k, 0], C.time[k, 1], C.push[k], C.piece[k] == NONE
+    begin, end, push, whole = cycle.time[k, 0], cycle.time[k, 1], cycle.push[k], cycle.piece[k] == NONE
     work, rounding = 0.0, 0.0
     for i in range(m, 2 * m):  # dense at both ends, where the front starts or arrives
         angle = 0.5 * pi * (TIME_NODE[i] + 1.0)
         t = begin + 0.5 * (end - begin) * (1.0 - cos(angle))
-        n, v, dn, dv, ddn, ddv = rates_at(L, t)
-        edge, front = solved_places(C, P, L, k, t)
-        zone, width = slipped(P, U, n, edge, front, whole)
-        if C.shift != 0.0:
+        n, v, dn, dv, ddn, ddv = rates_at(load, t)
+        edge, front = solved_places(cycle, profile, load, k, t)
+        zone, width = slipped(profile, conjugate, n, edge, front, whole)
+        if cycle.shift != 0.0:
             force, rate = width, 1.0
-            if P.in_force == 0:
-                force, rate = other_at(P, U, edge) - other_at(P, U, front), slope_at(P, U, front)
-            zone += more_work(P, C.shift, Q.poisson_ratio, width, force, rate)
+            if profile.in_force == 0:
+                force = other_at(profile, conjugate, edge) - other_at(profile, conjugate, front)
+                rate = slope_at(profile, conjugate, front)
+            zone += more_work(profile, cycle.shift, ask.poisson_ratio, width, force, rate)
         moved = 0.25 * pi * (end - begin) * sin(angle) * TIME_WEIGHT[i] * abs(dv - push * dn)
         work += zone * moved
         if width > 0.0:
-            rounding += zone * moved * ROUNDING * C.largest / width
+            rounding += zone * moved * ROUNDING * cycle.largest / width
     return work, rounding
 
 
 @jit
-def dissipate(C, L, P, Q, U, out):
+def dissipate(cycle, load, profile, ask, conjugate, out):
     """Write the work of a round, and its error."""
     total, change, rounding = 0.0, 0.0, 0.0
-    for k in range(C.stretches):
-        if C.push[k] != STICK and C.push[k] != OPEN:
-            total += work_of(C, L, P, Q, U, k, LEAST_POINTS)[0]
+    for k in range(cycle.stretches):
+        if cycle.push[k] != STICK and cycle.push[k] != OPEN:
+            total += work_of(cycle, load, profile, ask, conjugate, k, LEAST_POINTS)[0]
     least, total = ENOUGH * total, 0.0
-    for k in range(C.stretches):
-        if C.push[k] == STICK or C.push[k] == OPEN:
+    for k in range(cycle.stretches):
+        if cycle.push[k] == STICK or cycle.push[k] == OPEN:
             continue
         m = LEAST_POINTS
-        work, noise = work_of(C, L, P, Q, U, k, m)
+        work, noise = work_of(cycle, load, profile, ask, conjugate, k, m)
         while m < MOST_POINTS:
             m *= 2
             before = work
-            work, noise = work_of(C, L, P, Q, U, k, m)
+            work, noise = work_of(cycle, load, profile, ask, conjugate, k, m)
             if abs(work - before) <= least:
                 break
         total += work
         change += abs(work - before)
         rounding += noise
-    rounds = (2.0 if L.mirrored else 1.0) * L.rounds
+    rounds = (2.0 if load.mirrored else 1.0) * load.rounds
     out.work = rounds * total
-    out.work_error = rounds * (OF_CHANGE * change + rounding + (LEAST_ERROR + P.left_out) * total)
+    out.work_error = rounds * (OF_CHANGE * change + rounding + (LEAST_ERROR + profile.left_out) * total)
 
 
 @jit
-def ratio_in(C, R, P, L, U, k, t, least):
+def ratio_in(cycle, growth, profile, load, conjugate, k, t, least):
     """|F_x|/(μ F_N) in stretch k, 0 without contact."""
-    n, v = load_at(L, t)
-    if P.in_force:
+    n, v = load_at(load, t)
+    if profile.in_force:
         return abs(v) / n if n > least else 0.0
-    edge, front = solved_places(C, P, L, k, t)
-    normal = other_at(P, U, edge)
-    return abs(answer_at(C, R, P, U, k, edge, front)) / normal if normal > least else 0.0
+    edge, front = solved_places(cycle, profile, load, k, t)
+    normal = other_at(profile, conjugate, edge)
+    tangential = answer_at(cycle, growth, profile, conjugate, k, edge, front)
+    return abs(tangential) / normal if normal > least else 0.0
 
 
 @jit
-def highest_in(C, R, P, L, U, k, least, low, high, steps):
+def highest_in(cycle, growth, profile, load, conjugate, k, least, low, high, steps):
     """Largest force ratio in stretch k between two angles, by parabolas, and the angle of the best sample."""
-    begin, half, step = C.time[k, 0], 0.5 * (C.time[k, 1] - C.time[k, 0]), (high - low) / steps
+    begin, half, step = cycle.time[k, 0], 0.5 * (cycle.time[k, 1] - cycle.time[k, 0]), (high - low) / steps
     best, top, at, before, middle = 0.0, 0.0, low, 0.0, 0.0
     for j in range(steps + 1):
         angle = low + step * j
-        ratio = ratio_in(C, R, P, L, U, k, begin + half * (1.0 - cos(angle)), least)
+        ratio = ratio_in(cycle, growth, profile, load, conjugate, k, begin + half * (1.0 - cos(angle)), least)
         if ratio > top:
             top, at = ratio, angle
         best = max(best, ratio)
@@ -326,84 +335,87 @@ def highest_in(C, R, P, L, U, k, least, low, high, steps):
 
 
 @jit
-def largest_ratio(C, R, P, L, U):
+def largest_ratio(cycle, growth, profile, load, conjugate):
     """Largest |F_x|/(μ F_N) while there is contact."""
-    force = C.largest if P.in_force else other_at(P, U, place_of(P, C.largest))
+    force = cycle.largest
+    if profile.in_force == 0:
+        force = other_at(profile, conjugate, place_of(profile, cycle.largest))
     least, largest = LOST * force, 0.0
-    for k in range(C.stretches):
-        U.top[k] = 0.0
-        if C.push[k] != OPEN:
-            U.top[k] = highest_in(C, R, P, L, U, k, least, 0.0, pi, STEPS)[0]
-            largest = max(largest, U.top[k])
+    for k in range(cycle.stretches):
+        conjugate.top[k] = 0.0
+        if cycle.push[k] != OPEN:
+            top, _ = highest_in(cycle, growth, profile, load, conjugate, k, least, 0.0, pi, STEPS)
+            conjugate.top[k] = top
+            largest = max(largest, conjugate.top[k])
     if largest >= 1.0:
         return 1.0
-    for k in range(C.stretches):
-        if U.top[k] <= 0.0 or U.top[k] < largest - BELOW:
+    for k in range(cycle.stretches):
+        if conjugate.top[k] <= 0.0 or conjugate.top[k] < largest - BELOW:
             continue
         low, high, steps, top = 0.0, pi, STEPS, 0.0
         for _ in range(LOOKS + 1):
-            top, at = highest_in(C, R, P, L, U, k, least, low, high, steps)
+            top, at = highest_in(cycle, growth, profile, load, conjugate, k, least, low, high, steps)
             step = (high - low) / steps
             low, high, steps = max(at - step, 0.0), min(at + step, pi), CLOSE_STEPS
-        U.top[k] = top
+        conjugate.top[k] = top
     largest = 0.0
-    for k in range(C.stretches):
-        largest = max(largest, U.top[k])
+    for k in range(cycle.stretches):
+        largest = max(largest, conjugate.top[k])
     return min(largest, 1.0)
 
 
 @jit
-def permanent_stick(L, P, T, m):
-    """Radius inside of which springs never slip, NaN where there is none; T has m events."""
-    limit = stick_limit(L, T, m)
-    return radius_of(P, place_of(P, limit)) if limit >= 0.0 else nan
+def permanent_stick(load, profile, events, m):
+    """Radius inside of which springs never slip, NaN where there is none; there are m events."""
+    limit = stick_limit(load, events, m)
+    return radius_of(profile, place_of(profile, limit)) if limit >= 0.0 else nan
 
 
 @jit
-def largest_contact(L, P):
+def largest_contact(load, profile):
     """Largest radius of the contact."""
-    return radius_of(P, place_of(P, L.normal_range[1]))
+    return radius_of(profile, place_of(profile, load.normal_range[1]))
 
 
 @jit
-def cycle_of(C, R, P, L, Q, U, with_ratio, out):
+def cycle_of(cycle, growth, profile, load, ask, conjugate, with_ratio, out):
     """Quantities of the cycle of one point: the force ratio only where asked, NaN out of equilibrium."""
-    solve_cycle(C, L)
-    out.no_equilibrium, out.overflow = C.no_equilibrium, C.overflow
+    solve_cycle(cycle, load)
+    out.no_equilibrium, out.overflow = cycle.no_equilibrium, cycle.overflow
     out.work, out.work_error, out.contact_radius, out.force_ratio = nan, nan, nan, nan
     out.stick_radius, out.stick_left, out.stick_right = nan, nan, nan
-    if C.no_equilibrium or C.overflow:
+    if cycle.no_equilibrium or cycle.overflow:
         return
-    tabulate_other(U, P)
-    C.shift = shift_of(L, P, Q, C.event, C.events)
-    dissipate(C, L, P, Q, U, out)
-    out.stick_radius = permanent_stick(L, P, C.event, C.events)
-    off = C.shift * (C.largest - max(stick_limit(L, C.event, C.events), 0.0))
+    tabulate_other(conjugate, profile)
+    cycle.shift = shift_of(load, profile, ask, cycle.event, cycle.events)
+    dissipate(cycle, load, profile, ask, conjugate, out)
+    out.stick_radius = permanent_stick(load, profile, cycle.event, cycle.events)
+    off = cycle.shift * (cycle.largest - max(stick_limit(load, cycle.event, cycle.events), 0.0))
     out.stick_left, out.stick_right = off - out.stick_radius, off + out.stick_radius
-    out.contact_radius = largest_contact(L, P)
+    out.contact_radius = largest_contact(load, profile)
     if with_ratio:
-        if P.in_force == 0:
-            lay_out(R, C, P, L, GROWTH_TOLERANCE)
-            tabulate_answer(U, C, R, P)
-        out.force_ratio = largest_ratio(C, R, P, L, U)
-        out.overflow = C.overflow
+        if profile.in_force == 0:
+            lay_out(growth, cycle, profile, load, GROWTH_TOLERANCE)
+            tabulate_answer(conjugate, cycle, growth, profile)
+        out.force_ratio = largest_ratio(cycle, growth, profile, load, conjugate)
+        out.overflow = cycle.overflow
 
 
 @jit
-def cycles_of(C, R, U, with_ratio, profiles, which, loads, asks, out):
+def cycles_of(cycle, growth, conjugate, with_ratio, profiles, which, loads, asks, out):
     """Quantities of the cycles of points: profile which[i], loads[i], asks[i]."""
     for i in range(which.shape[0]):
-        cycle_of(C, R, profiles[which[i]], loads[i], asks[i], U, with_ratio, out[i])
+        cycle_of(cycle, growth, profiles[which[i]], loads[i], asks[i], conjugate, with_ratio, out[i])
 
 
 @jit
-def margins_of(C, profiles, which, loads, asks, out):
+def margins_of(cycle, profiles, which, loads, asks, out):
     """Write how far points are from where the model ends, by the load alone, also out of equilibrium."""
     for i in range(which.shape[0]):
-        P, L = profiles[which[i]], loads[i]
-        m = turning_points(L, C.event)
-        out[i].contact_radius = largest_contact(L, P)
-        out[i].stick_radius = permanent_stick(L, P, C.event, m)
-        out[i].force_ratio = force_ratio(L, C.event, m)
-        out[i].slide = slide(L, C.event, m)
-        out[i].moved = shift_of(L, P, asks[i], C.event, m) != 0.0
+        profile, load = profiles[which[i]], loads[i]
+        m = turning_points(load, cycle.event)
+        out[i].contact_radius = largest_contact(load, profile)
+        out[i].stick_radius = permanent_stick(load, profile, cycle.event, m)
+        out[i].force_ratio = force_ratio(load, cycle.event, m)
+        out[i].slide = slide(load, cycle.event, m)
+        out[i].moved = shift_of(load, profile, asks[i], cycle.event, m) != 0.0

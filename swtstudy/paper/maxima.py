@@ -98,7 +98,7 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     line_is_far = not np.isfinite(line_x)
     line_x = largest if line_is_far else line_x
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    flat = float(opened.profile["flat_radius"])
+    flat = float(opened.point.profile["flat_radius"])
     search = _Search(opened, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
     place, highest = own, 0.0
     for one in (own, *_first_look(search, own)):
@@ -123,15 +123,15 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
     opened, largest = search.opened, search.largest
     # Distances from the axis: ends of the memory's pieces and edges, and in between.
-    b = float(opened.profile["flat_radius"])
+    b = float(opened.point.profile["flat_radius"])
     between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
     passed = field.passed_radii(opened, MOST_CUSPS)
     radii = np.unique(np.round(np.concatenate([passed, between, rest]), 12))
     depths = largest * DEPTHS
-    if opened.load["bulk_range"].any():
+    if opened.point.load["bulk_range"].any():
         radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
-    angles = ANGLES[[0, -1]] if opened.profile["plane"] else ANGLES
+    angles = ANGLES[[0, -1]] if opened.point.profile["plane"] else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
     grid = _off_ring(search, grid)
     highest = float(field.criterion_at(opened, _cartesian(own[None]), SEARCH)[0][0])
@@ -151,7 +151,7 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
     opened = search.opened
     # In the plane all is in the section.
-    across = 0.0 if opened.profile["plane"] else 1.0
+    across = 0.0 if opened.point.profile["plane"] else 1.0
     steps = FIRST_STEPS * np.array([search.largest, across, search.largest])
     height, width = 0.0, 1.0
     while width > LAST_WIDTH:
@@ -172,7 +172,7 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
 
 def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
     """Places moved away from the edge of a flat face."""
-    b, near = float(search.opened.profile["flat_radius"]), search.ring
+    b, near = float(search.opened.point.profile["flat_radius"]), search.ring
     if b == 0.0:
         return places
     offset = places[..., 0] - b
@@ -244,10 +244,9 @@ def _highest(
     cycle: LoadCycle, places: FloatArray, angles: FloatArray, halved: int
 ) -> tuple[FloatArray, FloatArray]:
     """Largest value at each place over the planes at 2θ, at x > 0 and x < 0, and 2θ there, each (X, 2)."""
-    of_cycle = cycle.cycle, cycle.growth, cycle.profile, cycle.tables, cycle.load, cycle.ask
     found = np.empty((len(places), 2, 2))
     grid = places, np.cos(angles), np.sin(angles), np.int64(halved)
-    highest_on_planes(cycle.history, cycle.work, *of_cycle, cycle.largest, *grid, found)
+    highest_on_planes(cycle.point, cycle.largest, *grid, found)
     return found[..., 0], angles[found[..., 1].astype(np.intp)]
 
 

@@ -11,9 +11,11 @@ from swtstudy.kernel.compiled import new_record, new_records
 from swtstudy.kernel.course import STATE, write_parts, write_springs, write_states, write_stress, write_values
 from swtstudy.kernel.cusps import cusps
 from swtstudy.kernel.field import open_cycle
+from swtstudy.kernel.line import SEARCH
 from swtstudy.kernel.planes import fill, swing_weights
 from swtstudy.kernel.point import OF_POINT
 from swtstudy.kernel.profile import place_of, radius_of
+from swtstudy.kernel.records import Point
 from swtstudy.kernel.shift import centre_of
 from swtstudy.kernel.work import CONJUGATE, permanent_stick, tabulate_answer, tabulate_other
 from swtstudy.solver.points import Points, arguments_of
@@ -35,10 +37,10 @@ class LoadCycle:
     ----------
     points
         The batch.
-    profile, load, ask, conjugate
-        Records of `swtstudy.kernel`, the last one of the component that is not prescribed.
-    cycle, growth, search, history, work, tables
-        Records of the kinds `swtstudy.kernel.point.OF_POINT`.
+    point
+        Its records; load, profile, ask, cycle, growth, history and curves are attributes, too.
+    search, conjugate
+        Records of the search along the line, and of the component that is not prescribed.
     largest
         Place s of the largest contact.
     equilibrium
@@ -53,10 +55,11 @@ class LoadCycle:
         if opened is None:
             return
         # Copies, which outlive the next cycle that the kernel opens.
-        self.cycle, self.growth, self.profile, self.load, self.ask = (each.copy() for each in opened[:5])
+        given = (each.copy() for each in opened.point[:5])
+        self.point = Point(*given, *map(new_record, OF_POINT[2:]))
+        self.load, self.profile, self.ask, self.cycle, self.growth, _, self.history, self.curves = self.point
         self.largest, self.moved = opened.largest, bool(self.cycle.shift != 0.0)
-        self.search, self.history, self.work, self.tables = map(new_record, OF_POINT[2:])
-        self.conjugate = new_record(CONJUGATE)
+        self.search, self.conjugate = new_record(SEARCH), new_record(CONJUGATE)
         tabulate_other(self.conjugate, self.profile)
         tabulate_answer(self.conjugate, self.cycle, self.growth, self.profile)
 
@@ -111,8 +114,7 @@ class LoadCycle:
         """Cosine-spaced angles φ between the events of the cycle, with the events at x/a_H; ascending."""
         load, times = self.load, self.cycle.time[: self.cycle.stretches]
         if x is not None:
-            own = self.history, self.cycle, self.growth, self.profile, self.tables, load
-            write_parts(*own, *self._at(x))
+            write_parts(self.point, *self._at(x))
             times = self.history.time[: self.history.parts]
         share = 0.5 - 0.5 * np.cos(np.pi / steps * np.arange(steps + 1))
         own_times = (times[:, :1] + np.diff(times) * share).ravel()
@@ -135,8 +137,7 @@ class LoadCycle:
             ``xx``, ``yy``, ``zz``, ``xz``, tension positive, and ``bulk``, its part of xx.
         """
         place, largest, side = self._at(x)
-        own = self.history, self.cycle, self.growth, self.profile, self.tables, self.ask
-        write_stress(*own, states, place, largest, side)
+        write_stress(self.point, states, place, largest, side)
         ν = float(self.ask.poisson_ratio)
         names = ("p", "within", "xx", "yy", "q", "bulk")
         p, within, xx, yy, q, bulk = (self.history[name][: len(states)].copy() for name in names)
@@ -154,19 +155,17 @@ class LoadCycle:
     ) -> tuple[FloatArray, FloatArray]:
         """σ_n and the swing, ε_n or τ, on a plane through y at x/a_H and T states, each (T,)."""
         self.stress(x, states)
-        fill(self.history, self.work, np.sign(x), self.ask)
+        fill(self.history, self.curves, np.sign(x), self.ask)
         C, S = np.cos(double_angle), np.sin(double_angle)
         of_b, of_c = swing_weights(self.ask, C, S)
-        a, b, c, d = (self.work[name][: len(states)] for name in "abcd")
+        a, b, c, d = (self.curves[name][: len(states)] for name in "abcd")
         scale = 1.0 - float(self.ask.poisson_ratio) ** 2 if self.ask.criterion == 0 else 1.0
         return a + b * C + c * S, (d + of_b * b + of_c * c) / scale
 
     def along(self, radius: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The criterion and 2θ of its plane at x = ±radius, each of shape (X, 2)."""
         values, angles = np.zeros((2, len(radius), 2))
-        of_cycle = self.cycle, self.growth, self.profile, self.tables, self.load, self.ask
-        search = self.search, self.history, self.work
-        write_values(*search, *of_cycle, self.largest, self.place(radius), values, angles)
+        write_values(self.search, self.point, self.largest, self.place(radius), values, angles)
         return values, angles
 
     def springs(self, radius: FloatArray, states: np.recarray[Any, Any]) -> tuple[FloatArray, FloatArray]:

@@ -154,7 +154,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
 
     least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
     x, columns = _columns(opened, critical, s, distance, least)
-    spacing, of_ball = _spacing(opened, distance), OF_DISC if opened.profile["plane"] else OF_SPHERE
+    spacing, of_ball = _spacing(opened, distance), OF_DISC if opened.point.profile["plane"] else OF_SPHERE
     volume = _ball_means(x / distance, columns, of_ball, spacing / distance)
     estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
     far, near, found = far_field_of(opened), _spacing(opened, 0.0), {}
@@ -202,7 +202,7 @@ def _columns(
     beyond = largest_radius(opened) + distance * np.geomspace(1.0, FARTHEST, 8)
     own = [step * each for each in near]
     x = np.unique(np.concatenate([*own, outside, peaks, beyond, -beyond, [critical]]))
-    if opened.load["mirrored"]:
+    if opened.point.load["mirrored"]:
         x = x[x >= -distance]
     columns = _columns_at(opened, x, distance, limit)
     while True:  # columns beside the highest ones, until these are as near as the distance asks for

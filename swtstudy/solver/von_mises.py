@@ -46,7 +46,7 @@ def largest_von_mises(points: Points) -> FloatArray:
 
 def _of_one(opened: Opened) -> float:
     """The same of one point: from the highest places of a mesh uphill, at a tip, and far from the contact."""
-    profile, reach = opened.profile, largest_radius(opened)
+    profile, reach = opened.point.profile, largest_radius(opened)
     face, feature = float(profile["flat_radius"]), 2.0 * float(profile["longest"])
     if profile["singular"] and face > 0.0:
         return np.inf
@@ -69,8 +69,8 @@ def _of_one(opened: Opened) -> float:
 def _around_axis(opened: Opened, radius: FloatArray, depth: FloatArray) -> FloatArray:
     """Places x, y, z in a_H at all angles that matter, shape (m, 3); nothing is different at −y."""
     # Half a cycle later the stress of a mirrored load is the stress of the other side.
-    angle = np.linspace(0.0, np.pi, 2 if opened.profile["plane"] else ANGLES)
-    angle = angle[: (len(angle) + 1) // 2] if opened.load["mirrored"] else angle
+    angle = np.linspace(0.0, np.pi, 2 if opened.point.profile["plane"] else ANGLES)
+    angle = angle[: (len(angle) + 1) // 2] if opened.point.load["mirrored"] else angle
     r, θ, z = (each.ravel() for each in np.meshgrid(radius, angle, depth, indexing="ij"))
     # Exactly on the line: rounding would leave a y there.
     return np.stack([r * np.cos(θ), np.where(θ == np.pi, 0.0, r * np.sin(θ)), z], axis=1)
@@ -89,7 +89,7 @@ def _highest(place: FloatArray, largest: FloatArray, apart: float) -> list[int]:
 
 def _climb(opened: Opened, place: FloatArray, value: FloatArray, steps: FloatArray) -> float:
     """The highest value that steps uphill from places of shape (k, 3) lead to, of shape (k,) at first."""
-    axes = np.eye(3)[[0, 2]] if opened.profile["plane"] else np.eye(3)
+    axes = np.eye(3)[[0, 2]] if opened.point.profile["plane"] else np.eye(3)
     ways = np.concatenate([axes, -axes])
     every = np.arange(len(place))
     for _ in range(TRIES):
@@ -110,7 +110,11 @@ def _at_tip(opened: Opened) -> float:
     There the stresses along the surface are (½ + ν) p, and under a strip p and 2ν p. The pressure under ξⁿ is
     in the middle n/(n − 1) aⁿ⁻¹/π.
     """
-    profile, n, ν = opened.profile, float(opened.profile["exponent"]), float(opened.ask["poisson_ratio"])
+    profile, n, ν = (
+        opened.point.profile,
+        float(opened.point.profile["exponent"]),
+        float(opened.point.ask["poisson_ratio"]),
+    )
     if n <= 1.0:
         return 0.0
     pressure = n / (n - 1.0) * largest_radius(opened) ** (n - 1.0)
@@ -119,6 +123,6 @@ def _at_tip(opened: Opened) -> float:
 
 def _far_away(opened: Opened) -> float:
     """Von Mises stress of the bulk stress alone, of plane strain under a plane contact."""
-    ν = float(opened.ask["poisson_ratio"])
-    bulk = float(np.abs(opened.load["bulk_range"]).max())
-    return bulk * float(np.sqrt(1.0 - ν + ν * ν)) if opened.profile["plane"] else bulk
+    ν = float(opened.point.ask["poisson_ratio"])
+    bulk = float(np.abs(opened.point.load["bulk_range"]).max())
+    return bulk * float(np.sqrt(1.0 - ν + ν * ν)) if opened.point.profile["plane"] else bulk
