@@ -573,7 +573,6 @@ def test_pages_made_side_by_side_are_in_order(tmp_path: Path, small: xr.Dataset)
     refused = [line.split(": ")[0] for line in done.stderr.splitlines()]
     assert refused == [str(archives[k]) for k in (0, 1, 3)]
     assert "<h1>1 parameter study</h1>" in index.read_text("utf-8")
-    assert "Others" in index.read_text("utf-8")
 
 
 def test_a_drawing_has_the_digits_that_are_seen(small: xr.Dataset) -> None:
