@@ -7,7 +7,7 @@ import pytest
 import stand_in
 from made_up import made_up_audit
 from solved import REGIMES
-from study.told import RIG
+from told import RIG
 
 import swtstudy
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from numpy.typing import NDArray
-from study.told import RIG, merged, refused
+from told import RIG, merged, refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run, swt_of_history

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from asking import EVERY, study
 from command import call
-from study.told import merged, refused
+from told import merged, refused
 
 import swtstudy
 from swtstudy import Study, open_results, run
@@ -51,7 +51,7 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     xr.testing.assert_identical(open_results(path), more)
     one = run(study("[fixed]\ncritical_distance = 0.1\n", "phase = [2.0]"), tmp_path / "b.nc", workers=1)
     assert one.s_volume.dims == ("phase",)
-    both = merged(path, tmp_path / "b.nc", more=("--sparse",))
+    both = merged(path, tmp_path / "b.nc", sparse=True)
     assert both.critical_distance.values.tolist() == [0.05, 0.1]
     assert np.isnan(both.s_volume.values).tolist() == [[False, False], [False, False], [True, False]]
     done = run(Study.from_text(both.attrs["study"]), tmp_path / "merged.nc", workers=1)

@@ -6,7 +6,7 @@ from fractions import Fraction
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from study.told import refused
+from told import refused
 
 from swtstudy import Study, StudyError
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import stand_in
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run

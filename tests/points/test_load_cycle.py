@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from real import ALUMINIUM, CONTACT
-from study.told import RIG
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, run

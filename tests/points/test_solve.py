@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import StudyError, solve

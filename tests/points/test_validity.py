@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from command import call
 from real import ALUMINIUM, CONSTANTS, UNITS
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import Study, physical, run

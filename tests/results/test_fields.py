@@ -10,7 +10,7 @@ import xarray as xr
 from oracles import hertz
 from scenes import each_profile, random_points
 from scipy.integrate import simpson
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import StudyError

@@ -10,7 +10,7 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from real import ALLOY, ALUMINIUM
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, physical

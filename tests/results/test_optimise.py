@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 import stand_in
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import StudyError, optimise

@@ -8,7 +8,7 @@ import xarray as xr
 from command import call
 from folders import RESULTS
 from solved import REGIMES
-from study.told import refused
+from told import refused
 
 from swtstudy import Study, StudyError, open_results, run, sensitivity
 

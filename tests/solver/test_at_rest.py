@@ -12,7 +12,7 @@ from oracles import profiles as oracle
 from oracles.strips import STRIPS, Strip
 from scenes import points
 from solved import solve_points
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import Study, TabulatedProfile

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, each_profile, points, random_points, take
 from scipy.spatial.transform import Rotation
 from solved import Points, Solution, solve_points
-from study.told import RIG, refused
 from test_critical_plane_3d import rotated
 from test_values import ALIGNED
+from told import RIG, refused
 
 import swtstudy
 from studies.accuracy_speed.textbook import textbook_s

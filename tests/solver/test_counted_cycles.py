@@ -9,7 +9,7 @@ import pytest
 import stand_in
 from numpy.testing import assert_allclose
 from real import ALUMINIUM, BODIES, STUDY, plain, without
-from study.told import RIG
+from told import RIG
 
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study

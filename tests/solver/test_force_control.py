@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.force_march import ForceMarch, second_round
-from study.told import refused
+from told import refused
 
 import swtstudy
 

@@ -12,7 +12,7 @@ import xarray as xr
 from command import call
 from made_up import save
 from solved import REGIMES
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run

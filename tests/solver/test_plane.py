@@ -11,7 +11,7 @@ from oracles.strip_march import StripMarch
 from oracles.strips import STRIPS, Strip
 from scenes import plane_points
 from solved import solve_points
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, StudyError, TabulatedProfile

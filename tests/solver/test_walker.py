@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scenes import PROFILE_NAMES, points, random_points, take
 from solved import Points, solve_points
-from study.told import refused
 from test_values import ALIGNED
+from told import refused
 
 import swtstudy
 from studies.accuracy_speed.textbook import textbook_s

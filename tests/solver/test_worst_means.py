@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 from recorded import recorded
 from scenes import FORCES, plane_points, points
 from solved import results_of
-from study.told import RIG
+from told import RIG
 
 import swtstudy
 from swtstudy.kernel.field import direction_at, largest_radius, mean_about

@@ -11,7 +11,7 @@ import stand_in
 import xarray as xr
 from real import ALLOY, ALUMINIUM
 from study import told
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, open_results, run

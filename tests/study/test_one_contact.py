@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from real import ALUMINIUM
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, physical

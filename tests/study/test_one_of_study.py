@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 from real import CONTACT, CRITERIA
-from study.told import refused
+from told import refused
 
 from swtstudy import StudyError, inspect_point
 from swtstudy.cli import main

@@ -15,7 +15,7 @@ from folders import STUDIES
 from oracles.profiles import INDENTERS
 from scipy.integrate import trapezoid
 from study import told
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, physical

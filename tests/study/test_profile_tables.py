@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
-from study.told import RIG, merged, refused
+from told import RIG, merged, refused
 
 import swtstudy
 from swtstudy import Study

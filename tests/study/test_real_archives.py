@@ -13,7 +13,7 @@ import xarray as xr
 from command import call
 from folders import ROOT, TESTS
 from real import STUDY, plain
-from study.told import merged
+from told import merged
 
 from swtstudy import Study, open_results, run
 

@@ -6,7 +6,7 @@ import stand_in
 from real import ALUMINIUM, STUDY, plain, without
 from scipy import constants
 from study import told
-from study.told import merged, refused
+from told import merged, refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run

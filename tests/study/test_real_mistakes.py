@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from real import ALUMINIUM, STUDY, UNITS
-from study.told import RIG, refused
+from told import RIG, refused
 
 from swtstudy import Study, StudyError, physical
 

@@ -7,7 +7,7 @@ import pytest
 import stand_in
 from real import ALUMINIUM, BODIES, STUDY, plain, without
 from study import told
-from study.told import merged, refused
+from told import merged, refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run

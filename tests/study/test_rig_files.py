@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import real
 from command import call
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import Study, StudyError, read_signal

@@ -8,7 +8,7 @@ from command import call
 from drawn import draw, keys
 from matplotlib.colors import to_rgb
 from scipy import stats
-from study.told import merged, refused, written
+from told import merged, refused, written
 
 from swtstudy import Study, open_results, run
 

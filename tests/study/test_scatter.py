@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from real import ALUMINIUM, CONTACT
-from study.told import refused, written
+from told import refused, written
 
 import swtstudy
 from swtstudy import FatigueConstants, Study

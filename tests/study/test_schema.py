@@ -7,7 +7,7 @@ import tomllib
 import pytest
 from command import call
 from folders import STUDIES
-from study.told import refused
+from told import refused
 
 from swtstudy import Study
 

@@ -9,7 +9,7 @@ import xarray as xr
 from command import call
 from drawn import draw
 from real import UNITS
-from study.told import merged, refused
+from told import merged, refused
 
 import swtstudy
 from swtstudy import Study, open_results, run

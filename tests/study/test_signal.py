@@ -11,7 +11,7 @@ import pytest
 import real
 import stand_in
 from study import told
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, open_results, read_signal, run

@@ -8,7 +8,7 @@ from fractions import Fraction
 import pytest
 import stand_in
 from command import call
-from study.told import merged, refused
+from told import merged, refused
 
 from swtstudy import Study, run
 

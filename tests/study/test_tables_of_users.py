@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import LoadPath, Study

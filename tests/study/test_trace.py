@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from folders import DATA
-from study.told import RIG, refused
+from told import RIG, refused
 
 import swtstudy
 from swtstudy import read_trace

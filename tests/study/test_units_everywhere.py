@@ -5,7 +5,7 @@ import pytest
 from command import call
 from real import ALUMINIUM, UNITS
 from study import told
-from study.told import merged, refused, written
+from told import merged, refused, written
 
 import swtstudy
 from swtstudy import Study, physical

@@ -6,7 +6,7 @@ import warnings
 
 import pytest
 from real import CONTACT
-from study.told import refused
+from told import refused
 
 import swtstudy
 from swtstudy import Study

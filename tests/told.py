@@ -8,10 +8,9 @@ from typing import Any
 
 import pytest
 import stand_in
-import xarray as xr
-from command import call
+from command import merged as merged
 
-from swtstudy import Study, StudyError, open_results, run
+from swtstudy import Study, StudyError, run
 
 #: A sphere of aluminium on its like, in newtons and millimetres; its loads are to follow.
 RIG: dict[str, Any] = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
@@ -22,14 +21,6 @@ def refused(words: str, function: Callable[..., Any], *arguments: Any, **given: 
     with pytest.raises(StudyError, match=words or None) as caught:
         function(*arguments, **given)
     return caught.value
-
-
-def merged(*archives: Path, more: tuple[str, ...] = ()) -> xr.Dataset:
-    """What `swtstudy merge` makes of archives; its study is written anew from their values."""
-    target = archives[0].with_name("merged.nc")
-    done = call("merge", *archives, "-o", target, *more)
-    assert done.exit_code == 0, done.output
-    return open_results(target)
 
 
 def written(study: Study, folder: Path) -> Study:
