@@ -22,7 +22,7 @@ from swtstudy.study.units.reading import read_contact
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import Request
+from swtstudy.vocabulary.quantities import Request, error_of
 from swtstudy.vocabulary.variables import COMPUTED, CONTACT, MISSING
 
 #: Relative difference of s from rounding alone, between two machines.
@@ -100,19 +100,25 @@ def _asked(own: Sequence[Request]) -> Request:
 
 def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
     """Refuse values of one point that differ by more than their estimated errors."""
-    other = np.flatnonzero(known["status"] == COMPUTED)
-    first, group = group_rows(known["row"][other])
-    one, s = other[first[group]], known["s"]
-    error = known["s_error"][one] + known["s_error"][other]
-    # Equal values do not conflict even where the error is not finite.
-    equal = np.isclose(s[one], s[other], rtol=_ROUNDING, atol=0, equal_nan=True)
-    with np.errstate(invalid="ignore"):
-        apart = np.flatnonzero(~equal & ~(np.abs(s[one] - s[other]) <= error))
-    if apart.size:
-        a, b = (f"{s[rows[apart[0]]]:.8g} in {sources[rows[apart[0]]]}" for rows in (one, other))
-        point = describe_point(known["row"][one[apart[0]]], grid.definitions)
-        more = f"; {apart.size - 1} more" if apart.size > 1 else ""
-        raise ConflictError(f"conflicting values {a} and {b} at {point}{more}")
+    computed = np.flatnonzero(known["status"] == COMPUTED)
+    for name in (each for each in known.arrays if error_of(each) in known.arrays):
+        values, errors = known[name], known[error_of(name)]
+        other = computed if name == "s" else computed[np.isfinite(values[computed])]  # others may be unknown
+        if values.ndim > 1:  # over critical distances, of which each archive may have others
+            continue
+        first, group = group_rows(known["row"][other])
+        one = other[first[group]]
+        # Equal values do not conflict even where the error is not finite.
+        equal = np.isclose(values[one], values[other], rtol=_ROUNDING, atol=0, equal_nan=True)
+        with np.errstate(invalid="ignore"):
+            near = np.abs(values[one] - values[other]) <= errors[one] + errors[other]
+        apart = np.flatnonzero(~equal & ~near)
+        if apart.size:
+            a, b = (f"{values[rows[apart[0]]]:.8g} in {sources[rows[apart[0]]]}" for rows in (one, other))
+            point = describe_point(known["row"][one[apart[0]]], grid.definitions)
+            of = "" if name == "s" else f" of {name}"
+            more = f"; {apart.size - 1} more" if apart.size > 1 else ""
+            raise ConflictError(f"conflicting values{of} {a} and {b} at {point}{more}")
 
 
 def _refuse_other_contacts(paths: Sequence[Path], datasets: Sequence[xr.Dataset]) -> None:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -14,12 +15,12 @@ import xarray as xr
 
 from swtstudy.points.values import read_exact
 from swtstudy.results.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
-from swtstudy.study.columns import UserTable, read_table
+from swtstudy.study.columns import UserTable, read_table, unknown_names, wrong_unit
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.material import read_given, two_of
-from swtstudy.study.units.rows import OF_BODIES, unit_factor
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
@@ -66,7 +67,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     if order not in (None, *ORDERS):
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
     table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)
-    stress = _components(table, order)
+    stress, unit = _components(table, order)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
     names = table.texts(ID) if table.has(ID) else list(map(str, map(tuple, place.tolist())))
@@ -86,7 +87,6 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
         coords[ID] = "point", labels
     else:
         _doubt_positions(place[rows[:, 0]], rows.shape[1], table.source)
-    unit = "" if given.scale else next((table.unit(c, "stress")[0] for c in _EVERY if table.has(c)), "")
     words = {"units": unit} if unit else {}
     variables = {"stress": (("point", STEP, "component"), stress[rows], words)}
     return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
@@ -102,8 +102,8 @@ def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
         warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
-def _components(table: UserTable, order: str | None) -> FloatArray:
-    """The stress components in our order, shape (rows, 6)."""
+def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
+    """The stress components in our order, shape (rows, 6), and their unit; empty if unknown."""
     has = {own: [name for name in names if table.has(name)] for own, names in ORDERS.items()}
     found = next((own for own, names in ORDERS.items() if has[own] in ([*names], IN_PLANE[own])), None)
     if found is None and order is None:
@@ -114,16 +114,40 @@ def _components(table: UserTable, order: str | None) -> FloatArray:
     if found is not None and order not in (None, found):
         allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
         raise refused("order", literal(order), allowed, table.source)
-    if found is None:
-        values, found = table.numbers(table.headers[-len(OURS) :]), order
-    else:
-        names, own = ORDERS[str(found)], has[str(found)]
-        given = table.numbers(own)
-        values = np.zeros((len(given), len(names)))
-        values[:, [names.index(name) for name in own]] = given
-        if lacking := [name for name in names if name not in own]:
-            warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
-    return values[:, _PLACES] if found == "abaqus" else values
+    names = ORDERS[str(found or order)]
+    others = {table.form.header(name) for name in (STEP, ID, *POSITION)}
+    own = has[found] if found else [header for header in table.headers if header not in others][-len(names) :]
+    if not found and len(own) < len(names):
+        allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
+        raise refused(f"line {table.line}", ", ".join(own), allowed, table.source)
+    places = [names.index(name) for name in own] if found else [*range(len(names))]
+    unknown_names(table.form, (STEP, ID, *POSITION, *own)).refuse()
+    values = np.zeros((len(table.cells), len(names)))
+    values[:, places] = table.numbers(own)
+    if lacking := [name for k, name in enumerate(names) if k not in places]:
+        warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
+    return values[:, _PLACES] if names is OF_ABAQUS else values, _unit_of(table, own)
+
+
+def _unit_of(table: UserTable, names: Sequence[str]) -> str:
+    """The unit of columns of stresses, scaled; empty if none is said, or if ``scale`` is 1 for each."""
+    report, known, scale = Report(), KNOWN["stress"], table.form.scale
+    sizes: dict[str, float] = {}
+    for name in names:
+        report += wrong_unit(table, name, "stress", "")
+        if (unit := table.unit(name, "stress")[0]) in known:
+            sizes[name] = known[unit] / abs(scale.get(name, 1.0))
+    report.refuse()
+    if not sizes or all(scale.get(name) == 1.0 for name in names):
+        return ""
+    least, largest = min(sizes, key=sizes.__getitem__), max(sizes, key=sizes.__getitem__)
+    if not math.isclose(sizes[least], sizes[largest]):
+        found = " and ".join(
+            f"{literal(table.form.header(name))} times {scale.get(name, 1):g}" for name in (least, largest)
+        )
+        raise refused("scale", found, "factors that give one unit of all components", table.source)
+    units = [table.unit(least, "stress")[0], *known]
+    return next((unit for unit in units if math.isclose(known[unit], sizes[least])), "")
 
 
 def evaluate_history(
@@ -193,7 +217,9 @@ def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
     stress = history["stress"]
     own = stress.attrs.get("units", "")
     if (factor := unit_factor("stress", own, unit)) != 1.0:
-        allowed = f"stresses in {unit}, the unit of the study, such as by scale = {{ xx = {factor:g}, … }}"
+        allowed = (
+            f"stresses in {unit}, the unit of the study, such as by scale, with {factor:g} of each component"
+        )
         raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
     if "component" in stress.coords:
         labels = stress["component"].values.tolist()

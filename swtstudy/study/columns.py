@@ -361,10 +361,8 @@ def read_columns(
     StudyError
         A ValueError with what is wrong in the file, and in which row.
     """
-    known, report = dict.fromkeys((*names, *optional, *kinds)), Report()
-    for part in ("scale", "columns"):
-        for name in (each for each in getattr(form, part) if each not in known):
-            report(f"{part}.{name}", literal(name), nearest(name, known, {}))
+    known = dict.fromkeys((*names, *optional, *kinds))
+    report = unknown_names(form, known)
     if not known.keys() >= form.columns.keys():
         report.refuse()  # which column is meant is unknown
     with report:
@@ -379,7 +377,7 @@ def read_columns(
         names = [*names, *filter(table.has, optional)]
         for name, kind in kinds.items():
             if labels and name in names:
-                report += _wrong_unit(table, name, kind, str(labels.get(kind)))
+                report += wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [*map(table.column, names)] if gaps else []
         empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
         if empty and len(empty) < len(table.cells):
@@ -393,7 +391,16 @@ def read_columns(
     return values, np.array([line for line, _ in table.cells])
 
 
-def _wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
+def unknown_names(form: FileTable, known: Collection[str]) -> Report:
+    """The mistakes of factors and headers of columns that are not known."""
+    report = Report()
+    for part in ("scale", "columns"):
+        for name in (each for each in getattr(form, part) if each not in known):
+            report(f"{part}.{name}", literal(name), nearest(name, known, {}))
+    return report
+
+
+def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
     """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
     column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
     if own_kind != kind:
@@ -452,9 +459,10 @@ def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -
         return []
     if form.units_row:
         return rows[0][1]
-    first, *below = ([cells[k] for k in needed if k < len(cells)] for _, cells in rows[:2])
-    numbers = below and all(map(_is_number, below[0])) and not any(map(_is_number, rows[0][1]))
-    return rows[0][1] if any(first) and numbers else []
+    first, below = ([*rows[k][1]] for k in (0, min(1, len(rows) - 1)))
+    wanted = [below[k] for k in needed if k < len(below)] or [*filter(_is_number, below)]
+    has_numbers = bool(wanted) and all(map(_is_number, wanted))
+    return first if any(first) and has_numbers and not any(map(_is_number, first)) else []
 
 
 def _has_decimal_commas(texts: Sequence[str]) -> bool:

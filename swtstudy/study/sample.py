@@ -19,10 +19,11 @@ from swtstudy.points.canonical import Table, canonical_points, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
-from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table
+from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table, unknown_names, wrong_unit
 from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
+from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
@@ -230,8 +231,14 @@ class SampleReader:
         with under(self.report, "sample", "file"):
             table = read_table(path, (), self.rows, form, LONGEST_AXIS)
             names = {form.header(name): name for name in self.rows}
+            own = [names.get(header, header) for header in table.headers if header]
+            self.report.extend(unknown_names(form, own))
+            units = self.contacts.units if self.contacts else Units()
+            for name in (each for each in own if each in self.rows):
+                if kind := kind_of(name):
+                    self.report.extend(wrong_unit(table, name, kind, units.label(kind)))
             if table.cells:
-                return {(name := names.get(each, each)): table.values(name) for each in table.headers if each}
+                return {name: table.values(name) for name in own}
             self.report("sample.file", f"{path} without points", _POINTS)
         return None
 
@@ -438,10 +445,12 @@ def _root(
         either = {(i, j): value for i in covariance for j, value in covariance[i].items()}  # half is enough
         entries = [[either.get((i, j), either.get((j, i), 0.0)) for j in names] for i in names]
         matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
-        if np.isfinite(matrix).all() and np.allclose(matrix, matrix.T) and (np.diag(matrix) > 0.0).all():
-            values, vectors = np.linalg.eigh(matrix)
-            if (values >= -1e-9 * np.abs(matrix).max(initial=0.0)).all():
-                return names, vectors * np.sqrt(np.clip(values, 0.0, None))
+        deviation = np.sqrt(np.diag(matrix).clip(0.0))
+        if np.isfinite(matrix).all() and (deviation > 0.0).all():
+            correlation = matrix / np.outer(deviation, deviation)
+            values, vectors = np.linalg.eigh(correlation)
+            if np.allclose(correlation, correlation.T) and (values >= -1e-9).all():
+                return names, deviation[:, None] * vectors * np.sqrt(values.clip(0.0))
     report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive, of {_CAN_SCATTER}")
     return [], np.empty((0, 0))
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
+import told
 import xarray as xr
 from real import ALLOY, ALUMINIUM
-from study import told
 from told import refused
 
 import swtstudy

@@ -9,12 +9,12 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import told
 import xarray as xr
 from command import call
 from folders import STUDIES
 from oracles.profiles import INDENTERS
 from scipy.integrate import trapezoid
-from study import told
 from told import refused
 
 import swtstudy

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import stand_in
+import told
 from real import ALUMINIUM, STUDY, plain, without
 from scipy import constants
-from study import told
 from told import merged, refused
 
 import swtstudy

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 import stand_in
+import told
 from real import ALUMINIUM, BODIES, STUDY, plain, without
-from study import told
 from told import merged, refused
 
 import swtstudy

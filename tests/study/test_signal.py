@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import real
 import stand_in
-from study import told
+import told
 from told import refused
 
 import swtstudy

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+import told
 from command import call
 from real import ALUMINIUM, UNITS
-from study import told
 from told import merged, refused, written
 
 import swtstudy
