@@ -102,6 +102,18 @@ def test_the_more_accurate_of_two_consistent_values_is_kept(tmp_path):
         np.testing.assert_allclose(relative, [1e-2, 1e-4, 1e-4])
 
 
+def test_quantities_that_contradict_each_other_are_refused(tmp_path):
+    one = made(tmp_path, "one", [0.1, 0.2], [0, 1], 'quantities = ["dissipation"]\n')
+    dataset, other = open_results(one), tmp_path / "other.nc"
+    dataset.assign(dissipation=dataset.dissipation * 1.5).to_netcdf(other)
+    with pytest.raises(
+        ValueError, match=r"conflicting values of dissipation .* in .*one.nc and .*other.nc at"
+    ):
+        merge(one, other)
+    dataset.assign(dissipation=dataset.dissipation + dataset.dissipation_error).to_netcdf(other)
+    assert np.isfinite(merge(one, other).dissipation).all()
+
+
 def test_a_computed_value_replaces_a_failure(tmp_path):
     failed = made(tmp_path, "failed", [0.1, 0.2], [0, 1], solver=partial(stand_in.fail_at, 0.2))
     good = made(tmp_path, "good", [0.2, 0.3], [0, 1])

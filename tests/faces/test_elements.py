@@ -228,6 +228,54 @@ def test_units_of_one_size_and_unknown_units_are_let_pass(tmp_path: Path, unit: 
     assert evaluate_history(history, rig).SWT.attrs["units"] == of_study
 
 
+NAMES = ("xx", "yy", "zz", "yz", "xz", "xy")
+
+
+@pytest.mark.filterwarnings("ignore:.*read as units", "ignore:.*= 0, of plane elements")
+@pytest.mark.parametrize(
+    ("form", "unit"),
+    [
+        ({"scale": dict.fromkeys(NAMES, 1e-6)}, "MPa"),
+        ({"scale": dict.fromkeys(NAMES, -1e-3)}, "kPa"),
+        ({"scale": dict.fromkeys(NAMES, 1.0)}, None),  # the unit in the file is wrong
+        ({"scale": {"xy": -1.0}}, "Pa"),
+    ],
+)
+def test_a_scale_gives_the_unit(tmp_path: Path, form: dict[str, dict[str, float]], unit: str | None) -> None:
+    in_pascal = of_a_point(tmp_path, "-,Pa,Pa,Pa,Pa,Pa,Pa")
+    assert read_history(in_pascal, **form).stress.attrs.get("units") == unit
+
+
+@pytest.mark.filterwarnings("ignore:.*read as units")
+@pytest.mark.parametrize(
+    ("units", "form", "words"),
+    [
+        ("-,Pa,Pa,Pa,Pa,Pa,Pa", {"scale": {"stress": 1e-6}}, "scale.stress: found 'stress'"),
+        ("-,Pa,Pa,Pa,Pa,Pa,Pa", {"scale": dict.fromkeys(("S11", "S22"), 1e-6)}, "scale.S11: found 'S11'"),
+        ("-,Pa,Pa,Pa,Pa,Pa,Pa", {"scale": {"xx": 1e-6}}, "scale: found .* times 1 and 'xx' times 1e-06"),
+        ("-,Pa,MPa,Pa,Pa,Pa,Pa", {}, "one unit of all components"),
+        (",mm,Pa,Pa,Pa,Pa,Pa", {}, "'xx' in mm as xx, which is a stress"),
+    ],
+)
+def test_columns_without_one_unit_are_refused(
+    tmp_path: Path, units: str, form: dict[str, dict[str, float]], words: str
+) -> None:
+    with pytest.raises(StudyError, match=words):
+        read_history(of_a_point(tmp_path, units), **form)
+
+
+def test_other_headers_have_units_and_places_of_their_own(tmp_path: Path) -> None:
+    """Without the step, wherever it stands."""
+    rows = ["a [Pa],b [Pa],c [Pa],d [Pa],e [Pa],f [Pa],step", *(f"1,2,3,4,5,{k}e6,{k}" for k in (6, 7))]
+    (tmp_path / "other.csv").write_text("\n".join(rows))
+    history = read_history(tmp_path / "other.csv", order="abaqus")
+    assert history.stress.attrs == {"units": "Pa"}
+    assert history.stress.values[0].tolist() == [[1, 2, 3, k, 5, 4] for k in (6e6, 7e6)]
+    (tmp_path / "other.csv").write_text("\n".join(row.partition(",")[2] for row in rows))
+    with pytest.raises(StudyError, match=r"found .*; allowed: six columns of components beside step"):
+        read_history(tmp_path / "other.csv", order="abaqus")
+
+
 def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
     rig = study(tmp_path)
     rig.write_text(rig.read_text() + "[axes]\nwalker_exponent = [0.4, 0.5]\n")

@@ -1,4 +1,5 @@
 import csv
+import re
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -448,3 +449,44 @@ def test_the_deviation_of_a_logarithm_is_no_length():
     text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{ranges}'
     words = "friction.deviation: found 5, as a factor 148; allowed: that of the nat"
     refused(words, Study.from_text, text)
+
+
+RIG_POINTS = """title = "points"
+units = { length = "mm", force = "N", stress = "MPa" }
+[fixed]
+young_modulus = 73e3
+poisson_ratio = 0.33
+radius = 50
+friction = 0.5
+normal_force_amplitude = 0
+[sample]
+file = "points.csv"
+columns = { normal_force = "P", tangential_force_amplitude = "Q" }
+"""
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "words"),
+    [
+        ("P [kN],Q [kN]\n0.2,0.05", "", "'P [kN]' in kN as normal_force, while [units] has force in N"),
+        ("P,Q\nkN,kN\n0.2,0.05", "", "'P' in kN as normal_force"),
+        ("P,Q\nkN,kN\n0.2,0.05", "units_row = true", "'Q' in kN as tangential_force_amplitude"),
+        ("P,Q\n200,50", "scale = { normal = 1000 }", "scale.normal: found 'normal'"),
+        ("P [mm],Q\n200,50", "", "'P [mm]' in mm as normal_force, which is a force"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:.*read as units")
+def test_points_of_a_file_have_the_units_of_the_study(tmp_path, rows, more, words):
+    header = rows.partition("\n")[0].split(",")
+    text = RIG_POINTS.replace('"P"', f'"{header[0]}"').replace('"Q"', f'"{header[1]}"')
+    (tmp_path / "points.csv").write_text(rows)
+    (tmp_path / "mine.toml").write_text(f"{text}{more}\n")
+    refused(re.escape(words), Study.from_toml, tmp_path / "mine.toml")
+
+
+@pytest.mark.filterwarnings("ignore:.*read as units")
+def test_points_of_a_file_may_be_scaled(tmp_path):
+    (tmp_path / "points.csv").write_text("P,Q\nkN,kN\n0.2,0.05\n0.3,0.06")
+    scale = "scale = { normal_force = 1000, tangential_force_amplitude = 1000 }\n"
+    (tmp_path / "mine.toml").write_text(RIG_POINTS + scale)
+    assert Study.from_toml(tmp_path / "mine.toml").grid.samples["normal_force"] == (200.0, 300.0)

@@ -22,6 +22,10 @@ strength = { strength = 900, ductility = -0.9 }
 ductility = { ductility = 1.6e-3 }
 strength_exponent = { strength_exponent = 4e-6 }
 """
+SMALL = """[sample.covariance]
+strength = { strength = 900, strength_exponent = -0.03 }
+strength_exponent = { strength_exponent = 4e-7 }
+"""
 SOUND = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{RANGE}"
 
 
@@ -212,6 +216,8 @@ def test_constants_that_make_no_life_are_refused(text: str, words: str) -> None:
         (SAMPLE.replace("sobol", "saltelli") + RANGE, "a design other than saltelli"),
         (RANGE, "sample: found nothing; allowed: one of: design, size and ranges"),
         (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "symmetric and positive"),
+        # A correlation of -1.58, in units in which the other variance is 2e9 times as large.
+        (SAMPLE + SMALL, "symmetric and positive"),
         (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance: found"),
         (SAMPLE + COVARIANCE + RANGE, "strength, which has a range; allowed: one of the two"),
         (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
