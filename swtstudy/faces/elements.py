@@ -318,6 +318,13 @@ def write_history(found: xr.Dataset, path: Path) -> None:
     except ImportError:
         allowed = "pip install meshio, which writes it; or a .csv file"
         raise refused("output", str(path), allowed) from None
+    if not {*POSITION} & columns.keys():
+        raise refused(
+            "output", f"{path}, and points without x, y, z", "a .csv file, or points with coordinates"
+        )
     places = np.stack([columns.get(name, np.zeros(found.sizes["point"])) for name in POSITION], axis=1)
     fields = {str(name): each.values for name, each in found.data_vars.items()}
+    ids = pd.to_numeric(pd.Series(columns.get(ID, [])), errors="coerce")
+    if ids.notna().any():  # of nodes and elements; fields of this format are numbers
+        fields[ID] = ids.to_numpy()
     meshio.Mesh(places, [("vertex", np.arange(len(places))[:, None])], fields).write(path)

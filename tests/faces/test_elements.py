@@ -105,6 +105,18 @@ def test_paraview_reads_the_points(tmp_path: Path) -> None:
     np.testing.assert_array_equal(mesh.points[:, 0], [0, 1, 2])
     np.testing.assert_allclose(mesh.point_data["SWT"], np.array([100, 200, 300]) ** 2 / 4e5, rtol=1e-6)
     assert mesh.point_data["SWT_normal"].shape == (3, 3)
+    assert "id" not in mesh.point_data  # texts
+    rows = ["id,step,xx,yy,zz,yz,xz,xy", *(f"7,{k},{100 * k},0,0,0,0,0" for k in range(2))]
+    (tmp_path / "nodes.csv").write_text("\n".join(rows))
+    done = call("history", study(tmp_path), tmp_path / "nodes.csv", "-o", tmp_path / "nodes.vtu")
+    assert "nodes.vtu, and points without x, y, z; allowed: a .csv file" in done.output
+    (tmp_path / "nodes.csv").write_text("\n".join(f"{row},{z}" for row, z in zip(rows, "z55", strict=True)))
+    assert not call(
+        "history", study(tmp_path), tmp_path / "nodes.csv", "-o", tmp_path / "nodes.vtu"
+    ).exit_code
+    mesh = meshio.read(tmp_path / "nodes.vtu")
+    assert mesh.point_data["id"].tolist() == [7]
+    assert mesh.points.tolist() == [[0, 0, 5]]
 
 
 def test_a_single_point_needs_no_place(tmp_path: Path) -> None:

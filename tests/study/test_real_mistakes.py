@@ -114,6 +114,12 @@ normal_force = 200
     assert sorted(mistake.key for mistake in refused("", Study.from_text, text).mistakes) == keys
 
 
+def test_an_unknown_unit_does_not_hide_that_units_are_inconsistent():
+    wrong = STUDY.replace('length = "mm"', 'length = "m"\nmass = "kg"', 1)
+    error = refused("", Study.from_text, wrong)
+    assert [mistake.key for mistake in error.mistakes] == ["units.mass", "units"]
+
+
 @pytest.mark.parametrize("label", ["rad", "1", " "])
 def test_what_is_no_unit_of_stress_is_none(label: str) -> None:
     with pytest.raises(StudyError, match=f"units.stress: found '{label}'; allowed: the name of a unit"):

@@ -69,7 +69,7 @@ class LineUnits(Units):
 
 
 def unit_factor(kind: str, unit: str, label: str) -> float:
-    """How many of a unit with a label one of another unit is; 1 where either of them is not known."""
+    """Factor from a unit to another one, given by their labels; 1 where either of them is not known."""
     known = KNOWN[kind]
     return known[unit] / known[label] if unit in known and label in known else 1.0
 
@@ -93,7 +93,7 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             report(f"units.{kind}", found, f"the name of a unit, such as {literal(next(iter(KNOWN[kind])))}")
         elif likely := _likely_units(kind, label):
             report(f"units.{kind}", found, f"did you mean {' or '.join(likely)}?")
-    if len(report) == before and all(label in KNOWN[kind] for kind, label in labels.items()):
+    if all(label in KNOWN[kind] for kind, label in labels.items()):
         length, force, stress = (KNOWN[kind][label] for kind, label in labels.items())
         if not math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
             number, unit = f"{force / length**2 / stress:.3g}", labels["stress"]
