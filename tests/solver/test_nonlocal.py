@@ -29,7 +29,7 @@ MOMENTS = {
 
 def of_known(function, kind, size, centre=1.2, along=2, rounds=0, plane=0):
     """Cells of a known function of x, y and z about x = centre, after so many halvings of the worst."""
-    cells = new_record(mean.CELLS)
+    cells = new_record(mean.MEAN)
     cells.kind, cells.plane, cells.centre, cells.x, cells.along = kind, plane, centre, centre, along
     cells.into[:], cells.largest = (0.0, 1.0), 1.0
     cells.reach = size * (1.0 if kind == mean.SPHERE else 2.0)
