@@ -5,7 +5,8 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime
 from os import PathLike
 from pathlib import Path
@@ -17,7 +18,7 @@ from swtstudy.archive import parts
 from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.work import Work, assess
-from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers
+from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
 from swtstudy.points.chunk import Run, Solver, chunks, put
 from swtstudy.study.definition import Study, read_studies, require_study
 from swtstudy.study.shipped import shipped_folder
@@ -179,14 +180,15 @@ def run_several(
 ) -> None:
     """Compute studies with the same workers, write their archives, and draw their figures beside these.
 
-    An error in one study ends all; what is computed of it is saved, and so are the archives before it.
+    An archive is written and its figure drawn in another thread, while the workers compute the next study. An
+    error in one study ends all; what is computed of the others is saved.
 
     Parameters
     ----------
     studies
         Studies and the paths of their archives.
     finished
-        Called with every archive, once its figure is drawn.
+        Called with every archive, once its figure is drawn, one after the other, in the other thread.
     formats
         Formats of the figures: "png", "pdf", "svg". Without one nothing is drawn.
     width
@@ -197,25 +199,35 @@ def run_several(
     if not isinstance(workers, int) or workers < 1:
         raise refused("workers", literal(workers), "a number of workers, from 1 on")
 
-    local = LocalPool if processes else Workers
-    with local(workers) if client is None else ClusterPool(client) as pool:
+    def complete(job: Job, held: ExitStack) -> None:
+        with held, job.reporting():
+            dataset = job.finish()
+        study, path = job.study, job.path
+        if study.figure is not None and formats:
+            from swtstudy.figures.draw import draw
+            from swtstudy.figures.style import save_figure
+
+            figure = draw(dataset, width=width)
+            for ending in formats:
+                save_figure(figure, path.with_suffix(f".{ending}"))
+        finished(study, path, dataset)
+
+    local, before = LocalPool if processes else Workers, Future[None]()
+    before.set_result(None)
+    with local(workers) if client is None else ClusterPool(client) as pool, ThreadPoolExecutor(1) as other:
         for study, path in studies:
             require_study(study)
             check_archive_path(path)
             check_writable(path)
-            with locked(parts.parts_folder(path)):
+            with ExitStack() as held:
+                held.enter_context(locked(parts.parts_folder(path)))
                 job = Job(study, path, retry_failed)
                 with job.reporting():
                     job.compute(pool, solver)
-                    dataset = job.finish()
-            if study.figure is not None and formats:
-                from swtstudy.figures.draw import draw
-                from swtstudy.figures.style import save_figure
-
-                figure = draw(dataset, width=width)
-                for ending in formats:
-                    save_figure(figure, path.with_suffix(f".{ending}"))
-            finished(study, path, dataset)
+                before.result()
+                with without_signals():
+                    before = other.submit(complete, job, held.pop_all())
+        before.result()
 
 
 class Job:

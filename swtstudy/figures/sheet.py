@@ -196,7 +196,12 @@ def wrap_texts(figure: Figure) -> None:
     letters = [len(text.get_text()) for text in (whole, *(text for text, _ in texts)) if text]
     if figure.width is None and max(letters, default=0) <= _LONG:
         return
-    figure.draw_without_rendering()  # panels get their places
+    # Panels get their places; drawing the figure would also do that, in twice the time.
+    if engine := figure.get_layout_engine():
+        engine.execute(figure)
+    for axes in figure.axes:
+        locator: Any = axes.get_axes_locator()
+        axes.apply_aspect(locator(axes, None) if locator else None)
     for text, axes in texts:
         if text is axes.yaxis.label:
             _wrap(text, axes.bbox.height, "height")
