@@ -103,9 +103,9 @@ def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
     computed = np.flatnonzero(known["status"] == COMPUTED)
     for name in (each for each in known.arrays if error_of(each) in known.arrays):
         values, errors = known[name], known[error_of(name)]
-        other = computed if name == "s" else computed[np.isfinite(values[computed])]  # others may be unknown
         if values.ndim > 1:  # over critical distances, of which each archive may have others
             continue
+        other = computed if name == "s" else computed[np.isfinite(values[computed])]  # others may be unknown
         first, group = group_rows(known["row"][other])
         one = other[first[group]]
         # Equal values do not conflict even where the error is not finite.

@@ -103,7 +103,8 @@ def test_the_more_accurate_of_two_consistent_values_is_kept(tmp_path):
 
 
 def test_quantities_that_contradict_each_other_are_refused(tmp_path):
-    one = made(tmp_path, "one", [0.1, 0.2], [0, 1], 'quantities = ["dissipation"]\n')
+    more = 'quantities = ["dissipation"]\n[fixed]\ncritical_distance = 0.1\n'
+    one = made(tmp_path, "one", [0.1, 0.2], [0, 1], more)
     dataset, other = open_results(one), tmp_path / "other.nc"
     dataset.assign(dissipation=dataset.dissipation * 1.5).to_netcdf(other)
     with pytest.raises(

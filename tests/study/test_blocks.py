@@ -44,7 +44,7 @@ def block(load: str, rounds: object) -> str:
 
 def repeated(found: xr.Dataset, by: str = "") -> float:
     """How often a sequence is repeated to a crack, as results say."""
-    (times,) = re.findall(f"repeated (\\S+) times to a crack{by}; running does", repr(found.swt))
+    (times,) = {*re.findall(f"repeated (\\S+) times to a crack{by}; running does", repr(found.swt))}
     return float(times)
 
 

@@ -263,13 +263,13 @@ def title(contact, body=1):
 @pytest.mark.slow
 def test_titles_leave_out_the_factors_of_a_measured_load():
     """F_A = 1 N was said of forces of 60 N, and ψ and ω2/ω1 of a loop that has neither."""
-    load = swtstudy.LoadPath("rig", [[60.0, 200.0], [-60.0, 190.0]], mean_normal=200.0)
+    load = swtstudy.LoadPath("rig", [[60.0, 50.0], [-60.0, 40.0]], mean_normal=200.0)
     words = title(physical(**told.RIG, load=load))
     assert "$F_0$ = 200" in words
     assert "rig" in words
     assert not any(symbol in words for symbol in ("F_A", "Q_A", "omega", "psi"))
-    twice = {"tangential_force_amplitude": 2.0, "normal_force_amplitude": 1.0}
-    assert "$Q_A$ = 2" in title(physical(**told.RIG, load=load, **twice))
+    half = {"tangential_force_amplitude": 0.5, "normal_force_amplitude": 1.0}
+    assert "$Q_A$ = 0.5" in title(physical(**told.RIG, load=load, **half))
     loop = swtstudy.LoadPath("loop", [[1.0, 0.0], [-1.0, 0.0]])
     given = told.RIG | {"normal_force": 200.0, "load": loop, "tangential_force_amplitude": 1.0}
     words = title(physical(**given, normal_force_amplitude=1.0))
@@ -281,4 +281,4 @@ def test_titles_leave_out_the_factors_of_a_measured_load():
 @pytest.mark.slow
 def test_titles_name_the_body():
     named = physical(**RIG, bulk_stress_amplitude=10.0, bodies=["pad", "specimen"])
-    assert [title(named, body).rpartition(",  ")[2] for body in (1, 2)] == ["pad", "specimen"]
+    assert [name in title(named, body) for body in (1, 2) for name in ("pad", "specimen")] == [1, 0, 0, 1]
