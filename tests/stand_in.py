@@ -82,13 +82,6 @@ def kill_once(mark: str, points: Points, rtol: float) -> Solution:
     raise AssertionError
 
 
-def kill_once_at(friction: float, mark: str, points: Points, rtol: float) -> Solution:
-    """Like `kill_once`, but only at one value of the friction."""
-    if np.isclose(points.friction, friction).any():
-        return kill_once(mark, points, rtol)
-    return smooth(points, rtol)
-
-
 def fail_at(friction: float, points: Points, rtol: float) -> Solution:
     """Like `smooth`, but it fails at one value of the friction."""
     if np.isclose(points.friction, friction).any():

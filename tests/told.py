@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import stand_in
-from command import merged as merged
+from command import merged
 
 from swtstudy import Study, StudyError, run
 

@@ -13,7 +13,6 @@ SAID = _FIXED["properties"]
 #: Parameters without units, which come first.
 PARAMETERS = [*SAID][: [*SAID].index("critical_distance")]
 PROFILES = SAID["profile"]["examples"]
-PLANE_PROFILES = PROFILES[PROFILES.index("cylinder") :]
 
 _POWERS = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 

@@ -33,7 +33,6 @@ ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
 #: Components of plane elements, in the order of each.
 IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
-_EVERY = (*OURS, *OF_ABAQUS)
 _ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
 ENDINGS = (".csv", ".vtu", ".nc")

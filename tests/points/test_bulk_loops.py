@@ -10,8 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from command import merged
 from numpy.typing import NDArray
-from told import RIG, merged, refused
+from told import RIG, refused
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, open_results, run, swt_of_history

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from asking import EVERY, study
-from command import call
-from told import merged, refused
+from command import call, merged
+from told import refused
 
 import swtstudy
 from swtstudy import Study, open_results, run

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import stand_in
-from told import RIG, merged, refused
+from command import merged
+from told import RIG, refused
 
 import swtstudy
 from swtstudy import Study

@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
-from command import call
+from command import call, merged
 from folders import ROOT, TESTS
 from real import STUDY, plain
-from told import merged
 
 from swtstudy import Study, open_results, run
 

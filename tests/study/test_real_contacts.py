@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 import stand_in
 import told
+from command import merged
 from real import ALUMINIUM, STUDY, plain, without
 from scipy import constants
-from told import merged, refused
+from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import stand_in
 import told
+from command import merged
 from real import ALUMINIUM, BODIES, STUDY, plain, without
-from told import merged, refused
+from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run

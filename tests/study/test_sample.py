@@ -5,11 +5,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import stand_in
-from command import call
+from command import call, merged
 from drawn import draw, keys
 from matplotlib.colors import to_rgb
 from scipy import stats
-from told import merged, refused, written
+from told import refused, written
 
 from swtstudy import Study, open_results, run
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from command import call
+from command import call, merged
 from drawn import draw
 from real import UNITS
-from told import merged, refused
+from told import refused
 
 import swtstudy
 from swtstudy import Study, open_results, run

@@ -7,8 +7,8 @@ from fractions import Fraction
 
 import pytest
 import stand_in
-from command import call
-from told import merged, refused
+from command import call, merged
+from told import refused
 
 from swtstudy import Study, run
 

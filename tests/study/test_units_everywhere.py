@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import told
-from command import call
+from command import call, merged
 from real import ALUMINIUM, UNITS
-from told import merged, refused, written
+from told import refused, written
 
 import swtstudy
 from swtstudy import Study, physical
