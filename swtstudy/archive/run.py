@@ -222,9 +222,11 @@ def run_several(
             with ExitStack() as held:
                 held.enter_context(locked(parts.parts_folder(path)))
                 job = Job(study, path, retry_failed)
-                with job.reporting():
-                    job.compute(pool, solver)
-                before.result()
+                try:
+                    with job.reporting():
+                        job.compute(pool, solver)
+                finally:
+                    before.result()
                 with without_signals():
                     before = other.submit(complete, job, held.pop_all())
         before.result()

@@ -249,6 +249,20 @@ def test_an_archive_that_cannot_be_written_is_told_once(tmp_path, monkeypatch):
     assert str(caught.value).count("distinct points are saved") == 1
 
 
+def test_an_archive_that_cannot_be_written_is_told_where_the_next_study_is_stopped(tmp_path, monkeypatch):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    def stopped(points, rtol):
+        if points.friction.max() > 0.3 + 1e-9:  # beyond the first study
+            raise KeyboardInterrupt
+        return stand_in.smooth(points, rtol)
+
+    monkeypatch.setattr(xr.Dataset, "dump_to_store", full)
+    with pytest.raises(OSError, match=r"^cannot write the archive .*3\.nc"):
+        run_suite(*suite(tmp_path), solver=stopped)
+
+
 #: Prints what of scipy a worker imports, and whether distributed is there once an archive is written.
 IMPORTS = """
 import sys
