@@ -136,6 +136,7 @@ def main() -> None:
     arguments.add_argument("--points", type=int, default=17, help="points of each profile and criterion")
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     count, profiles = given.points, [*PROFILES[0], *PROFILES[1]]
     if given.quick:
         count, profiles = 1, [own[0] for own in PROFILES]

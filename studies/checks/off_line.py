@@ -241,6 +241,7 @@ def main() -> None:
     arguments.add_argument("--processes", type=int, default=2, help="at a time")
     arguments.add_argument("--quick", action="store_true", help="a point of one scene, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     most = 1 if given.quick else given.points or 10**6
     tasks = [
         (name, min(COUNTS[name][k], most), kind)

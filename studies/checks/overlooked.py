@@ -258,6 +258,7 @@ def main() -> None:
     arguments.add_argument("--processes", type=int, default=2)
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     if given.quick:
         global CHUNK
         CHUNK, given.points, given.scenes = 1, 1, given.scenes[:1]

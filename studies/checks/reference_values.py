@@ -49,6 +49,7 @@ def main() -> None:
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the table")
     arguments.add_argument("--quick", action="store_true", help="one point, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     count, profiles = (1, [*SHAPES][:1]) if given.quick else (COUNT, [*SHAPES])
     draws = [random_points, lambda *of: points_at_ends(*of, largest_term=4)][: 1 if given.quick else None]
     with (given.results / "reference_values.csv").open("w", newline="", encoding="utf-8") as file:

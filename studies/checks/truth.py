@@ -276,6 +276,7 @@ def main() -> int:
     arguments.add_argument("--misses", type=Path, help="CSV file for the points that are wrong")
     arguments.add_argument("--quick", action="store_true", help="few points, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     records = _records()
     scenes = {name: points for name, points in records.points().items() if name in (given.scenes or [name])}
     if given.quick:

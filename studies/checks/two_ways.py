@@ -82,6 +82,7 @@ def main() -> None:
         "--quick", action="store_true", help="few points of one scene, to see that it runs"
     )
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     names, count = (NAMES[:1], 1) if given.quick else (NAMES, max(given.points // CHUNK, 1))
     tasks = [(name, chunk) for name in names for chunk in range(count)]
     found: dict[str, list[NDArray[np.float64]]] = {name: [] for name in names}

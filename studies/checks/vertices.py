@@ -69,6 +69,7 @@ def main() -> None:
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the files")
     arguments.add_argument("--quick", action="store_true", help="few vertices, to see that it runs")
     given = arguments.parse_args()
+    given.results.mkdir(parents=True, exist_ok=True)
     swtstudy.solve(load=loop(8, 0.0, False))  # imports and tables
     counts = list(COUNTS[: 2 if given.quick else None])
     found = {words: [seconds(count, *kind) for count in counts] for words, kind in KINDS.items()}

@@ -38,7 +38,7 @@ ASKED = np.bool_(True)
 @jit
 def evaluate(search, point, place, plus, minus):
     """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, ask, cycle, history, curves = point.load, point.ask, point.cycle, point.history, point.curves
     number = min(search.positions, MAX_SEEN - 1)
     search.positions += 1
     search.seen[number], search.seen_value[number, 0], search.seen_value[number, 1] = place, -1.0, -1.0
@@ -70,7 +70,7 @@ def evaluate(search, point, place, plus, minus):
 @jit
 def swt_at(search, point, side):
     """swt of the sampled cycle at side · x, and 2θ of its plane: rough where it cannot matter."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    ask, history, curves = point.ask, point.history, point.curves
     floor = ask.near * search.best
     first, bound = survey_planes(history, curves, ask, side)
     if value_of(ask, bound) < floor or curves.value[first] <= 0.0:
@@ -102,7 +102,8 @@ def resolve(point, side, swt, angle, best):
     A value that may become the best is confirmed: the parts with the maxima of its curves are doubled until
     it stays. Returns swt and 2θ.
     """
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, profile, ask = point.load, point.profile, point.ask
+    cycle, history, curves = point.cycle, point.history, point.curves
     for _ in range(ROUNDS):
         Ct, St = cos(angle), sin(angle)
         find_peaks(history, curves, ask, Ct, St)

@@ -145,7 +145,7 @@ def tabulate_cell(below, k, plane, exponent, density, begin, end, low, high, b, 
         else:
             disc(below.r, below.z, sqrt(b * b + s * s), f)
         for c in range(ORDER + 1):
-            part = weight * RUN[i, c]
+            part = weight * RUN[c, i]
             for j in range(FUNCTIONS):
                 here[c, j] += part * f[j]
     for j in range(FUNCTIONS):

@@ -84,8 +84,9 @@ def sample_place(body, x, y, z, largest, coarsest):
     coarsest
         Intervals of a part.
     """
-    here, below, planes, point = body
-    load, profile, ask, cycle, growth, table, history, curves = point
+    here, below, point = body.here, body.below, body.point
+    load, profile, ask = point.load, point.profile, point.ask
+    cycle, growth, history = point.cycle, point.growth, point.history
     open_place(below, cycle, growth, profile, ask, x, y, z, largest)
     here.on_circle, here.unsure, cycle.overflow = 0, np.inf, below.overflow  # each place on its own
     springs = below.sigma if below.omega < DEEP * largest else 0.0
@@ -176,8 +177,9 @@ def settle_place(body, tolerance):
     Values above a limit are confirmed as on the line (`swtstudy.kernel.at_place.resolve`), on the plane of
     the maxima between the instants.
     """
-    here, below, planes, point = body
-    load, profile, ask, cycle, growth, table, history, curves = point
+    here, planes, point = body.here, body.planes, body.point
+    load, profile, ask = point.load, point.profile, point.ask
+    cycle, history, curves = point.cycle, point.history, point.curves
     h, n = value_on_plane(body), planes.normal
     for _ in range(ROUNDS):
         doubled, _, here.missing = mark_unresolved(history, curves, cycle, ask, 1.0, 0.0, tolerance)

@@ -13,8 +13,8 @@ GAUSS = np.cos(np.pi * _z / ORDER)
 FIT = 2.0 / ORDER * np.cos(np.pi * np.outer(_k, _z) / ORDER)
 FIT[0] /= 2.0
 _RUN = np.polynomial.chebyshev.chebint(np.eye(ORDER), lbnd=-1, axis=0)
-#: Shape (ORDER, ORDER + 1): values at the Gauss points → coefficients of the integral from -1.
-RUN = np.ascontiguousarray((_RUN @ FIT).T)
+#: Shape (ORDER + 1, ORDER): values at the Gauss points → coefficients of the integral from -1.
+RUN = _RUN @ FIT
 
 
 def gauss_legendre(count):
@@ -101,8 +101,9 @@ def barycentric(y, intervals, weight):
             weight[j] *= 0.5
         total += weight[j]
         sign = -sign
+    total = 1.0 / total
     for j in range(intervals + 1):
-        weight[j] /= total
+        weight[j] *= total
 
 
 @jit
@@ -177,7 +178,7 @@ def peak(values, intervals, node, weight, tolerance):
         y = vertex(low, best_y, high, values[node - 1], best, values[node + 1])[0]
     for _ in range(12):
         barycentric(y, intervals, weight)
-        f, slope, bend = 0.0, 0.0, 0.0
+        f, slope, of_slope, of_chords = 0.0, 0.0, 0.0, 0.0
         for j in range(intervals + 1):
             f += weight[j] * values[j]
         if f > best:
@@ -186,10 +187,12 @@ def peak(values, intervals, node, weight, tolerance):
             gap = y - LOBATTO[j * step]
             if gap == 0.0:
                 return best_y, best
-            slope += weight[j] * (f - values[j]) / gap
-        for j in range(intervals + 1):
-            gap = y - LOBATTO[j * step]
-            bend += 2.0 * weight[j] * (slope - (f - values[j]) / gap) / gap
+            inverse = 1.0 / gap
+            chord = (f - values[j]) * inverse
+            slope += weight[j] * chord
+            of_slope += weight[j] * inverse
+            of_chords += weight[j] * inverse * chord
+        bend = 2.0 * (slope * of_slope - of_chords)
         if slope > 0.0:
             low = y
         else:

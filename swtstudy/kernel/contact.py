@@ -201,7 +201,8 @@ def slip(cycle, load, top, push, begin, end):
             return top, low, True
         if stop > t + SHORTEST:
             add_stretch(cycle, t, stop, top, push, n0, n1, front, G)
-        t, front = stop, G
+            t = stop
+        front = G
         if passes:
             top = cycle.beneath[top]
             continue

@@ -135,7 +135,7 @@ def sample_at(counting, point, place, largest, intervals, side):
 @jit
 def sample_closely(point, intervals):
     """Give all parts of the sampled cycle so many intervals, but short sides of which the ends are enough."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, profile, cycle, history = point.load, point.profile, point.cycle, point.history
     for z in range(history.parts):
         while 1 < history.intervals[z] < intervals and history.instants + ROOM < MAX_INSTANTS:
             refine(history, z, cycle, profile, load)
@@ -153,7 +153,7 @@ def place_at(counting, at):
 @jit
 def look_at(counting, point, at, largest):
     """Count cycles at one place if they may matter; returns their height over the height that matters."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, ask, cycle, history, curves = point.load, point.ask, point.cycle, point.history, point.curves
     highest = 0.0
     for number in range(1 if load.mirrored else 2):
         side = 1.0 - 2.0 * number
@@ -182,7 +182,7 @@ def look_at(counting, point, at, largest):
 @jit
 def look_along(counting, search, point, largest):
     """Find the best places of a coarse look along the line: ends of pieces, and within what may matter."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, profile, ask, cycle = point.load, point.profile, point.ask, point.cycle
     last = cusps(search, cycle, profile, load, ask, largest) - 1
     counting.ends = -1
     for j in range(last + 1):
@@ -203,7 +203,7 @@ def look_along(counting, search, point, largest):
 @jit
 def look_closer(counting, point, power, largest):
     """Count the cycles of the largest sum for one power near the best place and plane of a coarse look."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    ask, history, curves = point.ask, point.history, point.curves
     at, side, angle = counting.where[power, 0], counting.where[power, 1], counting.where[power, 2]
     wide, turned, best_at, best_angle = 1.0 / QUARTERS, STEP, at, angle
     for _ in range(ROUNDS):
@@ -254,7 +254,8 @@ def set_largest(counting):
 @jit
 def count_home(counting, point, x, angle, largest):
     """Count the cycles at the critical place and plane."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, profile, ask, cycle = point.load, point.profile, point.ask, point.cycle
+    growth, history, curves = point.growth, point.history, point.curves
     b, side = profile.flat_radius, -1.0 if x < 0.0 else 1.0
     square = (abs(x) - b) * (abs(x) + b)
     place = sqrt(abs(square)) if square >= 0.0 else -sqrt(abs(square))
@@ -269,7 +270,7 @@ def count_home(counting, point, x, angle, largest):
         swing = curves.top[SWING] + curves.top[MINUS_SWING]
         value = value_of(ask, lifted(ask, curves.top[STRESS], swing, 0.0))
         if value > 0.0:  # as for s itself: what grew is told to a share of the tension
-            needed = ask.growth * min(tension_share(cycle, ask, min(curves.top[STRESS], 0.5 * swing)), 1.0)
+            needed = ask.growth * tension_share(cycle, ask, min(curves.top[STRESS], 0.5 * swing))
         if tolerance > asked or growth.panels == 0 or needed >= 0.5 * tolerance or tolerance <= FINEST_GROWTH:
             break
         asked = max(0.5 * needed, FINEST_GROWTH)

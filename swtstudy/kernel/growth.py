@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, barycentric, fit, panel_of, tail
+from swtstudy.kernel.chebyshev import FINEST, GAUSS, LOBATTO, ORDER, fit, panel_of, tail
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import GROWN, MAX_PIECES, NONE, OPEN, STICK, front_on
 from swtstudy.kernel.events import SAME_INSTANT
@@ -96,19 +96,24 @@ def tabulate_growth(growth, cycle, profile, load, i, tolerance):
 
 
 @jit
-def places_at(cycle, profile, load, k, t, weight):
-    """Places s of the edge and of the front at an instant of stretch k; weight has FINEST + 1 places."""
-    if cycle.interpolated[k]:
-        begin, end, intervals = cycle.time[k, 0], cycle.time[k, 1], cycle.intervals[k]
-        barycentric(2.0 * (t - begin) / (end - begin) - 1.0, intervals, weight)
-        step = FINEST // intervals
-        edge, front = 0.0, 0.0
-        for j in range(intervals + 1):
-            edge += weight[j] * cycle.place[k, j * step, 0]
-            front += weight[j] * cycle.place[k, j * step, 1]
-        # Pressure follows the root of the edge's rounding: one that rests has none.
-        return cycle.place[k, 0, 0] if cycle.edge[k, 0] == cycle.edge[k, 1] else edge, front
-    return solved_places(cycle, profile, load, k, t)
+def places_at(cycle, profile, load, k, t):
+    """Places s of the edge and of the front at an instant of stretch k, by the barycentric formula."""
+    if cycle.interpolated[k] == 0:
+        return solved_places(cycle, profile, load, k, t)
+    begin, end, step = cycle.time[k, 0], cycle.time[k, 1], FINEST // cycle.intervals[k]
+    y, sign, total, edge, front = 2.0 * (t - begin) / (end - begin) - 1.0, 1.0, 0.0, 0.0, 0.0
+    for j in range(0, FINEST + 1, step):
+        gap = y - LOBATTO[j]
+        if gap == 0.0:
+            return cycle.place[k, j, 0], cycle.place[k, j, 1]
+        weight = (0.5 if j == 0 or j == FINEST else 1.0) * sign / gap
+        total += weight
+        edge += weight * cycle.place[k, j, 0]
+        front += weight * cycle.place[k, j, 1]
+        sign = -sign
+    # Pressure follows the root of the edge's rounding: one that rests has none.
+    rests = cycle.edge[k, 0] == cycle.edge[k, 1]
+    return cycle.place[k, 0, 0] if rests else edge / total, front / total
 
 
 @jit

@@ -152,7 +152,8 @@ def stress(history, m, cycle, profile, table, k, edge, front, sign, ask):
 @jit
 def write_stress(point):
     """Write the stress at the new instants; a known one is copied, perhaps to where the load is mirrored."""
-    load, profile, ask, cycle, growth, table, history, curves = point
+    load, profile, ask = point.load, point.profile, point.ask
+    cycle, table, history = point.cycle, point.table, point.history
     for m in range(history.written, history.instants):
         i, z = history.known[m], history.part[m]
         if i == NONE:

@@ -190,6 +190,16 @@ def divide(search, point, k, limit):
 
 
 @jit
+def evaluate_cusp(search, point, i, count):
+    """Evaluate the cusp at which group i of count - 1 begins, and the one before ends."""
+    evaluate(search, point, search.cusp[search.cusps[i, 0]], ASKED, ASKED)
+    for side in range(2):
+        if i > 0:
+            search.at_ends[i - 1, 1, side] = search.value[side]
+        search.at_ends[i, 0, side] = search.value[side]
+
+
+@jit
 def first_intervals(search, point):
     """Evaluate cusps and make intervals of the pieces between them, and groups if there are many."""
     search.crowd, search.intervals, load = 0.0, 0, point.load
@@ -198,19 +208,25 @@ def first_intervals(search, point):
         while search.cusp[k] < 0.5 * search.smallest:
             k += 1
         search.crowd = max(search.largest - search.cusp[k], 1e-6 * search.largest)
-    after, plus, minus = -1, 0.0, 0.0
-    for j in range(search.last, -1, -1):  # the largest values are near the edges
-        if not ends_group(search, j, search.last, search.largest):
-            continue
-        evaluate(search, point, search.cusp[j], ASKED, ASKED)
-        if after > 0:
-            m = search.intervals
-            search.at_ends[m, 0, 0], search.at_ends[m, 0, 1] = search.value[0], search.value[1]
-            search.at_ends[m, 1, 0], search.at_ends[m, 1, 1] = plus, minus
-            search.rise[m] = RISE
-            set_group(search, m, j, after, load)
-            search.intervals += 1
-        after, plus, minus = j, search.value[0], search.value[1]
+    count = 0  # of cusps that begin a group, or end the last one
+    for j in range(search.last + 1):
+        if ends_group(search, j, search.last, search.largest):
+            search.cusps[count, 0] = j
+            count += 1
+    evaluate_cusp(search, point, FIRST, count)
+    step = 1
+    while step < count:
+        step *= 2
+    while (
+        step > 1
+    ):  # scattered: a value that is the largest so far is looked at closely, of a rising row each
+        for i in range(step // 2, count, step):
+            evaluate_cusp(search, point, i, count)
+        step //= 2
+    for k in range(count - 1):
+        search.rise[k] = RISE
+        set_group(search, k, search.cusps[k, 0], search.cusps[k + 1, 0], load)
+    search.intervals = count - 1
     for k in range(search.intervals):
         grade(search, point, k)
 
@@ -254,12 +270,11 @@ def search_line(search, point):
     Parameters
     ----------
     search
-        Record of `SEARCH`.
+        Record of `SEARCH` after `begin_search`.
     point
         `swtstudy.kernel.records.Point`.
     """
     profile, load, ask = point.profile, point.load, point.ask
-    begin_search(search, point)
     if is_sharp(profile):
         search_tip(search, point)
     while True:

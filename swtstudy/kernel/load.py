@@ -25,6 +25,8 @@ UNMAPPED, BY_POWER, BY_SERIES = np.arange(3)
 #: Smaller normal loads are mapped in proportion: a power law has derivatives without bounds at 0.
 LEAST = 1e-12
 
+#: Rounding of a load.
+ROUNDED = 1e-15
 MAX_HARMONICS, MAX_VERTICES, MAX_MAP, MAP_ORDER = 64, 2001, 1021, 18
 LOAD = np.dtype(
     [
@@ -222,6 +224,8 @@ def instant_of(load, which, level, begin, end):
         return begin if abs(at_begin) < abs(at_end) else end
     if at_begin == at_end:
         return begin
+    if abs(at_end) <= ROUNDED:  # near a turning point the root of that would be an instant of its own
+        return end
     share = -at_begin / (at_end - at_begin)
     if load.sides > 0:
         return begin + (end - begin) * share
@@ -235,7 +239,7 @@ def instant_of(load, which, level, begin, end):
     for _ in range(60):
         f, rate = function_at(load, which, t)
         f -= level
-        if f == 0.0:
+        if abs(f) <= ROUNDED:
             return t
         if f * at_begin > 0.0:
             begin = t

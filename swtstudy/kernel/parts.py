@@ -46,7 +46,6 @@ OF_PARTS = [
     *fields("i8", "part known", (MAX_INSTANTS,)),  # of an instant; an earlier one with its stress, or NONE
     ("instant", "f8", (MAX_INSTANTS,)),
     ("state", "f8", (MAX_INSTANTS, 2)),  # s of edge and front
-    ("weight", "f8", (FINEST + 1,)),
 ]
 
 
@@ -138,7 +137,7 @@ def sample(history, z, intervals, cycle, profile, load):
         elif whole:
             edge, front = cycle.place[k, j * step, 0], cycle.place[k, j * step, 1]
         else:
-            edge, front = places_at(cycle, profile, load, k, t, history.weight)
+            edge, front = places_at(cycle, profile, load, k, t)
         add_instant(history, z, t, edge, front, NONE)
 
 
@@ -150,7 +149,7 @@ def refine(history, z, cycle, profile, load):
         return
     k, begin, end = history.stretch[z], history.time[z, 0], history.time[z, 1]
     t = begin + 0.5 * (end - begin) * (SPACED[history.cusps[z], FINEST // 2] + 1.0)
-    edge, front = places_at(cycle, profile, load, k, t, history.weight)
+    edge, front = places_at(cycle, profile, load, k, t)
     last = history.places[z, 1]
     y = add_part(history, k, t, end, edge, last[0], front, last[1], history.cusps[z] & 2)
     history.mirror[y] = history.mirror[z]
@@ -229,7 +228,7 @@ def split(history, cycle, profile, load, k):
             continue
         e, f = edge_end, front_end
         if stop < end:
-            e, f = places_at(cycle, profile, load, k, stop, history.weight)
+            e, f = places_at(cycle, profile, load, k, stop)
             if stop == at_edge:
                 e = history.X
             if stop == at_front or (stop == at_edge and push == STICK):

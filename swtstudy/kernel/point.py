@@ -11,7 +11,7 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import search_line
+from swtstudy.kernel.line import begin_search, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, load_at
 from swtstudy.kernel.planes import CURVES, NOISE
 from swtstudy.kernel.profile import place_of
@@ -104,8 +104,9 @@ def is_idle(cycle, load, profile, ask):
 
 @jit
 def tension_share(cycle, ask, tension):
-    """Tension over the largest stress that slip can make, μ times the pressure; 1 without friction."""
-    return tension / (ask.friction * sqrt(cycle.largest)) if ask.friction > 0.0 else 1.0
+    """Tension over the largest stress that slip can make, μ times the pressure; 1 at most, or without."""
+    largest = ask.friction * sqrt(cycle.largest)
+    return tension / largest if 0.0 < tension < largest else 1.0
 
 
 @jit
@@ -149,15 +150,17 @@ def solve_point(search, point, out):
     out.s, out.s_error, out.s_surface, out.circle = 0.0, 0.0, 0.0, needs_circle(load, profile, ask)
     if is_idle(cycle, load, profile, ask):
         return
-    tolerance, gap, share, coarse = ask.growth, 0.0, 1.0, 0.0
+    tolerance, gap, coarse = ask.growth, 0.0, 0.0
     for _ in range(5):
         out.growth, tolerance = tolerance, lay_out(growth, cycle, profile, load, tolerance)
         coarse = tolerance if tolerance > out.growth else 0.0
-        gap = search_line(search, point)
-        share = tension_share(cycle, ask, search.tension)
-        needed = ask.growth * min(share, 1.0)
-        done = needed >= 0.5 * tolerance or tolerance <= FINEST_GROWTH
-        if done or coarse > 0.0 or growth.panels == 0 or search.best <= 0.0:
+        fine_enough = coarse > 0.0 or growth.panels == 0 or tolerance <= FINEST_GROWTH
+        begin_search(search, point)
+        needed = ask.growth * tension_share(cycle, ask, search.tension)
+        if fine_enough or needed >= 0.5 * tolerance:
+            gap = search_line(search, point)
+            needed = ask.growth * tension_share(cycle, ask, search.tension)
+        if fine_enough or needed >= 0.5 * tolerance:
             break
         tolerance = max(0.5 * needed, FINEST_GROWTH)
     out.positions, out.instants, out.overflow = search.positions, point.history.instants, cycle.overflow
@@ -165,7 +168,8 @@ def solve_point(search, point, out):
     if search.best == 0.0:  # tension within rounding is taken for none
         out.s_error = gap + NOISE * cycle.largest
     else:
-        rounding = coarse / share + rounding_share(cycle, profile, ask, search.place, search.tension)
+        rounding = rounding_share(cycle, profile, ask, search.place, search.tension)
+        rounding += coarse / tension_share(cycle, ask, search.tension)
         out.s_error = gap + (ask.time + rounding + profile.left_out) * search.best
         x = sqrt(profile.flat_radius * profile.flat_radius + search.place * abs(search.place))
         out.critical_x = search.sign * x + 0.0  # no -0 at the centre

@@ -113,8 +113,8 @@ def assemble(profile, settled, order, largest):
         for k in range(ORDER + 1):
             rise[k], profile.force[p, k] = 0.0, 0.0
             for i in range(ORDER):
-                rise[k] += half * values[i] * RUN[i, k]
-                profile.force[p, k] += half * values[i] * weight[i] * RUN[i, k]
+                rise[k] += half * values[i] * RUN[k, i]
+                profile.force[p, k] += half * values[i] * weight[i] * RUN[k, i]
             profile.coordinate[p, k] = profile.force[p, k] if weighted else rise[k]
             gain += rise[k]
             load += profile.force[p, k]

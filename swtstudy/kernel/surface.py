@@ -19,7 +19,7 @@ from math import asin, ceil, cosh, log, sin, sinh, sqrt
 import numpy as np
 
 from swtstudy.kernel.chebyshev import GAUSS, ORDER, RUN, clenshaw, panel_of
-from swtstudy.kernel.compiled import fields, jit
+from swtstudy.kernel.compiled import fields, jit, jit_reordered
 from swtstudy.kernel.contact import MAX_PIECES
 
 MAX_TABLES = 17003
@@ -32,6 +32,7 @@ TABLE = np.dtype(
         ("series", "f8", (MAX_TABLES, 2, ORDER + 1)),
         *fields("i8", "first last", (MAX_PIECES + 1,)),  # panels of a density: 0 the profile, 1 + i piece i
         ("total", "f8", (MAX_PIECES + 1, 2)),  # T1, T3 of all that is inside x
+        ("density", "f8", (2, ORDER)),  # of a table's two integrals, at its Gauss points
     ]
 )
 #: Largest ratio of the ends of a table outside of x: its variable is as the logarithm of s there.
@@ -91,10 +92,10 @@ def tabulate(table, row, k, begin, end, density, p0, p1, top, b, x, X, all_outsi
     return k
 
 
-@jit
+@jit_reordered
 def tabulate_panel(table, k, density, begin, end, low, high, b, x, X, inside, all_outside, plane, sums):
     """Table k: running integrals of the panel's density from low to high, added to the sums up to there."""
-    f, h = np.empty(ORDER), np.empty(ORDER)
+    f, h = table.density[0], table.density[1]
     table.begin[k] = low
     if inside:
         z0, z1 = asin(low / X), asin(high / X)
@@ -118,19 +119,16 @@ def tabulate_panel(table, k, density, begin, end, low, high, b, x, X, inside, al
             root = X * (cosh(z) if all_outside else sinh(z))
             f[i] = half * clenshaw(density, (s - begin) * width - 1.0)
             h[i] = f[i] * root / (sqrt(b * b + s * s) + root)
-    F, H = table.series[k, 0], table.series[k, 1]
-    for c in range(ORDER + 1):
-        F[c] = f[0] * RUN[0, c]
-        H[c] = h[0] * RUN[0, c]
-    for i in range(1, ORDER):
-        for c in range(ORDER + 1):
-            F[c] += f[i] * RUN[i, c]
-            H[c] += h[i] * RUN[i, c]
     first = 0 if inside else 2
     table.before[k, 0], table.before[k, 1] = sums[first], sums[first + 1]
     for c in range(ORDER + 1):
-        sums[first] += F[c]
-        sums[first + 1] += H[c]
+        of_f, of_h = 0.0, 0.0
+        for i in range(ORDER):
+            of_f += f[i] * RUN[c, i]
+            of_h += h[i] * RUN[c, i]
+        table.series[k, 0, c], table.series[k, 1, c] = of_f, of_h
+        sums[first] += of_f
+        sums[first + 1] += of_h
 
 
 @jit
