@@ -36,7 +36,7 @@ from swtstudy.kernel.field import (
 )
 from swtstudy.kernel.mean import FIRST, LINE, POINT, ROUGHLY, SPHERE
 from swtstudy.solver.points import Points, Solution, arguments_of
-from swtstudy.vocabulary.arrays import FloatArray
+from swtstudy.vocabulary.arrays import FloatArray, IntArray
 from swtstudy.vocabulary.parameters import DIRECTIONS
 
 #: Kinds of means, and the kernel's.
@@ -53,9 +53,12 @@ CLOSE = {"volume": 1e-2, "point": 2e-3, "line": 2e-3}
 FORETOLD, TOLD_APART, MOST_STEPS = 0.1, 0.2, 12
 #: Places are one if they are nearer than such a share of the width of a climb.
 SAME = 1e-3
-#: Columns of at least this share of the highest are looked at, and means at these of this share of the
-#: largest one are climbed from: they lie within ℓ/4 of their maxima.
-WORTH_A_LOOK, WORTH_A_CLIMB = 0.7, 0.94
+#: Columns of at least this share of the highest are looked at, and columns are added beside them until the
+#: mean falls by no more than the second number from each to the next; means at these of the third share of
+#: the largest one are climbed from.
+WORTH_A_LOOK, FALL, WORTH_A_CLIMB = 0.7, 0.03, 0.9
+#: Columns are no nearer than this share of ℓ, but for lines.
+FINEST = 1.0 / 16.0
 #: Sine of an angle by which the critical plane turns at once, or nearly; places among which that is looked
 #: for, and how closely.
 JUMP, LOOKS, HALVINGS = 0.05, 17, 20
@@ -153,11 +156,8 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
         return mean_about(opened, KINDS[kind], x, direction, distance, known, rtol, first)
 
     least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
-    x, columns = _columns(opened, critical, s, distance, least)
-    spacing, of_ball = _spacing(opened, distance), OF_DISC if opened.point.profile["plane"] else OF_SPHERE
-    volume = _ball_means(x / distance, columns, of_ball, spacing / distance)
-    estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
-    far, near, found = far_field_of(opened), _spacing(opened, 0.0), {}
+    x, estimates = _columns(opened, critical, s, distance, least)
+    spacing, far, near, found = _spacing(opened, distance), far_field_of(opened), _spacing(opened, 0.0), {}
     for kind, estimate in estimates.items():
         rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
         step = 0.5 * spacing if kind == "line" else 0.25 * distance
@@ -167,6 +167,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
             close = partial(mean, kind, way, most, CLOSE[kind], FIRST)
             place, known = _climb_all(rough, close, starts, step, near, CLOSE[kind])
+            starts.append(place)
             if way == 1:
                 places = [place, *_beside_jumps(opened, place, 0.5 * distance)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
@@ -176,19 +177,19 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
     return found
 
 
-def _ball_means(x: FloatArray, columns: FloatArray, of_ball: FloatArray, spacing: float) -> FloatArray:
-    """Estimates of the means over half balls about the columns, lengths over ℓ: sums over their columns."""
-    gaps = np.minimum(np.diff(x), spacing)
-    widths = 0.5 * (np.append(gaps, spacing) + np.insert(gaps, 0, spacing))
-    offset = np.abs(x[:, None] - x)
-    parts = (np.interp(offset, OFFSET, own, right=0.0) for own in of_ball.T)
-    return sum(part @ (widths * values) for part, values in zip(parts, columns.T, strict=True))
+def _ball_means(x: FloatArray, columns: FloatArray, of_ball: FloatArray) -> FloatArray:
+    """Estimates of the means over half balls, with values that are linear between columns; lengths over ℓ."""
+    offset = np.concatenate([-OFFSET[:0:-1], OFFSET])
+    weights = OFFSET[1] * np.concatenate([of_ball[:0:-1], of_ball])
+    at = x[:, None] + offset
+    parts = (np.interp(at, x, values) @ own for own, values in zip(weights.T, columns.T, strict=True))
+    return np.sum(list(parts), axis=0)
 
 
 def _columns(
     opened: Opened, critical: float, s: float, distance: float, limit: float
-) -> tuple[FloatArray, FloatArray]:
-    """Columns where the surface exceeds a limit: their x, ascending, and values at `NODE`, (n, len(NODE))."""
+) -> tuple[FloatArray, dict[str, FloatArray]]:
+    """Columns where the surface exceeds a limit: their x, ascending, and estimates of the means there."""
     place, value = surface_above(opened, max(limit, LOWEST * s), s)
     high = (value[:-1] > limit) | (value[1:] > limit) | (limit < LOWEST * s)
     end = largest_radius(opened) + distance
@@ -205,15 +206,35 @@ def _columns(
     if opened.point.load["mirrored"]:
         x = x[x >= -distance]
     columns = _columns_at(opened, x, distance, limit)
-    while True:  # columns beside the highest ones, until these are as near as the distance asks for
-        tops = {k for weights in (OF_LINE, OF_POINT) for k in _tops(columns @ weights)}
-        wide = [k for k in range(len(x) - 1) if x[k + 1] - x[k] > distance and tops & {k, k + 1}]
-        if not wide:
-            return x, columns
-        new = np.array([0.5 * (x[k] + x[k + 1]) for k in wide])
-        after = np.array(wide) + 1
-        columns = np.insert(columns, after, _columns_at(opened, new, distance, limit), axis=0)
-        x = np.insert(x, after, new)
+    while True:
+        estimates = _estimates(opened, x, columns, distance)
+        wide = _wide_gaps(x, estimates, distance)
+        if not wide.size:
+            return x, estimates
+        new = 0.5 * (x[wide] + x[wide + 1])
+        columns = np.insert(columns, wide + 1, _columns_at(opened, new, distance, limit), axis=0)
+        x = np.insert(x, wide + 1, new)
+
+
+def _estimates(opened: Opened, x: FloatArray, columns: FloatArray, distance: float) -> dict[str, FloatArray]:
+    """By kind estimates of the means about columns, straight down."""
+    of_ball = OF_DISC if opened.point.profile["plane"] else OF_SPHERE
+    volume = _ball_means(x / distance, columns, of_ball)
+    return {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
+
+
+def _wide_gaps(x: FloatArray, estimates: dict[str, FloatArray], distance: float) -> IntArray:
+    """Gaps beside the highest columns, over which a mean falls by more than a little, or wider than ℓ.
+
+    Over places nearer than a share of ℓ only means along lines change: these reach up to the surface.
+    """
+    wide, width = np.zeros(len(x) - 1, dtype=bool), np.diff(x)
+    for kind, estimate in estimates.items():
+        is_top = np.isin(np.arange(len(x)), _tops(estimate))
+        falls = np.abs(np.diff(estimate)) > FALL * np.maximum(estimate[1:], estimate[:-1])
+        falls &= width > distance * (SAME if kind == "line" else FINEST)
+        wide |= (is_top[1:] | is_top[:-1]) & (falls | (width > distance))
+    return np.flatnonzero(wide)
 
 
 def _spacing(opened: Opened, distance: float) -> float:
@@ -230,12 +251,19 @@ def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) ->
 
 
 def _tops(estimate: FloatArray) -> list[int]:
-    """Columns that are as high as both neighbours, the highest first, if they are worth a look."""
+    """Columns that are as high as both neighbours, the highest first, if they are worth a look.
+
+    From each the estimate falls, before it rises to a higher one, by more than it may miss.
+    """
     padded = np.concatenate([[-1.0], estimate, [-1.0]])
     is_top = (estimate >= padded[:-2]) & (estimate >= padded[2:])
     is_top &= estimate >= WORTH_A_LOOK * estimate.max()
-    order = np.argsort(-estimate, kind="stable")
-    return [int(k) for k in order if is_top[k]]
+    found: list[int] = []
+    for k in np.argsort(-estimate, kind="stable"):
+        low = (1.0 - 2.0 * OF_COLUMNS) * estimate[k]
+        if is_top[k] and all(estimate[min(j, k) : max(j, k)].min() < low for j in found):
+            found.append(int(k))
+    return found
 
 
 def _climb_all(
