@@ -253,14 +253,14 @@ def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) ->
 def _tops(estimate: FloatArray) -> list[int]:
     """Columns that are as high as both neighbours, the highest first, if they are worth a look.
 
-    From each the estimate falls, before it rises to a higher one, by more than it may miss.
+    From each the estimate falls, before it rises to a higher one, by more than a place may miss.
     """
     padded = np.concatenate([[-1.0], estimate, [-1.0]])
     is_top = (estimate >= padded[:-2]) & (estimate >= padded[2:])
     is_top &= estimate >= WORTH_A_LOOK * estimate.max()
     found: list[int] = []
     for k in np.argsort(-estimate, kind="stable"):
-        low = (1.0 - 2.0 * OF_COLUMNS) * estimate[k]
+        low = (1.0 - OF_PLACE) * estimate[k]
         if is_top[k] and all(estimate[min(j, k) : max(j, k)].min() < low for j in found):
             found.append(int(k))
     return found
