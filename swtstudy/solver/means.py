@@ -169,7 +169,7 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
             place, known = _climb_all(rough, close, starts, step, near, CLOSE[kind])
             starts.append(place)
             if way == 1:
-                places = [place, *_beside_jumps(opened, place, 0.5 * distance)]
+                places = [place, *_beside_jumps(opened, place, distance)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
             value, error = mean(kind, way, known, RTOL, FIRST, place)
             rows.append((far, 0.0, np.nan) if far > value else (value, error + OF_PLACE * value, place))
