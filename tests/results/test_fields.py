@@ -74,7 +74,7 @@ def test_the_instants_of_a_position_make_its_swt(profile):
 )
 def test_what_evenly_spread_instants_cost(parameters, low):
     """What the docstring of stress_field says."""
-    solved = swtstudy.solve(**parameters, rtol=1e-6)  # x is known to the root of that
+    solved = swtstudy.solve(**parameters, rtol=1e-7)  # x is known to the root of that
     x, s = float(solved.critical_x), float(solved.s)
     own = swtstudy.stress_field(x, 0.0, 0.0, **parameters)
     assert float(swt_of(own)) == pytest.approx(s, rel=1e-5)
