@@ -167,7 +167,9 @@ def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
             close = partial(mean, kind, way, most, CLOSE[kind], FIRST)
             place, known = _climb_all(rough, close, starts, step, near, CLOSE[kind])
-            starts.append(place)  # straight down: along the critical plane a start
+            # Along the critical plane means may be largest where those straight down are not.
+            high = x[estimate >= WORTH_A_LOOK * most]
+            starts += [place, *high[:: -(-len(high) // LOOKS)]]
             if way == 1:
                 places = [place, *_beside_jumps(opened, place, distance)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
