@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 from swtstudy.kernel.field import criterion_at, direction_at, largest_radius, mean_about, open_cycle
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.solver.means import DOWN, GROWTH, RTOL, worst_means
-from swtstudy.solver.points import Points, arguments_of, solve_points
+from swtstudy.solver.points import Points, Solution, arguments_of, solve_points
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.parameters import Control
@@ -71,6 +71,8 @@ MEANS = {
     "line, depth": (LINE, False),
     "line, plane": (LINE, True),
 }
+#: No mean is known.
+NOTHING = np.zeros(len(MEANS))
 #: Places of the line in a distance ℓ, and most of them; accuracy of means there.
 PLACES, MOST, OF_PLACES = 8, 400, 1e-2
 #: Panels of the dense rule in the distance, in the inclination, along an arc and on a line at first, Gauss's
@@ -173,21 +175,26 @@ def _on(x: float, away, way):
     return x + away * way[0], 0.0 * away, away * way[1]
 
 
-def about(opened, x: float, distance: float, rtol: float) -> FloatArray:
-    """All means about x, and what they claim, (2, 5)."""
-    ways = DOWN, direction_at(opened, x)
+def about(opened, x: float, distance: float, rtol: float, known: FloatArray = NOTHING) -> FloatArray:
+    """All means about x, and what they claim, (2, 5); those far below what is known are told roughly."""
+    ways, each = (DOWN, direction_at(opened, x)), zip(MEANS.values(), known, strict=True)
     return np.array(
-        [mean_about(opened, kind, x, ways[along], distance, 0.0, rtol) for kind, along in MEANS.values()]
+        [mean_about(opened, kind, x, ways[along], distance, least, rtol) for (kind, along), least in each]
     ).T
+
+
+def largest_of(point: Points, solution: Solution, distance: float) -> FloatArray:
+    """The largest means as the solver finds them, (5,)."""
+    found = worst_means(point, solution, np.array([distance]))
+    return np.concatenate([found[name].ravel() for name in ("s_volume", "s_point", "s_line")])
 
 
 def excess(point: Points, distance: float) -> FloatArray:
     """By how much means about places along the whole line are larger than the largest, relative, (5,)."""
-    largest = worst_means(point, solve_points(point, 1e-4), np.array([distance]))
+    known = largest_of(point, solve_points(point, 1e-4), distance)
     opened = open_cycle(GROWTH, **arguments_of(point))
     end = largest_radius(opened) + distance
     places = np.linspace(-end, end, min(int(2.0 * end * PLACES / distance), MOST))
-    known = np.concatenate([largest[name].ravel() for name in ("s_volume", "s_point", "s_line")])
     return np.max([about(opened, x, distance, OF_PLACES)[0] for x in places], axis=0) / known - 1.0
 
 

@@ -12,23 +12,15 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from nonlocal_means import MEANS, about, largest_of
 from numpy.typing import NDArray
 
-from swtstudy.kernel.field import direction_at, largest_radius, mean_about, open_cycle, surface_above
-from swtstudy.kernel.mean import LINE, POINT, SPHERE
-from swtstudy.solver.means import DOWN, GROWTH, worst_means
+from swtstudy.kernel.field import largest_radius, open_cycle, surface_above
+from swtstudy.solver.means import GROWTH
 from swtstudy.solver.points import Points, arguments_of, solve_points
 
 FloatArray = NDArray[np.float64]
 
-#: The means, as the kernel knows them, and whether they go along the critical plane.
-MEANS = {
-    "volume": (SPHERE, False),
-    "point, depth": (POINT, False),
-    "point, plane": (POINT, True),
-    "line, depth": (LINE, False),
-    "line, plane": (LINE, True),
-}
 RATIOS = [(1, 1), (1, 2), (2, 1), (2, 3), (3, 2), (1, 3)]
 SEED = 7
 #: Evenly spaced places, peaks, distances from each over the smaller one of ℓ and the radius; accuracy there.
@@ -53,8 +45,7 @@ def random_points() -> Iterator[tuple[Points, float]]:
 def excess(point: Points, distance: float) -> FloatArray:
     """By how much means about many places exceed the largest, relative, (5,)."""
     solution = solve_points(point, 1e-4)
-    largest = worst_means(point, solution, np.array([distance]))
-    known = np.concatenate([largest[name].ravel() for name in ("s_volume", "s_point", "s_line")])
+    known = largest_of(point, solution, distance)
     opened = open_cycle(GROWTH, **arguments_of(point))
     radius, s = largest_radius(opened), float(solution.s[0])
     place, value = surface_above(opened, 0.02 * s, s)
@@ -62,12 +53,8 @@ def excess(point: Points, distance: float) -> FloatArray:
     peaks = place[tops[np.argsort(-value[tops])][:PEAKS]]
     beside = np.concatenate([-BESIDE, [0.0], BESIDE]) * min(distance, radius)
     even = np.linspace(-radius - distance, radius + distance, EVEN)
-    found = np.zeros(len(MEANS))
-    for x in np.unique(np.concatenate([even, (peaks[:, None] + beside).ravel()])):
-        ways = DOWN, direction_at(opened, x)
-        for k, (kind, along) in enumerate(MEANS.values()):
-            mean = mean_about(opened, kind, x, ways[along], distance, known[k], RTOL)[0]
-            found[k] = max(found[k], mean)
+    places = np.unique(np.concatenate([even, (peaks[:, None] + beside).ravel()]))
+    found = np.max([about(opened, x, distance, RTOL, known)[0] for x in places], axis=0)
     return found / known - 1.0
 
 
