@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Hashable, Mapping
 
 import numpy as np
@@ -17,6 +18,9 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, refused
 from swtstudy.vocabulary.parameters import PAIRS
+
+#: Positions of one field: the values of each take 0.1 to 10 kB.
+LARGEST_FIELD = 10_000_000
 
 
 def read_point(parameters: Mapping[str, object]) -> Points:
@@ -114,8 +118,8 @@ def read_places(
     Raises
     ------
     StudyError
-        A ValueError, if a coordinate is not a finite number, z is negative, or DataArrays have different
-        coordinates along a shared dimension.
+        A ValueError, if a coordinate is not a finite number, z is negative, DataArrays have different
+        coordinates along a shared dimension, or there are more than `LARGEST_FIELD` positions.
     """
     arrays: list[xr.DataArray] = []
     report = Report()
@@ -126,6 +130,10 @@ def read_places(
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
         raise refused("z", found, "depths z ≥ 0 into the body")
+    count = math.prod({dim: size for each in arrays for dim, size in each.sizes.items()}.values())
+    if count > LARGEST_FIELD:
+        allowed = f"at most {LARGEST_FIELD:,}; sequences span a grid: for a list of points give DataArrays"
+        raise refused("x, y, z", f"{count:,} positions", f'{allowed} such as xr.DataArray(x, dims="place")')
     try:
         placed = xr.broadcast(*xr.align(*arrays, join="exact"))
     except ValueError as error:

@@ -240,6 +240,13 @@ def test_positions_agree_in_their_coordinates(field):
     assert spanned.sizes["other"] == 3
 
 
+@pytest.mark.parametrize("field", [swtstudy.stress_field, swtstudy.swt_field])
+def test_lists_of_points_are_no_grid(field):
+    many = np.linspace(-1.0, 1.0, 1000)
+    message = 'x, y, z: found 1,000,000,000 positions; allowed: .*such as xr.DataArray\\(x, dims="place"\\)'
+    refused(message, field, many, many, many + 1.0)
+
+
 @pytest.mark.parametrize("r", [[np.nan], [], [[0.5]], np.inf, np.ma.array([0.5], mask=[1])])
 def test_distances_of_a_slip_map_are_checked(r):
     with pytest.raises(ValueError, match=r"r: found .*; allowed: a finite distance in a_H"):
