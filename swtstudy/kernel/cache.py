@@ -10,6 +10,9 @@ from hashlib import sha256
 from pathlib import Path
 from threading import RLock
 
+import numba
+import numpy as np
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, InTreeCacheLocator
 from numba.core.event import Listener, install_listener
 
 try:
@@ -29,6 +32,7 @@ def cache_folder():
     read-only.
     """
     sources = sha256(b"".join(path.read_bytes() for path in sorted(Path(__file__).parent.glob("*.py"))))
+    sources.update(f"{numba.__version__} {np.__version__}".encode())
     for base in _bases():
         folder = Path(base) / f"kernel-{sources.hexdigest()[:16]}"
         try:
@@ -58,6 +62,26 @@ def _bases():
 
 FOLDER = cache_folder()
 _of_this_process = RLock()
+
+
+class _InFolder(InTreeCacheLocator):
+    """The folder as the place of a function's code, wherever the function's file is.
+
+    Numba would look for the code by the path of the file, and compile it anew for each copy of the package.
+    """
+
+    def get_cache_path(self):
+        return FOLDER
+
+
+class _CodeInFolder(CompileResultCacheImpl):
+    _locator_classes = (_InFolder,)
+
+
+class KeptCode(FunctionCache):
+    """Compiled code of a function, kept in the folder."""
+
+    _impl_class = _CodeInFolder
 
 
 @contextmanager

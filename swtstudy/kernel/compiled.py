@@ -14,7 +14,7 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.extending import typeof_impl
 
-from swtstudy.kernel.cache import FOLDER, compiling
+from swtstudy.kernel.cache import FOLDER, KeptCode, compiling
 
 
 class _Part(JITCodeLibrary):
@@ -82,13 +82,10 @@ class Compiled:
     @cached_property
     def whole(self):
         """Numba's dispatcher for calls from Python."""
-        before = numba.config.CACHE_DIR
-        numba.config.CACHE_DIR = FOLDER
-        try:
-            options = self._options | {"pipeline_class": _TO_WHOLE, "cache": bool(FOLDER)}
-            return numba.njit(**options)(self.__wrapped__)
-        finally:
-            numba.config.CACHE_DIR = before
+        made = numba.njit(**self._options, pipeline_class=_TO_WHOLE)(self.__wrapped__)
+        if FOLDER:
+            made._cache = KeptCode(self.__wrapped__)
+        return made
 
     def __call__(self, *arguments):
         if not self._is_ready:

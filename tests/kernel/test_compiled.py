@@ -90,6 +90,16 @@ def test_processes_and_threads_compile_once_and_remove_folders_not_used_for_long
     assert {path.name for path in base.iterdir()} == {folder.name, "kernel-recent", "of-somebody"}
 
 
+def test_a_copy_of_the_package_elsewhere_compiles_nothing_anew(
+    tmp_path: Path, environment: dict[str, str]
+) -> None:
+    assert ended(start(tmp_path, environment))[0] == 1
+    elsewhere = tmp_path / "elsewhere"
+    shutil.copytree(ROOT / "swtstudy", elsewhere / "swtstudy", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.move(tmp_path / "first_call.py", elsewhere)
+    assert ended(start(tmp_path, environment | {"PYTHONPATH": str(elsewhere)}))[0] == 0
+
+
 @pytest.mark.parametrize("home", ["home", pytest.param("none", marks=pytest.mark.slow)])
 def test_compiled_code_is_kept_where_one_can_write_and_a_terminal_is_told(
     tmp_path: Path, environment: dict[str, str], home: str
