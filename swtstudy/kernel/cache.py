@@ -9,6 +9,7 @@ from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 from threading import RLock
+from typing import ClassVar
 
 import numba
 import numpy as np
@@ -75,7 +76,7 @@ class _InFolder(InTreeCacheLocator):
 
 
 class _CodeInFolder(CompileResultCacheImpl):
-    _locator_classes = (_InFolder,)
+    _locator_classes: ClassVar = [_InFolder]
 
 
 class KeptCode(FunctionCache):
