@@ -9,7 +9,6 @@ from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 from threading import RLock
-from typing import ClassVar
 
 import numba
 import numpy as np
@@ -76,7 +75,7 @@ class _InFolder(InTreeCacheLocator):
 
 
 class _CodeInFolder(CompileResultCacheImpl):
-    _locator_classes: ClassVar = [_InFolder]
+    _locator_classes = [_InFolder]  # noqa: RUF012, of Numba
 
 
 class KeptCode(FunctionCache):
