@@ -28,6 +28,16 @@ from swtstudy.kernel.profile import place_of
 MAX_INTERVALS = 65_543
 #: A search ends after so many positions.
 MOST_POSITIONS = 20_000
+#: After so many positions the search asks whether what is left is rounding.
+MANY = 500
+#: Rounding of values raises the bound of an interval by this times itself at most: the ends are off by once,
+#: and an eighth of `TRUST` times a third difference by 2.25 and of a second one by half.
+OF_BOUND = 4.0
+#: Rounding of the distance of two slip fronts over the largest contact.
+OF_DISTANCE = 1e-13
+#: Rounding of the pressure next to an edge, of which it is the root: the edge's own is some 4e-16. An edge
+#: that rests has none where its place is known in closed form.
+OF_PRESSURE = 3e-8
 SEARCH = np.dtype(
     [
         ("cusp", "f8", (14 * MAX_STRETCHES,)),
@@ -264,6 +274,28 @@ def search_tip(search, point):
 
 
 @jit
+def rounding_beside(cycle, profile, ask, distance, tension):
+    """Largest stress that rounding makes at a distance from a turning edge or slip front, over the tension.
+
+    Shear tractions, over μ, go like the root of the distance, which is one over the largest contact.
+    """
+    root = sqrt(distance + OF_DISTANCE) - sqrt(max(distance - OF_DISTANCE, 0.0))
+    of_pressure = OF_PRESSURE if cycle.largest > cycle.smallest or not profile.is_hertz else 0.0
+    return (ask.friction * sqrt(2.0) * root + of_pressure) * sqrt(cycle.largest) / tension
+
+
+@jit
+def is_rounding(search, point, k, limit):
+    """True if in a long search rounding alone may raise the bound of interval k above the limit."""
+    if search.positions < MANY or search.cusps[k, 1] > 0 or search.tension <= 0.0:
+        return False
+    middle = position(search, k, 0.5 * (search.ends[k, 0] + search.ends[k, 1]))
+    distance = min(middle - search.piece[k, 0], search.piece[k, 1] - middle) / search.largest
+    rounding = rounding_beside(point.cycle, point.profile, point.ask, distance, search.tension)
+    return search.bound[k] <= limit + OF_BOUND * rounding * search.best
+
+
+@jit
 def search_line(search, point):
     """Find the largest swt on the line; returns by how much a higher one may be hidden.
 
@@ -285,7 +317,7 @@ def search_line(search, point):
                 look_beside_cusps(search, limit)
             k = highest_bound(search)
         full = search.intervals + 2 > MAX_INTERVALS or search.positions > MOST_POSITIONS
-        if search.bound[k] <= limit or full:
+        if search.bound[k] <= limit or full or is_rounding(search, point, k, limit):
             return max(search.bound[k] - search.best, 0.0)
         cut(search, point, k, limit)
 

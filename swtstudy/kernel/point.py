@@ -11,7 +11,7 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.criterion import SWT, degrees, far_field
 from swtstudy.kernel.growth import GROWTH, lay_out
 from swtstudy.kernel.history import HISTORY
-from swtstudy.kernel.line import begin_search, search_line
+from swtstudy.kernel.line import begin_search, rounding_beside, search_line
 from swtstudy.kernel.load import bulk_at, has_bulk, load_at
 from swtstudy.kernel.planes import CURVES, NOISE
 from swtstudy.kernel.profile import place_of
@@ -22,11 +22,8 @@ from swtstudy.vocabulary.choices import REGIMES
 
 #: Rounding of dv/dn: no table is finer.
 FINEST_GROWTH = 1e-11
-#: Rounding of the distance of two slip fronts, and what is no distance, over the largest contact.
-OF_DISTANCE, ONE_PLACE = 1e-13, 1e-15
-#: Rounding of the pressure next to an edge, of which it is the root: the edge's own is some 4e-16. An edge
-#: that rests has none where its place is known in closed form.
-OF_PRESSURE = 3e-8
+#: What is no distance, over the largest contact.
+ONE_PLACE = 1e-15
 #: In gross slip s grows like 1/(1 - μ), its place nears the singular edge like exp(-1/(1 - μ)): from here on
 #: there is no continuum that small.
 TEARS = 0.995
@@ -113,8 +110,8 @@ def tension_share(cycle, ask, tension):
 def rounding_share(cycle, profile, ask, place, tension):
     """Largest stress that rounding makes at a place, over the tension.
 
-    Shear tractions, over μ, go like the root of the distance to an edge or a front, where these turn. The
-    rounding of a distance matters if it is small and not 0: then the place itself is not this turning point.
+    The rounding of the distance to a turning edge or slip front matters if the distance is small and not 0:
+    then the place itself is not this turning point.
     """
     largest, nearest = place_of(profile, cycle.largest), 1.0
     for k in range(cycle.stretches):
@@ -123,9 +120,7 @@ def rounding_share(cycle, profile, ask, place, tension):
                 distance = abs(place_of(profile, G) - place) / largest
                 if distance > ONE_PLACE:
                     nearest = min(nearest, distance)
-    root = sqrt(nearest + OF_DISTANCE) - sqrt(max(nearest - OF_DISTANCE, 0.0))
-    of_pressure = OF_PRESSURE if cycle.largest > cycle.smallest or not profile.is_hertz else 0.0
-    return (ask.friction * sqrt(2.0) * root + of_pressure) * sqrt(cycle.largest) / tension
+    return rounding_beside(cycle, profile, ask, nearest, tension)
 
 
 @jit

@@ -53,6 +53,19 @@ def test_next_to_nothing_slips(rtol: float) -> None:
     assert found["s"] == pytest.approx(cattaneo_mindlin(nu, mu, U), rel=1e-6)
 
 
+@pytest.mark.parametrize(("name", "given"), [("paraboloid", {}), ("rounded_punch", {"flat_radius": [0.3]})])
+def test_a_search_ends_where_rounding_alone_is_left(name: str, given: dict[str, list[float]]) -> None:
+    """The slip zone is as wide as the rounding of its ends: s, which goes like √U, is within its error."""
+    larger, smaller = 1e-8, 1e-13
+    found = [
+        solve_one(name, shape=given, normal_amplitude=[0.0], tangential_amplitude=[U])
+        for U in (larger, smaller)
+    ]
+    expected = found[0]["s"] * np.sqrt(smaller / larger)
+    assert abs(found[1]["s"] - expected) <= found[1]["s_error"]
+    assert found[1]["positions"] <= 1000
+
+
 def test_no_part_of_a_cycle_is_cut_without_end() -> None:
     """Next to the begin of the cycle, where times are exact, a part may be short, but not without a limit."""
     history, cycle = new_record(HISTORY), new_record(CYCLE)
