@@ -16,8 +16,8 @@ friction = {start = "0.05", stop = 1, num = %d}
 
 
 def study_text(quick: bool) -> str:
-    """The text of the study, with 2,000 points or, if quick, 400."""
-    phases, rows = (100, 4) if quick else (100, 20)
+    """The text of the study, with 2,000 points or, if quick, 200."""
+    phases, rows = (50, 4) if quick else (100, 20)
     return _STUDY % (phases * rows, phases, rows)
 
 
