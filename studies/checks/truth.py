@@ -213,7 +213,7 @@ def chart(found: Found) -> Figure:
         axes.plot(np.maximum(ratios, LEAST_DRAWN), 100.0 * share, style, label=f"rtol {rtol:g}")
     axes.axvline(1.0, color="0.6", linewidth=0.8)
     axes.set(xscale="log", xlabel="s_error / |error|", ylabel="points with less / %", ylim=(0.0, 100.0))
-    axes.legend(frameon=False)
+    figure.legend(loc="outside upper center", ncols=2, frameon=False)
     return figure
 
 
