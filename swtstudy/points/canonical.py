@@ -85,6 +85,14 @@ _SLAB = 100_000
 DIGITS = 12
 
 
+def check_size(grid: Grid) -> None:
+    """A ValueError if a grid has more than `LARGEST_GRID` points."""
+    if grid.size > LARGEST_GRID:
+        found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
+        ways = "a list of points is the file of a study's [sample], and swtstudy audit samples a grid"
+        raise ValueError(f"{found}: several values of parameters span a grid; {ways}")
+
+
 def canonical_number(value: float) -> float:
     """A number rounded to `DIGITS` significant digits, without the sign of zero."""
     return float(f"{value:.{DIGITS}g}") + 0.0
@@ -209,9 +217,7 @@ class Distinct:
     @classmethod
     def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
         """The points of a grid, or of n places of it; a ValueError beyond `LARGEST_GRID` points."""
-        if grid.size > LARGEST_GRID:
-            found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
-            raise ValueError(f"{found}; swtstudy audit samples them")
+        check_size(grid)
         places = np.arange(grid.size) if places is None else places
         rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
         distances = np.empty((len(places), len(asked.distances)))

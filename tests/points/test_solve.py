@@ -218,3 +218,10 @@ def test_help_lists_every_parameter(function):
     if function is not swtstudy.read_signal:
         assert {"friction", "phase", "profile", "walker_exponent"} <= names
         assert "friction\n    coefficient of friction, μ; a number in [0, 10]" in text
+
+
+def test_lists_of_points_are_no_grid():
+    """Three lists of 3,000 values would be 27 billion points."""
+    names = ("friction", "phase", "normal_amplitude")
+    with pytest.raises(ValueError, match=r"27000000000 points are too many .* \[sample\]"):
+        swtstudy.solve(**dict.fromkeys(names, np.linspace(0.1, 0.9, 3000)))
