@@ -85,7 +85,7 @@ _SLAB = 100_000
 DIGITS = 12
 
 
-def check_size(grid: Grid) -> None:
+def check_count(grid: Grid) -> None:
     """A ValueError if a grid has more than `LARGEST_GRID` points."""
     if grid.size > LARGEST_GRID:
         found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
@@ -217,7 +217,7 @@ class Distinct:
     @classmethod
     def of(cls, grid: Grid, asked: Request = NOTHING, places: IndexArray | None = None) -> Distinct:
         """The points of a grid, or of n places of it; a ValueError beyond `LARGEST_GRID` points."""
-        check_size(grid)
+        check_count(grid)
         places = np.arange(grid.size) if places is None else places
         rows, mirrored = np.empty(len(places), ROW), np.empty(len(places), bool)
         distances = np.empty((len(places), len(asked.distances)))

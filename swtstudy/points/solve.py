@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Distinct, check_size
+from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal
@@ -115,7 +115,7 @@ def solve_grid(
 
     from swtstudy.points.labelled import label, margins
 
-    check_size(grid)
+    check_count(grid)
     points = None
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
