@@ -15,10 +15,10 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.labelled import margins, plain_values
-from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.labelled import margins, values_along
+from swtstudy.points.reading import read_distances, read_grid, read_points
 from swtstudy.points.rules import idle_axes
-from swtstudy.points.solve import dimensions_of, solve_grid, spanned
+from swtstudy.points.solve import dimensions_of, listed, solve_grid, spanned
 from swtstudy.points.validity import validity_lines
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as units
@@ -148,7 +148,7 @@ class PhysicalContact:
 
     def _plain(self, values: xr.Variable) -> Any:
         """A number that does not vary as one of Python's, others with the values of their dimensions."""
-        labels = {dim: plain_values(self.grid.values(str(dim))) for dim in values.dims}
+        labels = {dim: values_along(self.grid, str(dim)) for dim in values.dims}
         return xr.DataArray(values, labels) if labels else values.values.item()
 
     def __dir__(self) -> list[str]:
@@ -650,7 +650,8 @@ def physical(
     """A real contact, in any consistent set of units: with N, mm and MPa, SWT comes in MPa.
 
     Each parameter but young_modulus, poisson_ratio, similar and bulk_stress_body may be a one-dimensional
-    sequence of values; the result then covers every combination of the values.
+    sequence of values; the result then covers every combination of the values. DataArrays that share a
+    dimension are one list of contacts along this dimension.
 
     Parameters
     ----------
@@ -726,14 +727,17 @@ def physical(
         carrier = units.checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)
     own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *units.OF_BODIES)}
-    fixed, axes = spanned(own, report)
+    columns, dim, of_points = listed(own, report)
+    fixed, axes = spanned({name: raw for name, raw in own.items() if name not in columns}, report)
+    samples = read_points(columns, report, units.rows(about.units)) if columns else {}
     for name in (name for name in units.OF_BODIES if name in parameters):
         value = parameters[name]
         fixed[name] = list(value) if dimensions_of(value) == 1 else value
     if "body" not in parameters:
         axes["body"] = units.LABELS
     named = {} if bodies is None else {units.NAMES_KEY: bodies}
-    grid, found = read_contacts({**fixed, **named, units.SIMILAR_KEY: similar}, axes, about)
+    given = {**fixed, **named, units.SIMILAR_KEY: similar}
+    grid, found = read_contacts(given, axes, about, samples=samples)
     if grid is None or report:
         raise StudyError([*report, *found])
-    return PhysicalContact(grid)
+    return PhysicalContact(replace(grid, sample_dim=dim, sample_labels=of_points))

@@ -89,7 +89,7 @@ def check_count(grid: Grid) -> None:
     """A ValueError if a grid has more than `LARGEST_GRID` points."""
     if grid.size > LARGEST_GRID:
         found = f"{grid.size} points are too many to compute, at most {LARGEST_GRID}"
-        ways = "a list of points is the file of a study's [sample], and swtstudy audit samples a grid"
+        ways = "DataArrays of a common dimension, or the file of a study's [sample], are a list of points"
         raise ValueError(f"{found}: several values of parameters span a grid; {ways}")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -51,18 +51,24 @@ class Grid:
     axes
         The values along each dimension, in the order of the dimensions.
     samples
-        The values of the parameters that vary together along the first dimension, `SAMPLE`: all of one
-        length, a point of the sample at each place.
+        The values of the parameters that vary together along the first dimension: all of one length, a point
+        of the sample at each place.
+    sample_dim
+        Name of this dimension.
+    sample_labels
+        Its coordinate; numbers if it is empty.
     """
 
     fixed: dict[str, Value]
     axes: NamedValues
     samples: NamedValues = field(default_factory=dict)
+    sample_dim: str = SAMPLE
+    sample_labels: tuple[Hashable, ...] = ()
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the dimensions."""
-        return (*(SAMPLE,) * bool(self.samples), *self.axes)
+        return (*(self.sample_dim,) * bool(self.samples), *self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -119,7 +125,7 @@ class Grid:
     def dimension(self, name: str) -> str | None:
         """The dimension along which a parameter varies; None if it has a single value or none."""
         if name in self.samples:
-            return SAMPLE
+            return self.sample_dim
         return name if name in self.axes else None
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:

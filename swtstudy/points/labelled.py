@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct, alike, code_of, points_from
 from swtstudy.points.chunk import Arrays
-from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.grid import Grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
@@ -61,7 +61,8 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     }
     if grid.samples:
         words = {"long_name": "number of the point", "parameters": " ".join(grid.samples)}
-        coordinates[SAMPLE] = (SAMPLE, np.arange(grid.shape[0]), words)
+        dim = grid.sample_dim
+        coordinates.setdefault(dim, (dim, values_along(grid, dim), words))
     for name, value in grid.fixed.items():
         says = name == SHIFT and "stick_zone" in grid.margins
         if says or not grid.row(name).goes_without_saying(value):
@@ -156,6 +157,13 @@ def _name_criteria(dataset: xr.Dataset, grid: Grid, asked: Request) -> None:
         own = dataset[name].attrs
         own |= {key: with_values_of(own[key], value) for key in ("long_name", "comment")}
         own["symbol"] = own["symbol"].replace(r"\mathrm{SWT}", "s")
+
+
+def values_along(grid: Grid, dim: str) -> NDArray:
+    """Values along a dimension of a grid."""
+    if values := grid.values(dim):
+        return plain_values(values)
+    return np.array(grid.sample_labels or range(grid.sizes[dim]))
 
 
 def plain_values(values: tuple[Value, ...]) -> NDArray:

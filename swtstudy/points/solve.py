@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Hashable, Iterator, Mapping, Sequence, Set
+from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -12,14 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.points.canonical import Distinct, check_count
-from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.grid import SAMPLE
+from swtstudy.points.reading import read_distances, read_grid, read_points
 from swtstudy.points.rules import idle_axes
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
-from swtstudy.vocabulary.variables import SOLVED
+from swtstudy.vocabulary.quantities import (
+    COUNTED_SIZES,
+    DISTANCE,
+    EVERY_VARIABLE,
+    NOTHING,
+    Request,
+    read_quantities,
+)
+from swtstudy.vocabulary.variables import ATTRIBUTES, SOLVED
 from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
@@ -32,7 +41,7 @@ if TYPE_CHECKING:
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
 def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **parameters: object) -> xr.Dataset:
-    """Normalised SWT parameter s on the grid spanned by named parameters.
+    """Normalised SWT parameter s on the grid spanned by named parameters, or at points given one by one.
 
     Computes in this process; for a large grid write a study and `swtstudy.run` it.
 
@@ -44,15 +53,16 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
         Names of `swtstudy.vocabulary.quantities.QUANTITIES`, computed beside s.
     **parameters
         The names below, each a single value or a one-dimensional sequence of values; strings such as "3/2" or
-        "pi/2" stand for numbers.
+        "pi/2" stand for numbers. DataArrays that share a dimension are one list of points: they vary together
+        along this dimension.
 
     Returns
     -------
     xarray.Dataset
         s, s_error, critical_x (in a_H), critical_angle (degrees), regime and s_surface (greater than s where
-        the surface line is not enough). Sequences become dimensions, in the order given, and single values
-        scalar coordinates; the attributes state the version and rtol. The quantities that are asked are
-        further data variables.
+        the surface line is not enough). Sequences become dimensions, in the order given, after that of a list
+        of points; single values become scalar coordinates. The attributes state the version and rtol. The
+        quantities that are asked are further data variables.
         Where s is 0 or not finite there is no critical point: critical_x and critical_angle are NaN. Nor is
         there where the bulk stress alone makes s, far from the contact: critical_x is NaN. With a
         bulk_stress_amplitude there is bulk_shift, too: by how much, in a_H, the bulk strain would move the
@@ -86,17 +96,23 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     0.157
     """
     report = Report()
-    lazy = {name: raw.chunks[0] for name, raw in parameters.items() if getattr(raw, "chunks", None)}  # type: ignore[attr-defined]
-    fixed, axes = spanned(parameters, report)
+    columns, dim, labels = listed(parameters, report)
+    lazy = {
+        dim if name in columns else name: raw.chunks[0]  # type: ignore[attr-defined]
+        for name, raw in parameters.items()
+        if getattr(raw, "chunks", None)
+    }
+    fixed, axes = spanned({n: raw for n, raw in parameters.items() if n not in columns}, report)
+    samples = read_points(columns, report) if columns else {}
     report.rtol(rtol)
     names = read_quantities(quantities, "quantities", report)
     asked = Request(names, *read_distances(fixed, axes, report))
-    grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE))
+    grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE), samples=samples)
     if grid is None or report:
         raise StudyError([*found, *report])
     for words in idle_axes(grid):
         warnings.warn(words, stacklevel=2)
-    return solve_grid(grid, float(rtol), asked, lazy)
+    return solve_grid(replace(grid, sample_dim=dim, sample_labels=labels), float(rtol), asked, lazy)
 
 
 def solve_grid(
@@ -164,6 +180,46 @@ def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tupl
             put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
     return points, values_at(grid, points, found, asked, places)
+
+
+def listed(
+    parameters: Mapping[str, object], report: Report
+) -> tuple[dict[str, list[object]], str, tuple[Hashable, ...]]:
+    """Parameters that vary together, since they are DataArrays over a dimension that they share.
+
+    Returns
+    -------
+    columns
+        Their values by name; none if no DataArrays share a dimension.
+    dim
+        The dimension.
+    labels
+        Its coordinate, if they have one.
+    """
+    over: dict[str, dict[str, Any]] = {}
+    for name, raw in parameters.items():
+        for dim in getattr(raw, "dims", ()) if dimensions_of(raw) == 1 else ():
+            over.setdefault(str(dim), {})[name] = raw
+    shared = {dim: arrays for dim, arrays in over.items() if len(arrays) > 1}
+    if not shared:
+        return {}, SAMPLE, ()
+    import xarray as xr
+
+    (dim, arrays), *more = shared.items()
+    for other, several in more:
+        report(", ".join(several), f"another list of points, over {other}", f"one list, over {dim}")
+    if DISTANCE in arrays:
+        report(DISTANCE, "a value for each point", "a single value, or an axis of its own")
+        return {}, dim, ()
+    if dim in {*AXES, *COUNTED_SIZES, *ATTRIBUTES, *EVERY_VARIABLE} - {*arrays}:
+        report(", ".join(arrays), f"DataArrays over {dim}, a name in results", "another dimension")
+    try:
+        one, *_ = xr.align(*arrays.values(), join="exact")
+    except ValueError:
+        report(", ".join(arrays), f"lengths or coordinates that differ along {dim}", "the same ones")
+        return {}, dim, ()
+    labels = tuple(one[dim].values.tolist()) if dim in one.coords and dim not in arrays else ()
+    return {name: raw.values.tolist() for name, raw in arrays.items()}, dim, labels
 
 
 def spanned(

@@ -39,9 +39,8 @@ FORMATS = (
     (b"TDSm", "a LabVIEW TDMS file", "nptdms.TdmsFile(path).as_dataframe().to_csv(...) in Python"),
 )
 
-#: A number with a decimal comma, and its way out.
+#: Said of numbers with a decimal comma.
 COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
-DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
 #: Cells, in small letters, without a value: MATLAB and pandas write NaN.
 MISSING = ("", "nan")

@@ -17,15 +17,15 @@ import numpy as np
 
 from swtstudy.points.canonical import Table, canonical_points, group_rows
 from swtstudy.points.grid import Grid
-from swtstudy.points.reading import LONGEST_AXIS, Known
-from swtstudy.points.values import NOTHING, NamedValues, Value, as_number, read_angle, read_exact, read_value
-from swtstudy.study.columns import COMMA_HINT, DECIMAL_COMMA, read_table, unknown_names, wrong_unit
+from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
+from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
+from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_unit
 from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
 from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number, refused
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
 
 if TYPE_CHECKING:
@@ -222,8 +222,8 @@ class SampleReader:
             return {}, None, scatter  # constants alone
         if forms[0] == "design":
             return *self._designed(own), scatter
-        values = self._listed(own, f"sample.{forms[0]}", self.rows)
-        return {name: values.get(name) for name in own if name in self.rows}, None, scatter
+        key = f"sample.{forms[0]}"
+        return read_points(own, self.report, self.rows, self.known, key, COMMA_HINT), None, scatter
 
     def _points_of_file(self, path: Path) -> dict[str, list[object]] | None:
         """The columns of a file by name: numbers, and other texts as they are. None if there are mistakes."""
@@ -291,38 +291,6 @@ class SampleReader:
             self.report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
         return Design(table.design, size, table.seed)
 
-    def _listed(self, points: Mapping[str, Any], key: str, rows: Mapping[str, Parameter]) -> NamedValues:
-        """Points given one by one, none with mistakes; the first wrong value of each parameter is told."""
-        report, before = self.report, len(self.report)
-        lengths = {name: len(column) for name, column in points.items()}
-        if not lengths or min(lengths.values()) == 0:
-            report(key, "no points", "at least one point")
-            return {}
-        if len({*lengths.values()}) > 1:
-            words = ", ".join(f"{length} of {name}" for name, length in lengths.items())
-            report(key, words, "as many values of each parameter")
-        if max(lengths.values()) > LONGEST_AXIS:
-            report(key, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
-            return {}
-        values: NamedValues = {}
-        for name, column in points.items():
-            if name not in rows:
-                report(f"{key}.{name}", f"unknown parameter {literal(name)}", nearest(name, rows))
-                continue
-            good: list[Value] = []
-            wrong: list[str] = []
-            for index, raw in enumerate(column):
-                try:
-                    good.append(read_value(rows[name], raw, self.known.get(name, NOTHING)))
-                except ValueError as error:
-                    wrong.append(f"{literal(raw)} ({error}) at [{index}]")
-            if wrong:
-                comma = any(isinstance(raw, str) and DECIMAL_COMMA.fullmatch(raw) for raw in column)
-                allowed = rows[name].allowed + COMMA_HINT * comma
-                report(f"{key}.{name}", wrong[0] + more_like_it(len(wrong)), allowed)
-            values[name] = tuple(good)
-        return {} if len(report) > before else values
-
     def _scatter(self) -> Scatter | None:
         """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
         table, contacts, report = self.table, self.contacts, self.report
@@ -362,7 +330,8 @@ class SampleReader:
         table, report, before = self.table, self.report, len(self.report)
         given = {name: table.points[name] for name in SCATTERED if name in table.points}
         if given:
-            return self._listed(given, "sample.points", _CONSTANTS)
+            listed = read_points(given, report, _CONSTANTS, {}, "sample.points", COMMA_HINT)
+            return {name: column for name, column in listed.items() if column is not None}
         ranges = {name: entry for name, entry in table.ranges.items() if name in SCATTERED}
         correlated, root = _root(table.covariance, ranges, report)
         if table.design == "saltelli":

@@ -220,6 +220,71 @@ def test_help_lists_every_parameter(function):
         assert "friction\n    coefficient of friction, μ; a number in [0, 10]" in text
 
 
+def test_arrays_over_one_dimension_are_a_list_of_points():
+    table = {"friction": [0.1, 0.4, 0.4], "frequency_ratio": ["1/2", 1, "1/2"], "phase": [0.0, 3.0, 5.0]}
+    arrays = {n: xr.DataArray(v, dims="test", coords={"test": [*"abc"]}) for n, v in table.items()}
+    beside = {"normal_amplitude": [0.25, 0.75], "critical_distance": 0.1, "rtol": 1e-2}
+    found = swtstudy.solve(**arrays, **beside)
+    assert found.s.dims == ("test", "normal_amplitude")
+    assert found.indexes["test"].tolist() == [*"abc"]
+    assert found.friction.dims == ("test",)
+    for i in range(3):
+        one = swtstudy.solve(**{name: values[i] for name, values in table.items()}, **beside)
+        xr.testing.assert_equal(
+            found.isel(test=i, drop=True)[[*one]].reset_coords(drop=True), one.reset_coords(drop=True)
+        )
+    lazy = swtstudy.solve(**{name: array.chunk(test=2) for name, array in arrays.items()}, **beside)
+    assert lazy.s.chunks == ((2, 1), (2,))
+    xr.testing.assert_identical(lazy.compute(), found)
+
+
+def test_a_list_of_points_may_be_along_one_of_its_parameters():
+    phase = xr.DataArray([0.0, 3.0], dims="phase")
+    found = swtstudy.solve(phase=phase, friction=xr.DataArray([0.2, 0.3], dims="phase"), rtol=1e-2)
+    assert found.indexes["phase"].tolist() == [0.0, 3.0]
+    assert found.sel(phase=3.0).friction == 0.3
+
+
+def test_a_list_of_contacts():
+    table = {"normal_force": [100.0, 200.0], "tangential_force_amplitude": [20.0, 30.0]}
+    rig = {"young_modulus": 7e4, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
+    contacts = swtstudy.physical(**rig, **{n: xr.DataArray(v, dims="test") for n, v in table.items()})
+    assert contacts.peak_pressure.dims == ("test",)
+    found = contacts.solve(rtol=1e-2)
+    assert found.SWT.dims == ("test", "body")
+    for i in range(2):
+        one = swtstudy.physical(**rig, **{name: values[i] for name, values in table.items()}).solve(rtol=1e-2)
+        np.testing.assert_array_equal(found.SWT[i], one.SWT)
+
+
+@pytest.mark.parametrize(
+    ("dim", "given", "words"),
+    [
+        ("test", {"friction": [0.1, -0.2]}, r"^friction: found -0.2 \(out of range\) at \[1\]"),
+        (
+            "test",
+            {"friction": [0.1]},
+            "^phase, friction: found lengths or coordinates that differ along test",
+        ),
+        ("test", {"critical_distance": [0.1, 0.2]}, "^critical_distance: found a value for each point"),
+        ("regime", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over regime, a name in"),
+        ("test", {"frictoin": [0.1, 0.2]}, "^frictoin: .*did you mean friction"),
+    ],
+)
+def test_mistakes_in_a_list_of_points(dim, given, words):
+    arrays = {name: xr.DataArray(v, dims=dim) for name, v in {"phase": [1.0, 2.0], **given}.items()}
+    error = refused(words, swtstudy.solve, **arrays)
+    assert len(error.mistakes) == 1
+
+
+def test_there_is_one_list_of_points():
+    one, other = (xr.DataArray([0.1, 0.2], dims=dim) for dim in ("test", "case"))
+    words = (
+        "^poisson_ratio, walker_exponent: found another list of points, over case; allowed: one list, over"
+    )
+    refused(words, swtstudy.solve, friction=one, phase=one, poisson_ratio=other, walker_exponent=other)
+
+
 def test_lists_of_points_are_no_grid():
     """Three lists of 3,000 values would be 27 billion points."""
     names = ("friction", "phase", "normal_amplitude")
