@@ -97,6 +97,12 @@ def unwrapped(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"swtstudy.figures.{module}.wrap_texts", lambda _: None)
 
 
+@pytest.fixture
+def without_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pages without the pictures of points, which take seconds."""
+    monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
+
+
 @pytest.fixture(autouse=True)
 def signals_as_they_were() -> Iterator[None]:
     """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""

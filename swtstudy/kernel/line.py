@@ -186,10 +186,10 @@ def divide(search, point, k, limit):
         f1, f2, f = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.value[side]
         if plus if side == 0 else minus:
             seen = max(seen, abs(f - f1 - share * (f2 - f1)) / max(f1, f2, f))
-        else:  # nothing here can matter
-            search.at_ends[k, 0, side], search.at_ends[k, 1, side] = 0.0, 0.0
+        else:  # nothing here can matter, at either end
+            f1, f2 = 0.0, 0.0
+        search.at_ends[k, 0, side], search.at_ends[k, 1, side] = f1, search.value[side]
         search.at_ends[m, 0, side], search.at_ends[m, 1, side] = search.value[side], f2
-        search.at_ends[k, 1, side] = search.value[side]
     seen *= RISE * sqrt(search.crowd / (right - left))
     search.rise[k] = search.rise[m] = min(max(seen, MEMORY * search.rise[k]), RISE)
     set_group(search, k, first, middle, load)
@@ -227,9 +227,8 @@ def first_intervals(search, point):
     step = 1
     while step < count:
         step *= 2
-    while (
-        step > 1
-    ):  # scattered: a value that is the largest so far is looked at closely, of a rising row each
+    # Scattered: a value that is the largest so far is looked at closely, of a rising row each.
+    while step > 1:
         for i in range(step // 2, count, step):
             evaluate_cusp(search, point, i, count)
         step //= 2

@@ -100,6 +100,7 @@ def test_normalised_is_s_over_s_there(dataset):
         dataset.swt.normalised("b")
 
 
+@pytest.mark.usefixtures("without_points")
 def test_errors_of_ratios_add_up(archive, dataset, tmp_path):
     """As the report tells them behind its figure: the stand-in's s has the relative error rtol."""
     assert call("report", archive, "-o", tmp_path / "page.html").exit_code == 0

@@ -110,12 +110,6 @@ def read_multiple(words: str) -> float:
     return float(number or "1") / float(below.removeprefix("/") or "1")
 
 
-@pytest.fixture
-def without_points(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages without the pictures of points, which take seconds."""
-    monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
-
-
 def said_in(dataset: xr.Dataset, section: str, name: str = "any") -> str:
     """One section of a page without its figure, or its head, as HTML."""
     attributes = {key: value for key, value in dataset.attrs.items() if key != "figure"}

@@ -214,7 +214,7 @@ UNIT = {"normal_amplitude": (0.0, 1.0), "friction": (0.0, 1.0), "tangential_ampl
 
 
 @pytest.mark.parametrize("dimensions", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("seed", [7, 8])
+@pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.slow)])
 def test_kinks_are_followed_to_their_lowest_point(dimensions, seed, monkeypatch):
     """The highest of curved surfaces, whose gradients cancel at the place where they meet."""
     rng, over = np.random.default_rng(seed), dict(list(UNIT.items())[:dimensions])

@@ -55,7 +55,9 @@ def test_every_profile_has_an_oracle() -> None:
 
 
 @every_indenter
-@pytest.mark.parametrize("depth", [0.05, 0.25, 2.0])
+@pytest.mark.parametrize(
+    "depth", [0.25, *(pytest.param(depth, marks=pytest.mark.slow) for depth in (0.05, 2.0))]
+)
 def test_radius_depth_and_force(indenter: oracle.Indenter, depth: float) -> None:
     """g(a) = δ, and F = 2 ∫ (δ − g) dξ; the other way round, too."""
     found, b = contact(indenter, depth=depth * FLAT), indenter.flat_radius

@@ -118,3 +118,22 @@ def test_a_shear_criterion_that_tension_makes_alone_has_an_error() -> None:
     rough, close = (swtstudy.solve(**given, rtol=rtol) for rtol in (1e-2, 1e-5))
     assert rough.s_error <= 0.01 * rough.s
     assert abs(rough.s - close.s) <= rough.s_error + close.s_error
+
+
+def test_many_cusps_are_searched_to_the_tolerance() -> None:
+    """Groups of pieces of the line, of which a side is ruled out before the other one."""
+    found = solve_points(points(p=16, q=15, phase=0.7), 1e-2)
+    assert found.s_error[0] <= 1e-2 * found.s[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rtol", [1e-1, 1e-2, 1e-3, 1e-4])
+def test_long_ratios_are_searched_to_the_tolerance(rtol: float) -> None:
+    rng = np.random.default_rng(2)
+    p, q = rng.integers(10, 65, (2, 12))
+    shared = np.gcd(p, q)
+    columns = {"normal_amplitude": (0.05, 0.9), "tangential_amplitude": (0.05, 1.0), "friction": (0.1, 0.9)}
+    loads = {name: rng.uniform(*ends, 12) for name, ends in {"phase": (0.0, 6.28), **columns}.items()}
+    batch = points("rounded_punch", p=p // shared, q=q // shared, flat_radius=0.5, **loads)
+    found = solve_points(batch, rtol)
+    assert np.all(found.s_error <= rtol * found.s)

@@ -164,7 +164,7 @@ wavy_paraboloid ν=0.2711632507420737 μ=1.8123768074564504 F=0.4091980362444771
 """)
 
 
-@pytest.mark.quick(3)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize(("point", "distance", "kind", "right"), OTHER_SIDE)
 def test_the_largest_mean_on_the_other_side_is_found(point, distance, kind, right):
     found = swtstudy.solve(**point, critical_distance=distance)

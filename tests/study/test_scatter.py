@@ -117,7 +117,8 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
 
 def test_a_probability_is_told_of_the_life_that_is_named(tmp_path: Path) -> None:
     more = f'{SAMPLE}{RANGE}[figure]\nx = "tangential_amplitude"\ny = ["cycles_volume"]\n'
-    text = f"{CONTACT}critical_distance = 0.05\n{LOADS}{AXES}{more}"
+    axes = AXES.replace("2e-3, 3e-3", "3e-3")
+    text = f"{CONTACT}critical_distance = 0.05\n{LOADS}{axes}{more}"
     found = swtstudy.run(Study.from_text(text), tmp_path / "mean.nc")
     mean = found.failure_probability_volume
     assert float(mean.max()) < float(found.failure_probability.max())

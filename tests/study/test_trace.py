@@ -49,7 +49,7 @@ def folded(tmp_path: Path) -> Callable[..., tuple[np.ndarray, np.ndarray, float]
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-@pytest.mark.parametrize("tilt", [0.0, 0.004])
+@pytest.mark.parametrize("tilt", [0.004, pytest.param(0.0, marks=pytest.mark.slow)])
 def test_tilt_offset_and_the_middle_are_found(folded: Any, shape: str, tilt: float) -> None:
     """A tilted parabola is one about another middle, with the same heights about it."""
     radius, height, noise = folded(*trace(shape, 0.0, tilt), level=True)
@@ -280,7 +280,7 @@ def test_a_rough_trace_is_smoothed_to_one_contact_area(tmp_path: Path, geometry:
     assert found.smoothing < 2e-4
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("tilt", [3e-4, 0.0])
 @pytest.mark.parametrize(
     ("half_width", "radius", "end", "noise"),
