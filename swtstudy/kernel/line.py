@@ -223,7 +223,6 @@ def first_intervals(search, point):
         if ends_group(search, j, search.last, search.largest):
             search.cusps[count, 0] = j
             count += 1
-    evaluate_cusp(search, point, FIRST, count)
     step = 1
     while step < count:
         step *= 2
@@ -232,6 +231,8 @@ def first_intervals(search, point):
         for i in range(step // 2, count, step):
             evaluate_cusp(search, point, i, count)
         step //= 2
+    # The centre is the last one: its value may be next to 0, and while it is the largest all planes matter.
+    evaluate_cusp(search, point, FIRST, count)
     for k in range(count - 1):
         search.rise[k] = RISE
         set_group(search, k, search.cusps[k, 0], search.cusps[k + 1, 0], load)
