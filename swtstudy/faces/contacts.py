@@ -18,7 +18,7 @@ from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import read_distances, read_grid, read_points
 from swtstudy.points.rules import idle_axes
-from swtstudy.points.solve import dimensions_of, listed, solve_grid, spanned
+from swtstudy.points.solve import OF_POINTS, dimensions_of, listed, solve_grid, spanned
 from swtstudy.points.validity import validity_lines
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as units
@@ -352,6 +352,8 @@ class PhysicalContact:
         """The contacts with their materials, and what is asked of them; a StudyError with every mistake."""
         report, grid = Report(), self.grid
         fixed, axes = spanned({} if distance is None else {DISTANCE: distance}, report)
+        if grid.samples and getattr(distance, "dims", ()) == (grid.sample_dim,):
+            report(DISTANCE, *OF_POINTS)
         report.rtol(rtol)
         distances = read_distances(fixed, axes, report, grid.row(DISTANCE))
         names = read_quantities(names, "quantities", report)
@@ -362,6 +364,10 @@ class PhysicalContact:
             grid = replace(grid, blocks=checked_blocks(blocks, grid.values("load")) if blocks else ())
         if constants is not None and (alone := without_life(grid.values("criterion"))):
             report("constants", f"constants with the criterion {alone} alone", "none: it has no life")
+        if blocks and "load" in grid.samples:
+            report(
+                "blocks", "a load of each point", "loads along an axis of their own, of which a sum is made"
+            )
         if blocks and constants is None and not grid.has_lives:
             report("blocks", "blocks without constants", "constants as well: Miner's sum needs lives")
         check_distances(grid, distances[0], report)
@@ -726,13 +732,15 @@ def physical(
     with report:
         carrier = units.checked_body(bulk_stress_body, "bulk_stress_body") - 1
         about = ContactDetails(bulk_stress_body=carrier, **properties)
-    own = {name: value for name, value in parameters.items() if name not in (*_ASKED, *units.OF_BODIES)}
+    own = {name: value for name, value in parameters.items() if name not in _ASKED}
+    pairs = {
+        name: own.pop(name) for name in units.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)
+    }
     columns, dim, of_points = listed(own, report)
-    fixed, axes = spanned({name: raw for name, raw in own.items() if name not in columns}, report)
     samples = read_points(columns, report, units.rows(about.units)) if columns else {}
-    for name in (name for name in units.OF_BODIES if name in parameters):
-        value = parameters[name]
-        fixed[name] = list(value) if dimensions_of(value) == 1 else value
+    pairs |= {name: own.pop(name) for name in units.OF_BODIES if name in own and name not in columns}
+    fixed, axes = spanned({name: raw for name, raw in own.items() if name not in columns}, report)
+    fixed |= {name: list(raw) if dimensions_of(raw) == 1 else raw for name, raw in pairs.items()}
     if "body" not in parameters:
         axes["body"] = units.LABELS
     named = {} if bodies is None else {units.NAMES_KEY: bodies}

@@ -240,6 +240,10 @@ def read_points(
             allowed = rows[name].allowed + comma_hint * comma
             report(key, wrong[0] + more_like_it(len(wrong)), allowed)
         values[name] = tuple(good)
+        named = {str(each): each for each in reversed(good) if isinstance(each, Definition)}
+        if twice := [each for each in good if named.get(str(each), each) != each]:
+            found = f"another {name} with the name of {literal(twice[0])}"
+            report(key, found, "a name of its own")
     return nothing if len(report) > before else values
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Hashable, Iterator, Mapping, Sequence, Set
 from dataclasses import replace
@@ -16,7 +17,8 @@ from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.reading import read_distances, read_grid, read_points
 from swtstudy.points.rules import idle_axes
-from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal
+from swtstudy.vocabulary.derived import NAMES
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal, plain_number
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
@@ -209,17 +211,32 @@ def listed(
     for other, several in more:
         report(", ".join(several), f"another list of points, over {other}", f"one list, over {dim}")
     if DISTANCE in arrays:
-        report(DISTANCE, "a value for each point", "a single value, or an axis of its own")
+        report(DISTANCE, *OF_POINTS)
         return {}, dim, ()
-    if dim in {*AXES, *COUNTED_SIZES, *ATTRIBUTES, *EVERY_VARIABLE} - {*arrays}:
-        report(", ".join(arrays), f"DataArrays over {dim}, a name in results", "another dimension")
+    if dim in {"", *OF_RESULTS} - {*arrays}:
+        report(", ".join(arrays), f"DataArrays over {literal(dim)}, a name in results", "another dimension")
     try:
-        one, *_ = xr.align(*arrays.values(), join="exact")
+        one, *_ = xr.align(*map(xr.DataArray, arrays.values()), join="exact")
     except ValueError:
         report(", ".join(arrays), f"lengths or coordinates that differ along {dim}", "the same ones")
         return {}, dim, ()
-    labels = tuple(one[dim].values.tolist()) if dim in one.coords and dim not in arrays else ()
-    return {name: raw.values.tolist() for name, raw in arrays.items()}, dim, labels
+    labels = tuple(one.indexes[dim]) if dim in one.indexes and dim not in arrays else ()
+    if wrong := [label for label in labels if not is_label(label)]:
+        report(
+            ", ".join(arrays), f"{literal(wrong[0])} along {dim}", "coordinates of numbers, texts or dates"
+        )
+    # As plain numbers, but of dates and durations, which are no values.
+    columns = {
+        n: [*raw.values] if raw.dtype.kind in "mM" else raw.values.tolist() for n, raw in arrays.items()
+    }
+    return columns, dim, labels
+
+
+def is_label(value: object) -> bool:
+    """Return whether a value may name a point: a finite number, a text, or a date."""
+    import pandas as pd
+
+    return isinstance(value, str | bool | pd.Timestamp) or math.isfinite(plain_number(value))
 
 
 def spanned(
@@ -238,6 +255,13 @@ def spanned(
             axes[name] = None
             report(name, literal(raw), "a single value or a one-dimensional sequence")
     return fixed, axes
+
+
+#: What is wrong with critical distances along a list of points, and what is allowed.
+OF_POINTS = ("a value for each point", "a single value, or an axis of its own")
+#: Names that results have of their own: no list of points may be along one of them.
+OF_RESULTS = {*AXES, *COUNTED_SIZES, *ATTRIBUTES, *EVERY_VARIABLE, "control", "rank"}
+OF_RESULTS |= {name + end for name in NAMES for end in ("", "_error")}
 
 
 def dimensions_of(raw: object) -> int:

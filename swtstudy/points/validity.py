@@ -12,6 +12,7 @@ from swtstudy.kernel import INNERMOST
 from swtstudy.points.values import index_at, unit_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
+from swtstudy.vocabulary.mistakes import plain
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
 from swtstudy.vocabulary.variables import COMPUTED, ZONES, has_units, require
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
@@ -299,8 +300,7 @@ def point_words(dataset: xr.Dataset, flat: int, besides: tuple[str, ...] = ()) -
         # A stacked dimension has the values of several axes.
         names = dataset.indexes[dim].names if dim in dataset.indexes else ()
         for name in map(str, names):
-            value: Any = dataset[name].values[number]
-            value = value if isinstance(value, str) else float(value)
+            value: Any = plain(dataset[name].values[number])
             named = coordinate_words(name, value, dataset[name].attrs)
             words.append(f"{name} = {named}{unit_of(dataset[name])}")
         if not names:

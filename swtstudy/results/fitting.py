@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from os import PathLike
@@ -45,7 +45,7 @@ from swtstudy.vocabulary.wording import number_of
 #: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
 LIFE, RUNOUT = "life", "runout"
 #: Marks of a run-out, and of a test that ended with a crack.
-YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "")
+YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "", "nan")
 #: Likeness of a column's name to a parameter's name from which it is a misspelling (difflib).
 MISSPELT = 0.8
 #: log10 of a life that counts as unbounded, for tests that survived.
@@ -59,6 +59,8 @@ DISTANCES = np.geomspace(0.004, 1.2, 17)
 RTOL = 1e-3
 #: Step of logarithms in second differences, well above what means are off by; upper bound of friction.
 STEP, MOST_FRICTION = 0.02, 3.0
+#: Distances of the first look for the best one.
+FINE = 100
 #: A cubic spline takes so many lives.
 _LEAST_OF_SPLINE = 4
 #: Misfit where a test has no finite life: finite, since searches subtract misfits.
@@ -196,40 +198,46 @@ class _Tests:
             return np.full(len(self.observed), np.inf)
         return np.asarray(known(logarithms[0])) - self.observed
 
+    def spread(self, logarithms: Any) -> float:
+        """Logarithm of the scatter, but for run-outs that are predicted to survive; see `residuals`."""
+        off = self.residuals(logarithms)
+        counted = off[~self.runout | (off < 0.0)]
+        scatter = math.sqrt(np.mean(counted**2)) if np.isfinite(off).all() else 0.0
+        return math.log(max(scatter, LEAST_SCATTER))
+
     def misfit(self, x: Any) -> float:
         """−ln of the likelihood at logarithms of distance, friction if it is fitted, and scatter."""
-        from scipy.stats import norm
+        from scipy.special import log_ndtr
 
         z = self.residuals(x[:-1]) / math.exp(x[-1])
         if np.isinf(z).all():
             return _IMPOSSIBLE
-        return float(np.where(self.runout, -norm.logcdf(z), 0.5 * z * z + x[-1]).sum())
+        return float(np.where(self.runout, -log_ndtr(z), 0.5 * z * z + x[-1]).sum())
 
 
 def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
-    """Arguments of the least misfit; ``least`` is the least friction, None if it is not fitted."""
-    from scipy.optimize import minimize, minimize_scalar
+    """Arguments of the least misfit; ``least`` is the least friction, None if it is not fitted.
 
-    distances = np.log(tests.distances)
+    With little scatter the misfit over distance and scatter is a narrow valley. Over the distance alone, with
+    the best scatter at each, it falls towards the best one from afar.
+    """
+    from scipy.optimize import minimize_scalar
 
-    def at(own: list[float]) -> Any:
-        """The best distance and scatter at a friction."""
+    first, last = np.log(tests.distances[[0, -1]])
+    distances = np.linspace(first, last, FINE)
 
-        def misfit(x: Any) -> float:
-            return tests.misfit([x[0], *own, x[1]])
+    def least_over(misfit: Callable[[float], float], low: float, high: float) -> Any:
+        return minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": 1e-7})
 
-        starts = []
-        for each in distances:
-            off = tests.residuals([each, *own])
-            scatter = float(np.std(off)) if np.isfinite(off).all() else 0.0
-            starts.append((each, math.log(max(scatter, LEAST_SCATTER))))
-        return minimize(
-            misfit,
-            min(starts, key=misfit),
-            method="Nelder-Mead",
-            bounds=[distances[[0, -1]], (math.log(LEAST_SCATTER), 5.0)],
-            options={"xatol": 1e-6, "fatol": 1e-9, "maxiter": 4000},
-        )
+    def scatter_at(*x: float) -> Any:
+        """The best scatter at logarithms of distance and friction."""
+        return least_over(lambda scatter: tests.misfit([*x, scatter]), math.log(LEAST_SCATTER), 5.0)
+
+    def at(*own: float) -> Any:
+        """The best distance at a friction: between those beside the best of the first look."""
+        k = int(np.argmin([tests.misfit([each, *own, tests.spread([each, *own])]) for each in distances]))
+        low, high = distances[max(k - 1, 0)], distances[min(k + 1, FINE - 1)]
+        return least_over(lambda distance: scatter_at(distance, *own).fun, low, high)
 
     own: list[float] = []
     if least is not None:
@@ -238,11 +246,11 @@ def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
             raise refused("friction", found, f"forces that {MOST_FRICTION:g} bears")
         bounds = np.log([least, MOST_FRICTION])
         best = minimize_scalar(
-            lambda x: at([x]).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}
+            lambda friction: at(friction).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}
         )
         own = [best.x]
-    distance, scatter = at(own).x
-    return np.array([distance, *own, scatter])
+    distance = at(*own).x
+    return np.array([distance, *own, scatter_at(distance, *own).x])
 
 
 def _force_ratio(grid: PhysicalGrid) -> float:
@@ -269,14 +277,19 @@ def _half_widths(tests: _Tests, best: FloatArray, confidence: float, cracked: in
     """
     from scipy.stats import t
 
-    f, steps = tests.misfit, STEP * np.eye(len(best))
+    f, step, values = tests.misfit, STEP * np.ones(len(best)), len(best) - 1
+    # Residuals bend: over a longer step than the scatter that would be seen in the differences.
+    step[:-1] = min(STEP, math.exp(best[-1]))
+    steps = np.diag(step)
     rows = [
         [f(best + a + b) - f(best + a - b) - f(best - a + b) + f(best - a - b) for b in steps] for a in steps
     ]
-    curvature, freedom = np.array(rows) / (4.0 * STEP**2), cracked - len(best) + 1
+    curvature, freedom = np.array(rows) / (4.0 * np.outer(step, step)), cracked - values
+    if best[-1] < math.log(LEAST_SCATTER) + STEP:  # the least scatter is no maximum
+        curvature = curvature[:values, :values]
     if np.linalg.eigvalsh(curvature)[0] <= 0.0:
-        return np.full(len(best) - 1, np.inf)
-    variance = np.diag(np.linalg.inv(curvature))[:-1] * (cracked / freedom)
+        return np.full(values, np.inf)
+    variance = np.diag(np.linalg.inv(curvature))[:values] * (cracked / freedom)
     return np.asarray(t.ppf(0.5 + 0.5 * confidence, freedom) * np.sqrt(variance))
 
 

@@ -256,7 +256,11 @@ class UserTable:
             raise
         except Exception as error:  # a damaged workbook fails anywhere in openpyxl
             raise self.refused("", f"a workbook that cannot be read ({error})", _AS_CSV) from None
-        return list(enumerate(cells.values.tolist(), 1))
+        # An error such as #DIV/0! is the only cell that is no text.
+        rows = (
+            [cell if isinstance(cell, str) else "#ERROR" for cell in row] for row in cells.values.tolist()
+        )
+        return list(enumerate(rows, 1))
 
     def _found_header(self, content: str | list[Row]) -> tuple[str, int]:
         """The separator, and the number of rows above the header: the row with most of the names."""

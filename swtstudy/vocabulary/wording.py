@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from numbers import Real
 from typing import Any
 
 from swtstudy.vocabulary.choices import CRITERIA, MOVED
@@ -84,8 +85,8 @@ def value_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     >>> value_words("sample", 3), value_words("friction", 0.1 + 0.2)
     ('3', '0.3')
     """
-    if isinstance(value, str):
-        return value
+    if not isinstance(value, Real):  # a text, or the date of a point
+        return re.sub(r"[T ]00:00:00[.0]*$", "", str(value))
     row = AXES.get(name)  # none of the points of a sample, nor of what xarray may have joined along
     if row is not None and row.kind == "ratio":
         return str(_fraction(value, 64) or f"{value:.4g}")

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from real import ALUMINIUM
 from told import refused
 
 import swtstudy
@@ -262,6 +263,29 @@ def test_a_list_of_contacts():
         np.testing.assert_array_equal(found.SWT[i], one.SWT)
 
 
+def test_a_list_of_contacts_has_bodies_and_no_sum_of_loads():
+    forces = {
+        "normal_force": [100.0, 200.0],
+        "tangential_force_amplitude": [1.0, 1.0],
+        "poisson_ratio": [0.2, 0.4],
+    }
+    arrays = {name: xr.DataArray(values, dims="test") for name, values in forces.items()}
+    rig = {"young_modulus": 7e4, "radius": 50.0, "friction": 0.5}
+    contacts = swtstudy.physical(**rig, **arrays)
+    one = swtstudy.physical(**rig, **{name: values[1] for name, values in forces.items()})
+    np.testing.assert_array_equal(contacts.solve(rtol=1e-2).SWT[1], one.solve(rtol=1e-2).SWT)
+    along = xr.DataArray([0.1, 0.2], dims="test")
+    refused("^critical_distance: found a value for each", contacts.solve, critical_distance=along)
+    loads = xr.DataArray(np.empty(2, object), dims="test")
+    loads[:] = [swtstudy.LoadPath(name, [[0.0, 1.0], [0.0, -1.0]]) for name in "ab"]
+    loaded = swtstudy.physical(**rig, **arrays, load=loads)
+    refused("^blocks: found a load of each point", loaded.solve, constants=ALUMINIUM, blocks={"a": 1, "b": 2})
+
+
+#: Different loops.
+TWO_OF_A_NAME = [swtstudy.LoadPath("a", [[0.0, end], [0.0, -1.0]]) for end in (1.0, 0.5)]
+
+
 @pytest.mark.parametrize(
     ("dim", "given", "words"),
     [
@@ -272,14 +296,37 @@ def test_a_list_of_contacts():
             "^phase, friction: found lengths or coordinates that differ along test",
         ),
         ("test", {"critical_distance": [0.1, 0.2]}, "^critical_distance: found a value for each point"),
-        ("regime", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over regime, a name in"),
+        ("regime", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'regime', a name in"),
         ("test", {"frictoin": [0.1, 0.2]}, "^frictoin: .*did you mean friction"),
+        ("control", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'control'"),
+        ("SWT", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'SWT'"),
+        ("", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over ''"),
+        ("test", {"load": [*TWO_OF_A_NAME]}, "^load: found another load with the name of"),
+        ("test", {"phase": [*np.array([1, 2], "m8[s]")], "friction": [1, 2]}, "^phase: .*not a number"),
     ],
 )
 def test_mistakes_in_a_list_of_points(dim, given, words):
-    arrays = {name: xr.DataArray(v, dims=dim) for name, v in {"phase": [1.0, 2.0], **given}.items()}
+    arrays = {}
+    for name, values in {"phase": [1.0, 2.0], **given}.items():
+        arrays[name] = xr.DataArray(np.empty(len(values), object) if name == "load" else values, dims=dim)
+        arrays[name][:] = values
     error = refused(words, swtstudy.solve, **arrays)
     assert len(error.mistakes) == 1
+
+
+@pytest.mark.parametrize("labels", [["a", "b"], [10, 20], np.array(["2026-01-30", "2026-02-01"], "M8[s]")])
+def test_labels_of_a_list_stay(labels):
+    arrays = {name: xr.DataArray([0.1, 0.2], {"test": labels}, "test") for name in ("friction", "phase")}
+    found = swtstudy.solve(**arrays, rtol=1e-2)
+    assert found.test.values.tolist() == arrays["phase"].test.values.tolist()
+    assert f"test = {str(found.test.values[1])[:10]}" in repr(found.swt)
+
+
+def test_a_label_that_is_no_name_of_a_point():
+    arrays = {n: xr.DataArray([0.1, 0.2], {"test": [1, np.nan]}, "test") for n in ("friction", "phase")}
+    refused(
+        "^friction, phase: found nan along test; allowed: coordinates of numbers", swtstudy.solve, **arrays
+    )
 
 
 def test_there_is_one_list_of_points():

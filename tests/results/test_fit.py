@@ -101,6 +101,24 @@ def test_noise_has_the_interval_of_linear_regression(rig, monkeypatch):
     assert float(found.scatter) == pytest.approx(noise.std(ddof=1), rel=1e-6)
 
 
+@pytest.mark.parametrize("distance", [0.01, 0.04, 0.15])
+@pytest.mark.parametrize("scatter", [0.0, 1e-3, 1e-2])
+def test_tests_that_scatter_little_have_a_narrow_interval(distance, scatter, rig, monkeypatch):
+    """Lives bend over log ℓ, and differently from test to test: the misfit is a narrow valley."""
+    forces = np.linspace(30.0, 80.0, 8)
+
+    def bent(grid, y, distances, friction):
+        x = np.log10(distances) + 2.0
+        return 5.0 + x + forces[:, None] / 80.0 * (x**2 + np.sin(3.0 * x))
+
+    monkeypatch.setattr(fitting, "_lives", bent)
+    noise = np.random.default_rng(4).normal(scale=scatter, size=8)
+    observed = 10.0 ** (bent(None, "", np.array([distance]), None)[:, 0] + noise)
+    found = swtstudy.fit(rig[0], {"tangential_force_amplitude": forces, "life": observed})
+    assert float(found.critical_distance) == pytest.approx(distance, rel=2.0 * scatter + 1e-4)
+    assert 1.0 < found.critical_distance_high / found.critical_distance < 1.0 + 5.0 * max(scatter, 1e-3)
+
+
 def test_distances_without_a_life_are_not_tried(rig, monkeypatch):
     """Deep beneath the surface there may be no tension; where there is none at all, that is said."""
     forces, end = np.linspace(30.0, 80.0, 8), [0.2]

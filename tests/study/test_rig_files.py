@@ -282,6 +282,15 @@ def test_messages_name_the_sheets_of_a_workbook(tmp_path: Path) -> None:
     assert read_signal(tmp_path / "rig.xlsx", sheet="run 1").values.shape == (3, 2)
 
 
+def test_errors_in_cells_of_a_workbook_are_told(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for row in (["normal", "tangential"], [200, 0], ["#DIV/0!", 60], [210, -60]):
+        book.active.append(row)
+    book.save(tmp_path / "rig.xlsx")
+    refused("line 3, normal: found '#ERROR'; allowed: a finite number", read_signal, tmp_path / "rig.xlsx")
+
+
 def test_a_workbook_without_openpyxl_says_what_it_needs(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
