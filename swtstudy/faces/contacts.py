@@ -14,11 +14,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, read_points, spanned
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
-from swtstudy.points.reading import read_distances, read_grid, read_points
+from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
-from swtstudy.points.solve import OF_POINTS, dimensions_of, listed, solve_grid, spanned
+from swtstudy.points.solve import solve_grid
 from swtstudy.points.validity import validity_lines
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as units

@@ -29,7 +29,7 @@ from swtstudy.points.values import (
     read_value,
 )
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -41,8 +41,6 @@ NOTHING_KNOWN: Known = {}
 #: Classes of the values that users define themselves.
 OWN = {"load": "LoadPath", "profile": "TabulatedProfile"}
 
-#: A number with a comma, for which there is a key where numbers come from files.
-DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 #: More points than this along one axis are taken for a slip of the pen.
 LONGEST_AXIS = 1_000_000
 
@@ -178,73 +176,6 @@ def read_distances(
         return tuple(map(as_number, _read_axis(row, raw, key, report, NOTHING_KNOWN))), True
     single = _read(row, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
     return (() if single is None else (as_number(single),)), False
-
-
-def read_points(
-    points: Mapping[str, Sequence[object]],
-    report: Report,
-    rows: Mapping[str, Parameter] = PARAMETERS,
-    known: Known = NOTHING_KNOWN,
-    points_key: str = "",
-    comma_hint: str = "",
-) -> dict[str, tuple[Value, ...] | None]:
-    """Values of points given one by one; the first wrong value of each parameter is told.
-
-    Parameters
-    ----------
-    points
-        A sequence of raw values of each parameter, a value for each point.
-    report
-        Called with key, found and allowed of each mistake.
-    rows
-        The parameters that may be given.
-    known
-        Definitions of the user, by parameter and name.
-    points_key
-        The key of all points; without it the keys are the names of the parameters.
-    comma_hint
-        Said of values with a decimal comma.
-
-    Returns
-    -------
-    dict
-        The values of each parameter; None of all of them if there is a mistake.
-    """
-    nothing = dict.fromkeys(name for name in points if name in rows)
-    before, lengths = len(report), {name: len(column) for name, column in points.items()}
-    every = points_key or ", ".join(points)
-    if not lengths or min(lengths.values()) == 0:
-        report(every, "no points", "at least one point")
-        return nothing
-    if len({*lengths.values()}) > 1:
-        words = ", ".join(f"{length} of {name}" for name, length in lengths.items())
-        report(every, words, "as many values of each parameter")
-    if max(lengths.values()) > LONGEST_AXIS:
-        report(every, f"{max(lengths.values())} points", f"at most {LONGEST_AXIS} points")
-        return nothing
-    values: dict[str, tuple[Value, ...] | None] = {}
-    for name, column in points.items():
-        key = f"{points_key}.{name}" if points_key else name
-        if name not in rows:
-            report(key, f"unknown parameter {literal(name)}", nearest(name, rows))
-            continue
-        good: list[Value] = []
-        wrong: list[str] = []
-        for index, raw in enumerate(column):
-            try:
-                good.append(read_value(rows[name], raw, known.get(name, NOTHING)))
-            except ValueError as error:
-                wrong.append(f"{literal(raw)} ({error}) at [{index}]")
-        if wrong:
-            comma = any(isinstance(raw, str) and DECIMAL_COMMA.fullmatch(raw) for raw in column)
-            allowed = rows[name].allowed + comma_hint * comma
-            report(key, wrong[0] + more_like_it(len(wrong)), allowed)
-        values[name] = tuple(good)
-        named = {str(each): each for each in reversed(good) if isinstance(each, Definition)}
-        if twice := [each for each in good if named.get(str(each), each) != each]:
-            found = f"another {name} with the name of {literal(twice[0])}"
-            report(key, found, "a name of its own")
-    return nothing if len(report) > before else values
 
 
 def given_twice(names: Iterable[str]) -> Iterator[tuple[tuple[str, str], str, str]]:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 import warnings
-from collections.abc import Hashable, Iterator, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from types import MappingProxyType
@@ -13,24 +12,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.points.arguments import listed, read_points, spanned
 from swtstudy.points.canonical import Distinct, check_count
-from swtstudy.points.grid import SAMPLE
-from swtstudy.points.reading import read_distances, read_grid, read_points
+from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
-from swtstudy.vocabulary.derived import NAMES
-from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError, literal, plain_number
+from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import AXES, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import (
-    COUNTED_SIZES,
-    DISTANCE,
-    EVERY_VARIABLE,
-    NOTHING,
-    Request,
-    read_quantities,
-)
-from swtstudy.vocabulary.variables import ATTRIBUTES, SOLVED
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
+from swtstudy.vocabulary.variables import SOLVED
 from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
@@ -182,95 +173,3 @@ def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tupl
             put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
     return points, values_at(grid, points, found, asked, places)
-
-
-def listed(
-    parameters: Mapping[str, object], report: Report
-) -> tuple[dict[str, list[object]], str, tuple[Hashable, ...]]:
-    """Parameters that vary together, since they are DataArrays over a dimension that they share.
-
-    Returns
-    -------
-    columns
-        Their values by name; none if no DataArrays share a dimension.
-    dim
-        The dimension.
-    labels
-        Its coordinate, if they have one.
-    """
-    over: dict[str, dict[str, Any]] = {}
-    for name, raw in parameters.items():
-        for dim in getattr(raw, "dims", ()) if dimensions_of(raw) == 1 else ():
-            over.setdefault(str(dim), {})[name] = raw
-    shared = {dim: arrays for dim, arrays in over.items() if len(arrays) > 1}
-    if not shared:
-        return {}, SAMPLE, ()
-    import xarray as xr
-
-    (dim, arrays), *more = shared.items()
-    for other, several in more:
-        report(", ".join(several), f"another list of points, over {other}", f"one list, over {dim}")
-    if DISTANCE in arrays:
-        report(DISTANCE, *OF_POINTS)
-        return {}, dim, ()
-    if dim in {"", *OF_RESULTS} - {*arrays}:
-        report(", ".join(arrays), f"DataArrays over {literal(dim)}, a name in results", "another dimension")
-    try:
-        one, *_ = xr.align(*map(xr.DataArray, arrays.values()), join="exact")
-    except ValueError:
-        report(", ".join(arrays), f"lengths or coordinates that differ along {dim}", "the same ones")
-        return {}, dim, ()
-    labels = tuple(one.indexes[dim]) if dim in one.indexes and dim not in arrays else ()
-    if wrong := [label for label in labels if not is_label(label)]:
-        report(
-            ", ".join(arrays), f"{literal(wrong[0])} along {dim}", "coordinates of numbers, texts or dates"
-        )
-    # As plain numbers, but of dates and durations, which are no values.
-    columns = {
-        n: [*raw.values] if raw.dtype.kind in "mM" else raw.values.tolist() for n, raw in arrays.items()
-    }
-    return columns, dim, labels
-
-
-def is_label(value: object) -> bool:
-    """Return whether a value may name a point: a finite number, a text, or a date."""
-    import pandas as pd
-
-    return isinstance(value, str | bool | pd.Timestamp) or math.isfinite(plain_number(value))
-
-
-def spanned(
-    parameters: Mapping[str, object], report: Report
-) -> tuple[dict[str, object], dict[str, Sequence[object] | None]]:
-    """Single values and sequences; None for what is neither, which is reported."""
-    fixed: dict[str, object] = {}
-    axes: dict[str, Sequence[object] | None] = {}
-    for name, raw in parameters.items():
-        dimensions = dimensions_of(raw)
-        if dimensions == 0:
-            fixed[name] = raw
-        elif dimensions == 1:
-            axes[name] = list(np.asarray(raw) if getattr(raw, "chunks", None) else raw)  # type: ignore[call-overload]
-        else:
-            axes[name] = None
-            report(name, literal(raw), "a single value or a one-dimensional sequence")
-    return fixed, axes
-
-
-#: What is wrong with critical distances along a list of points, and what is allowed.
-OF_POINTS = ("a value for each point", "a single value, or an axis of its own")
-#: Names that results have of their own: no list of points may be along one of them.
-OF_RESULTS = {*AXES, *COUNTED_SIZES, *ATTRIBUTES, *EVERY_VARIABLE, "control", "rank"}
-OF_RESULTS |= {name + end for name in NAMES for end in ("", "_error")}
-
-
-def dimensions_of(raw: object) -> int:
-    """Number of dimensions of a value; 0 for text and bytes, although they are sequences."""
-    if isinstance(raw, str | bytes | bytearray | memoryview):
-        return 0
-    if isinstance(raw, Iterator | Mapping | Set):
-        return 2  # several values without an order that can be read twice
-    try:
-        return np.ndim(raw)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return 2  # ragged, or not an array at all
