@@ -1,4 +1,4 @@
-"""Arguments of a call: single values, sequences that span a grid, and lists of points, which are read here."""
+"""Arguments of a call: single values, sequences that span a grid, and lists of points, read here."""
 
 from __future__ import annotations
 
