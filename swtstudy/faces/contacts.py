@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, read_points, spanned
+from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, spanned
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import read_distances, read_grid
@@ -737,10 +737,9 @@ def physical(
     pairs = {
         name: own.pop(name) for name in units.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)
     }
-    columns, dim, of_points = listed(own, report)
-    samples = read_points(columns, report, units.rows(about.units)) if columns else {}
-    pairs |= {name: own.pop(name) for name in units.OF_BODIES if name in own and name not in columns}
-    fixed, axes = spanned({name: raw for name, raw in own.items() if name not in columns}, report)
+    samples, dim, of_points, own = listed(own, report, units.rows(about.units))
+    pairs |= {name: own.pop(name) for name in units.OF_BODIES if name in own}
+    fixed, axes = spanned(own, report)
     fixed |= {name: list(raw) if dimensions_of(raw) == 1 else raw for name, raw in pairs.items()}
     if "body" not in parameters:
         axes["body"] = units.LABELS

@@ -30,18 +30,29 @@ OF_RESULTS |= {name + end for name in NAMES for end in ("", "_error")}
 
 
 def listed(
-    parameters: Mapping[str, object], report: Report
-) -> tuple[dict[str, list[object]], str, tuple[Hashable, ...]]:
+    parameters: Mapping[str, object], report: Report, rows: Mapping[str, Parameter] = PARAMETERS
+) -> tuple[dict[str, tuple[Value, ...] | None], str, tuple[Hashable, ...], dict[str, object]]:
     """Parameters that vary together, since they are DataArrays over a dimension that they share.
+
+    Parameters
+    ----------
+    parameters
+        What was given, by name.
+    report
+        Called with key, found and allowed of each mistake.
+    rows
+        The parameters that may be given.
 
     Returns
     -------
-    columns
-        Their values by name; none if no DataArrays share a dimension.
+    samples
+        Their values, as of `read_points`; none if no DataArrays share a dimension.
     dim
         The dimension.
     labels
         Its coordinate, if they have one.
+    others
+        The other parameters, as they were given.
     """
     over: dict[str, dict[str, Any]] = {}
     for name, raw in parameters.items():
@@ -49,7 +60,7 @@ def listed(
             over.setdefault(str(dim), {})[name] = raw
     shared = {dim: arrays for dim, arrays in over.items() if len(arrays) > 1}
     if not shared:
-        return {}, SAMPLE, ()
+        return {}, SAMPLE, (), dict(parameters)
     import xarray as xr
 
     (dim, arrays), *more = shared.items()
@@ -57,14 +68,14 @@ def listed(
         report(", ".join(several), f"another list of points, over {other}", f"one list, over {dim}")
     if DISTANCE in arrays:
         report(DISTANCE, *OF_POINTS)
-        return {}, dim, ()
+        return {}, dim, (), dict(parameters)
     if dim in {"", *OF_RESULTS} - {*arrays}:
         report(", ".join(arrays), f"DataArrays over {literal(dim)}, a name in results", "another dimension")
     try:
         one, *_ = xr.align(*map(xr.DataArray, arrays.values()), join="exact")
     except ValueError:
         report(", ".join(arrays), f"lengths or coordinates that differ along {dim}", "the same ones")
-        return {}, dim, ()
+        return {}, dim, (), dict(parameters)
     labels = tuple(one.indexes[dim]) if dim in one.indexes and dim not in arrays else ()
     if wrong := [label for label in labels if not is_label(label)]:
         report(
@@ -74,7 +85,8 @@ def listed(
     columns = {
         n: [*raw.values] if raw.dtype.kind in "mM" else raw.values.tolist() for n, raw in arrays.items()
     }
-    return columns, dim, labels
+    others = {name: raw for name, raw in parameters.items() if name not in arrays}
+    return read_points(columns, report, rows), dim, labels, others
 
 
 def is_label(value: object) -> bool:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.arguments import listed, read_points, spanned
+from swtstudy.points.arguments import listed, spanned
 from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
@@ -89,14 +89,13 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     0.157
     """
     report = Report()
-    columns, dim, labels = listed(parameters, report)
+    samples, dim, labels, others = listed(parameters, report)
     lazy = {
-        dim if name in columns else name: raw.chunks[0]  # type: ignore[attr-defined]
+        dim if name in samples else name: raw.chunks[0]  # type: ignore[attr-defined]
         for name, raw in parameters.items()
         if getattr(raw, "chunks", None)
     }
-    fixed, axes = spanned({n: raw for n, raw in parameters.items() if n not in columns}, report)
-    samples = read_points(columns, report) if columns else {}
+    fixed, axes = spanned(others, report)
     report.rtol(rtol)
     names = read_quantities(quantities, "quantities", report)
     asked = Request(names, *read_distances(fixed, axes, report))

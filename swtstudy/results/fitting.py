@@ -226,8 +226,8 @@ def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
     first, last = np.log(tests.distances[[0, -1]])
     distances = np.linspace(first, last, FINE)
 
-    def least_over(misfit: Callable[[float], float], low: float, high: float) -> Any:
-        return minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": 1e-7})
+    def least_over(misfit: Callable[[float], float], low: float, high: float, within: float = 1e-7) -> Any:
+        return minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": within})
 
     def scatter_at(*x: float) -> Any:
         """The best scatter at logarithms of distance and friction."""
@@ -244,11 +244,8 @@ def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
         if not least < MOST_FRICTION:
             found = f"tangential forces that need {least:.3g} at least"
             raise refused("friction", found, f"forces that {MOST_FRICTION:g} bears")
-        bounds = np.log([least, MOST_FRICTION])
-        best = minimize_scalar(
-            lambda friction: at(friction).fun, bounds=bounds, method="bounded", options={"xatol": 1e-4}
-        )
-        own = [best.x]
+        ends = math.log(least), math.log(MOST_FRICTION)
+        own = [least_over(lambda friction: at(friction).fun, *ends, 1e-4).x]
     distance = at(*own).x
     return np.array([distance, *own, scatter_at(distance, *own).x])
 

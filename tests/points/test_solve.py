@@ -11,7 +11,7 @@ import pytest
 import stand_in
 import xarray as xr
 from real import ALUMINIUM
-from told import refused
+from told import RIG, refused
 
 import swtstudy
 from swtstudy import StudyError, solve
@@ -253,13 +253,12 @@ def test_a_list_of_points_may_be_along_one_of_its_parameters():
 
 def test_a_list_of_contacts():
     table = {"normal_force": [100.0, 200.0], "tangential_force_amplitude": [20.0, 30.0]}
-    rig = {"young_modulus": 7e4, "poisson_ratio": 0.3, "radius": 50.0, "friction": 0.5}
-    contacts = swtstudy.physical(**rig, **{n: xr.DataArray(v, dims="test") for n, v in table.items()})
+    contacts = swtstudy.physical(**RIG, **{n: xr.DataArray(v, dims="test") for n, v in table.items()})
     assert contacts.peak_pressure.dims == ("test",)
     found = contacts.solve(rtol=1e-2)
     assert found.SWT.dims == ("test", "body")
     for i in range(2):
-        one = swtstudy.physical(**rig, **{name: values[i] for name, values in table.items()}).solve(rtol=1e-2)
+        one = swtstudy.physical(**RIG, **{name: values[i] for name, values in table.items()}).solve(rtol=1e-2)
         np.testing.assert_array_equal(found.SWT[i], one.SWT)
 
 
@@ -270,15 +269,14 @@ def test_a_list_of_contacts_has_bodies_and_no_sum_of_loads():
         "poisson_ratio": [0.2, 0.4],
     }
     arrays = {name: xr.DataArray(values, dims="test") for name, values in forces.items()}
-    rig = {"young_modulus": 7e4, "radius": 50.0, "friction": 0.5}
-    contacts = swtstudy.physical(**rig, **arrays)
-    one = swtstudy.physical(**rig, **{name: values[1] for name, values in forces.items()})
+    contacts = swtstudy.physical(**RIG | arrays)
+    one = swtstudy.physical(**RIG | {name: values[1] for name, values in forces.items()})
     np.testing.assert_array_equal(contacts.solve(rtol=1e-2).SWT[1], one.solve(rtol=1e-2).SWT)
     along = xr.DataArray([0.1, 0.2], dims="test")
     refused("^critical_distance: found a value for each", contacts.solve, critical_distance=along)
     loads = xr.DataArray(np.empty(2, object), dims="test")
     loads[:] = [swtstudy.LoadPath(name, [[0.0, 1.0], [0.0, -1.0]]) for name in "ab"]
-    loaded = swtstudy.physical(**rig, **arrays, load=loads)
+    loaded = swtstudy.physical(**RIG | arrays, load=loads)
     refused("^blocks: found a load of each point", loaded.solve, constants=ALUMINIUM, blocks={"a": 1, "b": 2})
 
 

@@ -127,7 +127,7 @@ def test_equal_amplitudes_in_phase_neither_grow_nor_slip(phase: float) -> None:
     close(found.s[0], found.s[1], 3 * RTOL)
 
 
-@pytest.mark.parametrize(("p", "q"), [(1, 16), (16, 15)])
+@pytest.mark.parametrize(("p", "q"), [(1, 16), (16, 15), (15, 16)])
 def test_long_common_periods(p: int, q: int) -> None:
     sound(points(p=p, q=q, phase=0.7), 1e-3)
 
