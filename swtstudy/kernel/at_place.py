@@ -33,21 +33,30 @@ MAX_SEEN = 24_001
 ROUNDS = 12
 #: A side that is asked for; no literal, for which Numba would compile anew.
 ASKED = np.bool_(True)
+#: Value of a side that is not asked for: it cannot matter there.
+RULED_OUT = -1.0
 
 
 @jit
 def evaluate(search, point, place, plus, minus):
-    """Values at place s at x > 0 and x < 0, where asked: more instants where the value may be the largest."""
+    """Values at place s at x > 0 and x < 0, where asked; else they are `RULED_OUT`.
+
+    Where a value may be the largest there are more instants.
+    """
     load, ask, cycle, history, curves = point.load, point.ask, point.cycle, point.history, point.curves
     number = min(search.positions, MAX_SEEN - 1)
     search.positions += 1
-    search.seen[number], search.seen_value[number, 0], search.seen_value[number, 1] = place, -1.0, -1.0
+    search.seen[number], search.seen_value[number, 0], search.seen_value[number, 1] = (
+        place,
+        RULED_OUT,
+        RULED_OUT,
+    )
     sampled = False
     for side in range(2):
         if side == 1 and load.mirrored:
             search.value[1] = search.value[0]
             continue
-        search.value[side] = 0.0
+        search.value[side] = RULED_OUT
         if (side == 0 and not plus) or (side == 1 and not minus):
             continue
         sign = 1.0 - 2.0 * side

@@ -21,7 +21,9 @@ from math import cos, pi, sin, sqrt
 import numpy as np
 
 from swtstudy.kernel import INNERMOST, NEAREST
-from swtstudy.kernel.body import fill_circle, highest_here, largest_at
+from swtstudy.kernel.all_planes import measure
+from swtstudy.kernel.body import fill_circle, highest_here, largest_at, sample_place
+from swtstudy.kernel.climb import climb_from_principal
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
@@ -52,6 +54,7 @@ FIRST = np.int64(2 * COARSEST)
 CIRCLE = np.dtype(
     [
         *fields("f8", "x place largest"),  # radius, its place s, and place of the largest contact
+        ("places", "f8", (BETWEEN + 2,)),  # of the circles
         *fields("f8", "best angle"),  # h, and the angle at which it is
         *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over φ
         *fields("f8", "swing highest tension"),  # bounds of A and T, and of T at the last angle
@@ -242,49 +245,99 @@ def climb_radius(circle, body, place):
 
 
 @jit
-def surface_value(circle, body, found):
-    """Largest value on the surface off the line; s itself if that is not exceeded.
+def choose_circles(circle, body, found):
+    """Write the places s of the circles that are searched; returns their number.
 
-    The circle through the point's maximum is searched. Under a bulk stress, and of criteria of shear, whose
-    maxima may be anywhere, circles between the least and the largest contact radius count, too: outside of
-    the contact the radial tension of the pressure is largest at the least one, and at its sides the bulk
-    stress does not press on it. From the highest circle a climb leads to the maximum over the radius.
-    NaN where the point's maximum is at the singular edge of a face: next to it the pressure has no bound.
+    One is the circle through the point's maximum. Under a bulk stress, and of criteria of shear, whose maxima
+    may be anywhere, circles between the least and the largest contact radius count, too: outside of the
+    contact the radial tension of the pressure is largest at the least one, and at its sides the bulk stress
+    does not press on it.
     """
     load, profile, ask, cycle = body.point.load, body.point.profile, body.point.ask, body.point.cycle
-    s, known, anywhere = found.s, (1.0 + HIGHER) * found.s, may_be_anywhere(load, ask)
-    at_infinity = np.isnan(found.critical_x)
-    nowhere = (s <= found.s_error or at_infinity) and anywhere
-    if at_infinity and not nowhere:
-        return s
-    if not nowhere and beside_singular_edge(profile, found.critical_x, NEAREST):
-        return np.nan
-    solve_cycle(cycle, load)
-    cycle.shift = found.shift
-    lay_out(body.point.growth, cycle, profile, load, found.growth)
     circle.largest, lowest = place_of(profile, cycle.largest), place_of(profile, max(cycle.smallest, 0.0))
     if profile.flat_radius > 0.0:  # at the very edge of a face tables of the radius have no scale
         lowest = max(lowest, INNERMOST * circle.largest)
-    top = known if nowhere else search_circle(circle, body, found.place, known)
-    best, angle = found.place, circle.angle
-    steps = BETWEEN if circle.largest > lowest else 1  # one circle where the radius does not change
-    for k in range(1 if profile.singular or steps == 1 else 0, steps + 1 if anywhere else 0):
-        place = lowest + (circle.largest - lowest) * k / steps
-        value = search_circle(circle, body, place, top)
-        if value > top:
-            top, best, angle = value, place, circle.angle
-    if top <= known:
-        return s
-    for _ in range(0 if profile.singular else CLIMBS):
-        circle.best, circle.angle = lift(ask, top), angle
-        place = climb_radius(circle, body, best)
+    count = 0
+    if found.s > found.s_error and not np.isnan(found.critical_x):
+        circle.places[0], count = found.place, 1
+    if may_be_anywhere(load, ask):
+        steps = BETWEEN if circle.largest > lowest else 1  # one circle where the radius does not change
+        for k in range(1 if profile.singular or steps == 1 else 0, steps + 1):
+            circle.places[count] = lowest + (circle.largest - lowest) * k / steps
+            count += 1
+    return count
+
+
+@jit
+def glance(circle, body, place):
+    """Raise the best value to what a climb over planes finds at the first angles of the circle at a place s.
+
+    It begins at the largest principal stress. Whatever stays below the best value need not be searched.
+    """
+    here, planes, ask, history = body.here, body.planes, body.point.ask, body.point.history
+    if not open_circle(circle, body, place):
+        return
+    for k in range(ARCS // 2 + 1 if body.point.load.mirrored else ARCS + 1):
+        angle = pi * k / ARCS
+        if body.point.cycle.shift == 0.0:
+            here.angle = angle
+            fill_circle(here, history, 0, ask)
+        else:
+            x, y = circle.x * cos(angle), circle.x * sin(angle)
+            sample_place(body, x, y, 0.0, circle.largest, FIRST)
+        measure(planes, here.stress, history.instants, ask)
+        planes.best, planes.limit = 0.0, 0.0
+        climb_from_principal(planes, here.stress, history.instants, ask)
+        if planes.best > circle.best:
+            circle.best, circle.angle = planes.best, angle
+
+
+@jit
+def climb_circles(circle, body, place, top):
+    """From the best angle on the circle at a place s to a maximum over both, by turns.
+
+    Returns the highest value, at least ``top``, which is that of the begin.
+    """
+    ask = body.point.ask
+    for _ in range(0 if body.point.profile.singular else CLIMBS):
+        circle.best = lift(ask, top)
+        place = climb_radius(circle, body, place)
         value = search_circle(circle, body, place, value_of(ask, circle.best))
         done = value <= top * (1.0 + ask.line)
         top = max(top, value)
         if done:
             break
-        best, angle = place, circle.angle
     return top
+
+
+@jit
+def surface_value(circle, body, found):
+    """Largest value on the surface off the line; s itself if that is not exceeded.
+
+    NaN where the point's maximum is at the singular edge of a face: next to it the pressure has no bound.
+    """
+    load, profile, ask, cycle = body.point.load, body.point.profile, body.point.ask, body.point.cycle
+    if found.s > found.s_error and beside_singular_edge(profile, found.critical_x, NEAREST):
+        return np.nan
+    solve_cycle(cycle, load)
+    cycle.shift = found.shift
+    lay_out(body.point.growth, cycle, profile, load, found.growth)
+    known = (1.0 + HIGHER) * found.s
+    count, circle.best = choose_circles(circle, body, found), lift(ask, known)
+    place, angle, before = 0.0, 0.0, circle.best
+    for k in range(count):
+        glance(circle, body, circle.places[k])
+        if circle.best > before:
+            place, angle, before = circle.places[k], circle.angle, circle.best
+    top = value_of(ask, circle.best) if circle.best > lift(ask, known) else known
+    for k in range(count):
+        value = search_circle(circle, body, circle.places[k], top)
+        if value > top:
+            top, place, angle = value, circle.places[k], circle.angle
+    if top <= known:
+        return found.s
+    circle.angle = angle
+    return climb_circles(circle, body, place, top)
 
 
 @jit

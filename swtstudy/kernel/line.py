@@ -17,7 +17,7 @@ from math import cos, pi, sqrt
 import numpy as np
 
 from swtstudy.kernel import INNERMOST
-from swtstudy.kernel.at_place import ASKED, MAX_SEEN, evaluate
+from swtstudy.kernel.at_place import ASKED, MAX_SEEN, RULED_OUT, evaluate
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
 from swtstudy.kernel.cusps import GROUPS, cusps, ends_group
@@ -88,7 +88,7 @@ GRADED = 20.0
 def bound_of(search, k, side):
     """Bound of interval k on one side."""
     f1, f2, drop = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.drop[k, side]
-    if search.unseen[k] and (search.crowd == 0.0 or max(f1, f2) > 0.0):  # else this side has been ruled out
+    if search.unseen[k] and max(f1, f2) > RULED_OUT:
         return 1e300
     if search.crowd > 0.0 and search.ends[k, 1] - search.ends[k, 0] > 3.0:
         return max(f1, f2) + 0.125 * drop
@@ -154,8 +154,7 @@ def grade(search, point, k):
                 continue
             step, m = GRADED * search.beside[k, end], search.intervals
             x = search.piece[k, 1] - step if end else search.piece[k, 0] + step
-            # A side that has not been looked at, since it cannot matter, has the value 0 at both ends.
-            evaluate(search, point, x, max(f[0, 0], f[1, 0]) > 0.0, max(f[0, 1], f[1, 1]) > 0.0)
+            evaluate(search, point, x, max(f[0, 0], f[1, 0]) > RULED_OUT, max(f[0, 1], f[1, 1]) > RULED_OUT)
             near, outer = point.ask.near * search.best, search.piece[k, end]
             for side in range(2):
                 search.at_ends[m, end, side] = f[end, side]
@@ -186,8 +185,8 @@ def divide(search, point, k, limit):
         f1, f2, f = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.value[side]
         if plus if side == 0 else minus:
             seen = max(seen, abs(f - f1 - share * (f2 - f1)) / max(f1, f2, f))
-        else:  # nothing here can matter, at either end
-            f1, f2 = 0.0, 0.0
+        else:
+            f1, f2 = RULED_OUT, RULED_OUT
         search.at_ends[k, 0, side], search.at_ends[k, 1, side] = f1, search.value[side]
         search.at_ends[m, 0, side], search.at_ends[m, 1, side] = search.value[side], f2
     seen *= RISE * sqrt(search.crowd / (right - left))
@@ -418,8 +417,8 @@ def halve(search, point, k, limit):
                 expected = 0.125 * (3.0 * far + 6.0 * near - search.beyond[k, side])
                 drop = max(drop, 0.0) + TRUST * abs(f - expected)
                 drop = max(drop, MEMORY * search.drop[k, side])
-        else:  # nothing here can matter
-            f1, f2, f, drop = 0.0, 0.0, 0.0, 0.0
+        else:
+            f1, f2, f, drop = RULED_OUT, RULED_OUT, RULED_OUT, 0.0
         search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.beyond[k, side] = f1, f, f2
         search.at_ends[m, 0, side], search.at_ends[m, 1, side], search.beyond[m, side] = f, f2, f1
         search.drop[k, side] = search.drop[m, side] = drop

@@ -66,6 +66,25 @@ def test_a_search_ends_where_rounding_alone_is_left(name: str, given: dict[str, 
     assert found[1]["positions"] <= 1000
 
 
+def test_a_value_of_nothing_is_no_side_that_is_ruled_out() -> None:
+    """Under residual compression a piece of the line has its maximum between two places without tension."""
+    found = solve_one(
+        "power_law",
+        shape={"exponent": [2.19796134]},
+        poisson_ratio=[0.172504164938],
+        friction=[0.0350220880655],
+        normal_amplitude=[0.338241602461],
+        tangential_amplitude=[0.0724240387401],
+        frequency_ratio=[2],
+        phase=[3.89787496937],
+        bulk_amplitude=[0.0228070735816],
+        bulk_mean=[-0.182505484362],
+        bulk_phase=[2.21341879387],
+        rtol=1e-4,
+    )
+    assert found["s_error"] <= 1e-4 * found["s"]
+
+
 def test_no_part_of_a_cycle_is_cut_without_end() -> None:
     """Next to the begin of the cycle, where times are exact, a part may be short, but not without a limit."""
     history, cycle = new_record(HISTORY), new_record(CYCLE)
