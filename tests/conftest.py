@@ -40,14 +40,16 @@ TOGETHER = (
     ("validity",),
 )
 #: Tests of these files compile nothing: one process runs them while another compiles.
-READING = tuple(
-    f"test_{name}.py"
-    for name in (
-        *("runner", "archive", "archive_check", "archive_check_sums", "archive_names", "cf"),
-        *("legend", "drawn_profile", "quantities", "show_load", "jumps", "contour_labels", "hostile_names"),
-        *("marked_validity", "loop_legend", "optimise", "statements", "validate_limits", "safe_files"),
-        *("study", "schema", "rig_files", "expression", "mistakes_report"),
-    )
+READING = (
+    *("runner", "archive", "archive_check", "archive_check_sums", "archive_names", "cf", "figures", "drawn"),
+    *("legend", "drawn_profile", "quantities", "show_load", "jumps", "contour_labels", "hostile_names"),
+    *("marked_validity", "loop_legend", "optimise", "statements", "validate_limits", "safe_files", "audit"),
+    *("study", "schema", "rig_files", "expression", "mistakes_report", "scripts", "check", "formalisms"),
+)
+#: Tests of these files need no more compiled code than that of s: it is what is compiled first.
+OF_S_ALONE = (
+    *("cli", "trace", "accessor", "file_systems", "sample", "develop", "save", "page_numbers"),
+    *("many_values", "designers_figures", "tables_of_users", "bounds_of_statements", "plane_units"),
 )
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
@@ -126,10 +128,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def turn_of(item: pytest.Item) -> int:
     """Which tests are run first: what compiles, what does not, what stays with one process, all others."""
-    if item.path.name in READING:
-        return 1
-    group = GROUP_OF.get(item.path.name)
-    return 3 if group is None else 0 if group == TOGETHER[0][0] else 2
+    name, group = item.path.stem.removeprefix("test_"), GROUP_OF.get(item.path.name)
+    if name in READING or name in OF_S_ALONE:
+        return 1 if name in READING else 2
+    return 4 if group is None else 0 if group == TOGETHER[0][0] else 3
 
 
 def pytest_collection() -> None:

@@ -20,6 +20,7 @@ from swtstudy.kernel import INNERMOST
 from swtstudy.kernel.at_place import ASKED, MAX_SEEN, RULED_OUT, evaluate
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import MAX_STRETCHES, NONE
+from swtstudy.kernel.criterion import SWT
 from swtstudy.kernel.cusps import GROUPS, cusps, ends_group
 from swtstudy.kernel.history import FIRST, is_sharp
 from swtstudy.kernel.planes import above
@@ -312,7 +313,7 @@ def search_line(search, point):
         k, limit = highest_bound(search), search.best * (1.0 + ask.line)
         if search.bound[k] <= limit:
             share_curvature(search)
-            if load.sides > 0 and load.bulk_moves:
+            if load.sides > 0 and (load.bulk_moves or ask.criterion != SWT):
                 look_beside_cusps(search, limit)
             k = highest_bound(search)
         full = search.intervals + 2 > MAX_INTERVALS or search.positions > MOST_POSITIONS
@@ -360,8 +361,8 @@ def look_beside_cusps(search, limit):
     """Have intervals halved in which the value falls from a high cusp by more than the tolerance.
 
     At a vertex of the load the bulk stress may fall at once while slip begins, whose tension rises like a
-    root. The sum has a peak beside the cusp, as narrow as the square of the friction: no value farther away
-    shows it.
+    root; so may the shear stress of the pressure. The sum has a peak beside the cusp, as narrow as the square
+    of the friction: no value farther away shows it.
     """
     for k in range(search.intervals):
         if search.cusps[k, 1] > 0 or search.ends[k, 1] - search.ends[k, 0] < FINEST_ANGLE:

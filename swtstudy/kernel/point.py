@@ -172,7 +172,8 @@ def solve_point(search, point, out):
     if has_bulk(load):
         far, angle = far_field(ask, load.bulk_range[1], load.bulk_range[0], profile.plane)
         if far > 0.0 and far >= (1.0 - SAME) * search.best:
-            out.s, out.s_error, out.critical_x, out.critical_angle = far, 0.0, nan, degrees(angle)
+            out.s, out.s_error = far, max(search.best + out.s_error - far, 0.0)
+            out.critical_x, out.critical_angle = nan, degrees(angle)
     if beside_singular_edge(profile, out.critical_x, BESIDE_EDGE):
         out.circle = not profile.plane
     out.s_surface = nan if beside_singular_edge(profile, out.critical_x, NEAREST) else out.s

@@ -303,7 +303,7 @@ class SampleReader:
                 report("sample", "constants that scatter", "with the constants of lives in [material]")
             return None
         before, target = len(report), table.target_life or 0.0
-        if not 0.0 <= target < math.inf:
+        if table.target_life is not None and not 0.0 < target < math.inf:
             report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
         found = {name: np.array(column) for name, column in self._drawn(contacts).items()}
         for name, column in found.items():

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -83,6 +84,48 @@ def test_a_value_of_nothing_is_no_side_that_is_ruled_out() -> None:
         rtol=1e-4,
     )
     assert found["s_error"] <= 1e-4 * found["s"]
+
+
+def test_the_bulk_stress_alone_may_be_a_little_less_than_the_contact_makes_of_it() -> None:
+    """The far field is exact, but a tolerance does not tell it from a higher value beside the contact."""
+    given: dict[str, Any] = {
+        "shape": {"exponent": [1.0924212]},
+        "poisson_ratio": [0.46208893],
+        "friction": [0.03470021],
+        "normal_amplitude": [0.011865183],
+        "tangential_amplitude": [0.0032639349],
+        "frequency_ratio": ["1/5"],
+        "phase": [4.5561661],
+        "bulk_amplitude": [0.95515567],
+        "bulk_mean": [1.188604],
+        "bulk_phase": [4.9560819],
+        "criterion": "findley",
+        "normal_sensitivity": [0.49582243],
+        "control": (True, False),
+    }
+    rough, known = (solve_one("power_law_cylinder", **given, rtol=rtol) for rtol in (1e-2, 1e-6))
+    assert 0.0 < known["s"] - rough["s"] <= rough["s_error"] <= 1e-2 * rough["s"]
+
+
+def test_a_peak_of_shear_stress_beside_a_cusp_of_a_polygon_is_found() -> None:
+    path = [[-0.703, -0.667], [-0.434, -1.0], [1.0, 0.629], [0.113, 0.423], [0.15, 0.595], [-0.126, 0.02]]
+    rough, known = (
+        solve_batch(
+            "wavy_cylinder",
+            [0.279],
+            [0.841],
+            [0.071],
+            [0.816],
+            loops=[swtstudy.LoadPath("polygon", np.array(path))],
+            shape={"waviness_amplitude": [0.00325], "wavelength": [5.179]},
+            bulk_mean=[0.16],
+            criterion="findley",
+            normal_sensitivity=[0.725],
+            rtol=rtol,
+        )[0]
+        for rtol in (1e-3, 1e-6)
+    )
+    assert abs(rough["s"] - known["s"]) <= rough["s_error"]
 
 
 def test_no_part_of_a_cycle_is_cut_without_end() -> None:

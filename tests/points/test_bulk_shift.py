@@ -139,6 +139,7 @@ MARCHED = {
 }
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("name", MARCHED)
 def test_boundary_elements_marched_in_time(name: str) -> None:
     loop, friction, elements, per_side = np.array(MARCHED[name]), 0.5, 200, 16
@@ -288,6 +289,7 @@ def test_archives_tell_what_was_used_and_studies_choose() -> None:
     refused("stick_zone_shift", swtstudy.solve, **given, stick_zone_shift="exact")
 
 
+@pytest.mark.slow
 def test_work_of_friction_is_that_of_the_march() -> None:
     load, ratio, elements, steps = 0.6, 0.7, 240, 60
     e = ratio * (1.0 - np.sqrt(1.0 - load))

@@ -82,6 +82,7 @@ wavy_cylinder ν=0.031747101407745004 μ=0.12279971581768893 F=0.009168158397763
 """)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("forces", "distance", "x"), FAR_UP)
 def test_the_largest_line_mean_is_found_where_no_climb_leads(
     forces: dict[str, Any], distance: float, x: float
@@ -164,7 +165,7 @@ wavy_paraboloid ν=0.2711632507420737 μ=1.8123768074564504 F=0.4091980362444771
 """)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("point", "distance", "kind", "right"), OTHER_SIDE)
 def test_the_largest_mean_on_the_other_side_is_found(point, distance, kind, right):
     found = swtstudy.solve(**point, critical_distance=distance)

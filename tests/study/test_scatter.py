@@ -223,6 +223,7 @@ def test_constants_that_make_no_life_are_refused(text: str, words: str) -> None:
         (SAMPLE + COVARIANCE + RANGE, "strength, which has a range; allowed: one of the two"),
         (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
         (SAMPLE.replace("2e5", "-1") + RANGE, "sample.target_life: found -1"),
+        (SAMPLE.replace("2e5", "0") + RANGE, "sample.target_life: found 0"),
         ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "2 of strength, 1 of ductility"),
     ],
 )
