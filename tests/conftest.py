@@ -31,6 +31,7 @@ TOGETHER = (
     ("fit",),
     ("inspection_panels",),
     ("optimise",),
+    ("overlooked",),
     ("real_archives", "real_contacts", "real_studies"),
     ("report",),
     ("s_error",),
