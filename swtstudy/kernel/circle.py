@@ -55,7 +55,7 @@ CIRCLE = np.dtype(
     [
         *fields("f8", "x place largest"),  # radius, its place s, and place of the largest contact
         ("places", "f8", (BETWEEN + 2,)),  # of the circles
-        *fields("f8", "best angle"),  # h, and the angle at which it is
+        *fields("f8", "best angle summit"),  # h, and the angle and the place at which it is
         *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over φ
         *fields("f8", "swing highest tension"),  # bounds of A and T, and of T at the last angle
         # At both ends of arcs: φ, h or more where it does not matter, bound of T.
@@ -103,7 +103,7 @@ def value_at(circle, body, angle, floor):
         cycle.overflow = max(cycle.overflow, overflow)  # of all places together
     circle.tension, circle.swing = planes.most[0], max(circle.swing, planes.most[1])
     if h > circle.best:
-        circle.best, circle.angle = h, angle
+        circle.best, circle.angle, circle.summit = h, angle, circle.place
     return max(h, floor)
 
 
@@ -224,8 +224,8 @@ def may_be_anywhere(load, ask):
 
 
 @jit
-def climb_radius(circle, body, place):
-    """From a place s to a higher one at the angle of the best value, by steps that are halved.
+def climb_radius(circle, body):
+    """From the place of the best value to a higher one at the same angle, by steps that are halved.
 
     A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
     """
@@ -233,15 +233,13 @@ def climb_radius(circle, body, place):
     while step > NARROWEST * sqrt(ask.line) * circle.largest:
         before = circle.best
         for side in (1.0, -1.0):
-            new = place + side * step
+            new = circle.summit + side * step
             if abs(new) >= INNERMOST * circle.largest and open_circle(circle, body, new):
                 value_at(circle, body, angle, FAR * before)
                 if circle.best > before:
-                    place = new
                     break
         if circle.best == before:
             step *= 0.5
-    return place
 
 
 @jit
@@ -289,20 +287,20 @@ def glance(circle, body, place):
         planes.best, planes.limit = 0.0, 0.0
         climb_from_principal(planes, here.stress, history.instants, ask)
         if planes.best > circle.best:
-            circle.best, circle.angle = planes.best, angle
+            circle.best, circle.angle, circle.summit = planes.best, angle, place
 
 
 @jit
-def climb_circles(circle, body, place, top):
-    """From the best angle on the circle at a place s to a maximum over both, by turns.
+def climb_circles(circle, body, top):
+    """From the place of the best value to a maximum over angle and radius, by turns; returns it.
 
-    Returns the highest value, at least ``top``, which is that of the begin.
+    It is at least ``top``, which is that of the begin.
     """
     ask = body.point.ask
     for _ in range(0 if body.point.profile.singular else CLIMBS):
         circle.best = lift(ask, top)
-        place = climb_radius(circle, body, place)
-        value = search_circle(circle, body, place, value_of(ask, circle.best))
+        climb_radius(circle, body)
+        value = search_circle(circle, body, circle.summit, value_of(ask, circle.best))
         done = value <= top * (1.0 + ask.line)
         top = max(top, value)
         if done:
@@ -322,22 +320,14 @@ def surface_value(circle, body, found):
     solve_cycle(cycle, load)
     cycle.shift = found.shift
     lay_out(body.point.growth, cycle, profile, load, found.growth)
-    known = (1.0 + HIGHER) * found.s
-    count, circle.best = choose_circles(circle, body, found), lift(ask, known)
-    place, angle, before = 0.0, 0.0, circle.best
+    count, known = choose_circles(circle, body, found), (1.0 + HIGHER) * found.s
+    circle.best = floor = lift(ask, known)
     for k in range(count):
         glance(circle, body, circle.places[k])
-        if circle.best > before:
-            place, angle, before = circle.places[k], circle.angle, circle.best
-    top = value_of(ask, circle.best) if circle.best > lift(ask, known) else known
+    top = value_of(ask, circle.best) if circle.best > floor else known
     for k in range(count):
-        value = search_circle(circle, body, circle.places[k], top)
-        if value > top:
-            top, place, angle = value, circle.places[k], circle.angle
-    if top <= known:
-        return found.s
-    circle.angle = angle
-    return climb_circles(circle, body, place, top)
+        top = max(top, search_circle(circle, body, circle.places[k], top))
+    return climb_circles(circle, body, top) if top > known else found.s
 
 
 @jit
