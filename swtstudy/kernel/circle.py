@@ -283,6 +283,8 @@ def glance(circle, body, place):
         else:
             x, y = circle.x * cos(angle), circle.x * sin(angle)
             sample_place(body, x, y, 0.0, circle.largest, FIRST)
+            if body.point.cycle.overflow:
+                continue
         measure(planes, here.stress, history.instants, ask)
         planes.best, planes.limit = 0.0, 0.0
         climb_from_principal(planes, here.stress, history.instants, ask)
