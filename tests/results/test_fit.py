@@ -137,12 +137,13 @@ def test_distances_without_a_life_are_not_tried(rig, monkeypatch):
     refused("no finite life of test 5; allowed", swtstudy.fit, rig[0], tests)
 
 
-def test_tests_may_have_frictions_of_their_own(rig, monkeypatch):
+def test_tests_may_have_frictions_and_loads_of_their_own(rig, monkeypatch):
     forces = np.linspace(30.0, 80.0, 8)
     law = Law(forces)
     monkeypatch.setattr(fitting, "_lives", law)
     observed = 10.0 ** law(None, "", np.array([0.05]), None)[:, 0]
     tests = {"tangential_force_amplitude": forces, "friction": np.linspace(0.5, 0.7, 8), "life": observed}
+    tests["load"] = ["two"] * 8
     found = swtstudy.fit(rig[0], tests)
     assert float(found.critical_distance) == pytest.approx(0.05, rel=1e-3)
     np.testing.assert_array_equal(found.friction, tests["friction"])
