@@ -135,6 +135,19 @@ def test_functionals_are_the_integrals(name: str, shape: dict[str, float], depth
         assert outside[2] == pytest.approx(pressure, rel=1e-7)
 
 
+@pytest.mark.parametrize("name", ["rounded_punch", "truncated_paraboloid", "rounded_flat"])
+def test_functionals_under_a_face_are_the_integrals(name: str) -> None:
+    width = "flat_half_width" if name == "rounded_flat" else "flat_radius"
+    record, table = profile_record(name, {width: 0.5}, True, 2.0, 1e-7), new_record(TABLE)
+    b, top = record.flat_radius, place_of(record, 2.0)
+    x, X = 0.8 * b, 0.6 * b
+    panels = record.begin, record.end, record.density
+    tabulate(table, 0, 0, *panels, 0, record.panels, top, b, x, X, 1, record.plane)
+    for s in (0.5 * X, top):
+        pressure = quad(lambda z: float(density_at(record, X * np.sinh(z))), 0.0, np.arcsinh(s / X))[0]
+        assert running(table, 0, s, X, 1)[2] == pytest.approx(pressure, rel=1e-6)
+
+
 @pytest.mark.parametrize("mu", [0.1, 0.7])
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])
 def test_a_cylinder_under_a_constant_load(mu: float, rtol: float) -> None:
