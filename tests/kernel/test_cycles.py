@@ -8,7 +8,7 @@ import rainflow
 
 from swtstudy import LoadPath
 from swtstudy.kernel import count, cycles
-from swtstudy.kernel.batch import count_batch
+from swtstudy.kernel.batch import count_batch, solve_batch
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.criterion import ask
 
@@ -73,3 +73,18 @@ def test_without_a_critical_plane_nothing_is_counted() -> None:
     sizes = {"poisson_ratio": [0.3], "friction": [0.3], "normal_amplitude": [0.3]}
     nothing = np.array([np.nan])
     assert count_batch(nothing, nothing, "paraboloid", **sizes, tangential_amplitude=[0.1]) == [[]]
+
+
+def test_a_polygon_of_short_sides_has_the_cycles_of_its_curve() -> None:
+    """Between the ends of a short side there are no instants."""
+    found = []
+    for vertices in (200, 1600):
+        t = 2.0 * np.pi * np.arange(vertices) / vertices
+        way = np.stack([np.sin(t), 0.6 * np.sin(t) + 0.5 * np.sin(3.0 * t)], axis=1)
+        given = {"loops": [LoadPath("three", way)]}
+        own = "paraboloid", [0.3], [0.5], [0.3], [0.4]
+        solved = solve_batch(*own, **given)
+        angle = 2.0 * np.deg2rad(solved["critical_angle"])
+        found.append(count_batch(solved["critical_x"], angle, *own, **given)[0][0])
+    assert len(found[0]) == 2
+    np.testing.assert_allclose(found[1], found[0], rtol=0.05)
