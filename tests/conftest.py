@@ -130,8 +130,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def turn_of(item: pytest.Item) -> int:
     """Which tests are run first: what compiles, what does not, what stays with one process, all others."""
     name, group = item.path.stem.removeprefix("test_"), GROUP_OF.get(item.path.name)
-    if name in READING or name in OF_S_ALONE:
-        return 1 if name in READING else 2
+    if name in READING:
+        return 1
+    if name in OF_S_ALONE:
+        return 2
     return 4 if group is None else 0 if group == TOGETHER[0][0] else 3
 
 

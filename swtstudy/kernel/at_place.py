@@ -46,13 +46,9 @@ def evaluate(search, point, place, plus, minus):
     load, ask, cycle, history, curves = point.load, point.ask, point.cycle, point.history, point.curves
     number = min(search.positions, MAX_SEEN - 1)
     search.positions += 1
-    search.seen[number], search.seen_value[number, 0], search.seen_value[number, 1] = (
-        place,
-        RULED_OUT,
-        RULED_OUT,
-    )
-    sampled = False
+    search.seen[number], sampled = place, False
     for side in range(2):
+        search.seen_value[number, side] = RULED_OUT
         if side == 1 and load.mirrored:
             search.value[1] = search.value[0]
             continue

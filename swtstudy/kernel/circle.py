@@ -22,7 +22,7 @@ import numpy as np
 
 from swtstudy.kernel import INNERMOST, NEAREST
 from swtstudy.kernel.all_planes import measure
-from swtstudy.kernel.body import fill_circle, highest_here, largest_at, sample_place
+from swtstudy.kernel.body import fill_circle, highest_here, sample_place
 from swtstudy.kernel.climb import climb_from_principal
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import solve_cycle
@@ -88,19 +88,27 @@ def begin_circle(circle, body):
 
 
 @jit
+def sample_angle(circle, body, angle):
+    """Write the stress cycle at an angle; False if it has more pieces than there is room for."""
+    here, cycle = body.here, body.point.cycle
+    if cycle.shift == 0.0:
+        here.on_circle, here.angle, here.unsure = 1, angle, (1.0 - body.point.ask.line) * circle.best
+        fill_circle(here, body.point.history, 0, body.point.ask)
+        return True
+    overflow = cycle.overflow
+    sample_place(body, circle.x * cos(angle), circle.x * sin(angle), 0.0, circle.largest, FIRST)
+    has_room = cycle.overflow == 0
+    cycle.overflow = max(cycle.overflow, overflow)  # of all places together
+    return has_room
+
+
+@jit
 def value_at(circle, body, angle, floor):
     """Largest h over the planes at an angle; below the floor it may be low."""
-    here, planes, ask, cycle = body.here, body.planes, body.point.ask, body.point.cycle
-    tolerance = ask.line, 0.5 * ask.line
-    if cycle.shift == 0.0:
-        here.on_circle, here.angle, here.unsure = 1, angle, (1.0 - ask.line) * circle.best
-        fill_circle(here, body.point.history, 0, ask)
-        h = highest_here(body, floor, *tolerance)
-    else:
-        place = circle.x * cos(angle), circle.x * sin(angle), 0.0, circle.largest
-        own, overflow = (value_of(ask, floor), *tolerance, FIRST), cycle.overflow
-        h = lift(ask, largest_at(body, *place, *own)[0])
-        cycle.overflow = max(cycle.overflow, overflow)  # of all places together
+    planes, ask = body.planes, body.point.ask
+    if not sample_angle(circle, body, angle):
+        return floor
+    h = highest_here(body, floor, ask.line, 0.5 * ask.line)
     circle.tension, circle.swing = planes.most[0], max(circle.swing, planes.most[1])
     if h > circle.best:
         circle.best, circle.angle, circle.summit = h, angle, circle.place
@@ -132,10 +140,15 @@ def set_end(circle, planes, k, end, angle, value):
 
 
 @jit
+def first_count(load):
+    """Number of arcs at first: of a mirrored load both quarters of the circle are alike."""
+    return ARCS // 2 if load.mirrored else ARCS
+
+
+@jit
 def first_arcs(circle, body):
     """Look at evenly spaced angles; returns the number of arcs between them."""
-    planes, load = body.planes, body.point.load
-    arcs = ARCS // 2 if load.mirrored else ARCS
+    planes, arcs = body.planes, first_count(body.point.load)
     for k in range(arcs + 1):
         angle = pi * k / ARCS
         value = value_at(circle, body, angle, FAR * circle.best)
@@ -275,16 +288,10 @@ def glance(circle, body, place):
     here, planes, ask, history = body.here, body.planes, body.point.ask, body.point.history
     if not open_circle(circle, body, place):
         return
-    for k in range(ARCS // 2 + 1 if body.point.load.mirrored else ARCS + 1):
+    for k in range(first_count(body.point.load) + 1):
         angle = pi * k / ARCS
-        if body.point.cycle.shift == 0.0:
-            here.angle = angle
-            fill_circle(here, history, 0, ask)
-        else:
-            x, y = circle.x * cos(angle), circle.x * sin(angle)
-            sample_place(body, x, y, 0.0, circle.largest, FIRST)
-            if body.point.cycle.overflow:
-                continue
+        if not sample_angle(circle, body, angle):
+            continue
         measure(planes, here.stress, history.instants, ask)
         planes.best, planes.limit = 0.0, 0.0
         climb_from_principal(planes, here.stress, history.instants, ask)
@@ -324,7 +331,7 @@ def surface_value(circle, body, found):
     lay_out(body.point.growth, cycle, profile, load, found.growth)
     count, known = choose_circles(circle, body, found), (1.0 + HIGHER) * found.s
     circle.best = floor = lift(ask, known)
-    for k in range(count):
+    for k in range(count if count > 1 else 0):  # one circle is searched at once
         glance(circle, body, circle.places[k])
     top = value_of(ask, circle.best) if circle.best > floor else known
     for k in range(count):

@@ -419,7 +419,7 @@ def halve(search, point, k, limit):
                 drop = max(drop, 0.0) + TRUST * abs(f - expected)
                 drop = max(drop, MEMORY * search.drop[k, side])
         else:
-            f1, f2, f, drop = RULED_OUT, RULED_OUT, RULED_OUT, 0.0
+            f1, f2, drop = RULED_OUT, RULED_OUT, 0.0
         search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.beyond[k, side] = f1, f, f2
         search.at_ends[m, 0, side], search.at_ends[m, 1, side], search.beyond[m, side] = f, f2, f1
         search.drop[k, side] = search.drop[m, side] = drop

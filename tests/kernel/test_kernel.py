@@ -242,7 +242,7 @@ some = [
     point
     for scene, several in truth.points().items()
     for point in several[:: -(-len(several) // int(count))]
-    if not scene.startswith(tuple(without) or "none")
+    if not scene.startswith(tuple(without))
 ]
 for point in some:
     found = swtstudy.solve(**point.arguments, rtol=float(rtol))
@@ -265,8 +265,10 @@ def test_without_a_compiler_values_are_the_same() -> None:
 
 @pytest.mark.slow
 def test_no_index_is_out_of_bounds(tmp_path: Path) -> None:
-    checked = {"NUMBA_BOUNDSCHECK": "1", "NUMBA_CACHE_DIR": str(tmp_path)}
-    agree(printed(RECORDED, "12", "1e-4", **checked), printed(RECORDED, "12", "1e-4"))
+    checked = printed(RECORDED, "12", "1e-4", NUMBA_BOUNDSCHECK="1", NUMBA_CACHE_DIR=str(tmp_path))
+    np.testing.assert_allclose(
+        np.array(checked, float), np.array(printed(RECORDED, "12", "1e-4"), float), rtol=1e-10
+    )
 
 
 @pytest.mark.slow
