@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
@@ -14,24 +13,23 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from swtstudy.faces.one_body import OneBody, given_values, one_contact
 from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, spanned
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
 from swtstudy.points.solve import solve_grid
-from swtstudy.points.validity import validity_lines
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as units
-from swtstudy.study.units.at_rest import Contact, Moduli
-from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, are_measured
+from swtstudy.study.units.at_rest import Moduli
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_blocks, not_negative
 from swtstudy.study.units.material import warn_of_units
 from swtstudy.study.units.reading import check_distances, completed, read_contacts
-from swtstudy.study.units.results import COMMENTS, attributes, derived, scale_of
+from swtstudy.study.units.results import COMMENTS, attributes, derived
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
-from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, is_plane, without_life
-from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, without_life
 from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
 from swtstudy.vocabulary.mistakes import (
     DEFAULT_RTOL,
@@ -43,17 +41,16 @@ from swtstudy.vocabulary.mistakes import (
     refused,
 )
 from swtstudy.vocabulary.naming import with_parameters
-from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PAIRS, PARAMETERS, SHIFT
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS
 from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, Request, read_quantities
 from swtstudy.vocabulary.variables import ATTRIBUTES
-from swtstudy.vocabulary.wording import html_table, place_words, plain_words
+from swtstudy.vocabulary.wording import html_table, plain_words
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from swtstudy.figures.sheet import Width
     from swtstudy.figures.style import Style
-    from swtstudy.figures.words import Label
 
     #: Values with names for their dimensions keep them.
     Values = FloatArray | xr.DataArray
@@ -102,7 +99,7 @@ class PhysicalContact:
     def _words(self) -> Iterator[tuple[str, str, str, str]]:
         """Kind, name, value and meaning of all that is known without solving."""
         grid = self.grid
-        for name, each in self._given().items():
+        for name, each in given_values(grid).items():
             if name not in units.TABLES["at_rest"]:
                 yield "given", name, ", ".join(map(plain_words, each)), grid.row(name).meaning
         for name, meaning in units.TABLES["at_rest"].items():
@@ -118,21 +115,6 @@ class PhysicalContact:
         for name, value in (self.parameters(grid.bulk_stress_body + 1) if single else {}).items():
             if PARAMETERS[name].scale:
                 yield "without units", name, plain_words(value), PARAMETERS[name].notation
-
-    def _given(self) -> dict[str, tuple[Any, ...]]:
-        """The values of what is given, but for what goes without saying."""
-        grid, loads = self.grid, self.grid.values("load")
-        values = {name: grid.pairs.get(name) or grid.values(name) for name in grid.rows if name != "body"}
-        unsaid = ["frequency_ratio", "phase"] if all(isinstance(load, Definition) for load in loads) else []
-        if are_measured(loads):
-            # Its amplitudes are factors of what was measured.
-            factors = [name for name in values if grid.row(name).part in ("load", "bulk")]
-            unsaid += [name for name in factors if {*values[name]} == {LOOP_AMPLITUDE}]
-        return {
-            name: each
-            for name, each in values.items()
-            if each and name not in unsaid and not all(map(grid.row(name).goes_without_saying, each))
-        }
 
     def __getattr__(self, name: str) -> Any:
         if name in AT_REST:
@@ -176,7 +158,7 @@ class PhysicalContact:
         """
         if "poisson_ratio" in parameters:
             raise refused("poisson_ratio", "a parameter", "that of the bodies, which stays")
-        rest, grid = self._one, self.grid
+        rest, grid = one_contact(self.grid), self.grid
         shape = family_of(parameters.get("profile", rest.profile)).shape
         replaced = {name for pair in PAIRS.items() for name in pair if {*pair} & parameters.keys()}
         replaced |= {*SHAPE_COLUMNS} - {*shape}
@@ -414,7 +396,7 @@ class PhysicalContact:
         """
         from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
 
-        self._one  # noqa: B018 – one contact only, or an error
+        one_contact(self.grid)
         grid, asked = self._request(rtol, critical_distance, constants, yield_strength)
         made = (each.name for each in derived(grid, asked) if each.of)
         known = dict.fromkeys(("s", "s_surface", *made, *grid.margins))
@@ -439,14 +421,6 @@ class PhysicalContact:
         assert corners is not None
         return optimum_in(Box.of(corners, over), minimise, float(rtol), int(seed), asked)
 
-    @cached_property
-    def _one(self) -> Contact:
-        """The contact at rest; a StudyError if there are several."""
-        several = [name for name in self.grid.dims if name != "body"]
-        if several:
-            raise refused(", ".join(several), "several contacts", "one: a single value of each")
-        return self.grid.at_rest.values.item()
-
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.
 
@@ -456,92 +430,7 @@ class PhysicalContact:
             1 or 2, or its name. The bodies share all parameters but the Poisson ratio and the bulk stress:
             the tractions do not depend on these, and the stress beneath them on the body's alone.
         """
-        contact, grid = self._one, self._grid_of(self._body(body))
-        control, shape = grid.control, family_of(contact.profile).shape
-        names = ("frequency_ratio", "load", "criterion", SHIFT)
-        own: dict[str, Any] = {name: grid.values(name)[0] for name in names}
-        own["profile"] = contact.pure_profile
-        for column, values in grid.numbers.items():
-            if PARAMETERS[column].part != "shape" or column in shape:
-                own[control.given_for(column)] = float(values.squeeze())
-        # The scale of a loop is 1 unless it is given.
-        needed = own["load"].scaled_by if isinstance(own["load"], Definition) else ()
-        if is_plane(contact.profile):
-            # In the plane it is always a force, also where the normal load rests along a loop.
-            needed = (*needed, "normal_force_amplitude")
-            own.setdefault("normal_force_amplitude", own.pop("normal_amplitude", 0.0))
-        if own["criterion"] == SWT:
-            own.pop("normal_sensitivity", None)  # of others along the axis of the criterion
-        else:
-            needed = (*needed, "normal_sensitivity")
-        return {
-            name: own[name]
-            for name, row in PARAMETERS.items()
-            if name in own and (name in needed or not row.goes_without_saying(own[name]))
-        }
-
-    def _grid_of(self, body: int) -> PhysicalGrid:
-        """The grid of one body."""
-        fixed = {name: value for name, value in self.grid.fixed.items() if name != "body"}
-        return replace(self.grid, fixed=fixed, axes={**self.grid.axes, "body": (float(body),)})
-
-    def _body(self, body: int | str) -> int:
-        """The label of a body, 1 or 2, from that or its name."""
-        return units.checked_body(body, names=self.grid.body_names)
-
-    def _scales(self, body: int | str) -> dict[str, tuple[float, str, str]]:
-        """By name of a variable its scale in one body of one contact, its symbol, the label of its unit."""
-        contact, index, labels = self._one, self._body(body) - 1, self.grid.labels
-        row = CRITERIA[str(self.grid.values("criterion")[0])]
-        measured = units.TABLES["measured"].items()
-        found = {name: (getattr(contact, scale), symbol, kind) for name, (scale, kind, symbol) in measured}
-        strain = contact.depth / contact.length_scale * contact.moduli.swt_share(index)
-        found["normal_strain"] = strain, r"\varepsilon_n", "1"
-        found["s_local"] = scale_of(row.scale)(contact, index), row.sign, row.unit
-        return {name: (scale, symbol, labels.words(kind)) for name, (scale, symbol, kind) in found.items()}
-
-    def _with_units(self, dataset: xr.Dataset, body: int | str) -> xr.Dataset:
-        """Results of one body of one contact in lengths, forces and stresses."""
-        dataset, scales = dataset.copy(), {}
-        for name, (scale, symbol, unit) in self._scales(body).items():
-            if name in dataset.variables:
-                words = str(dataset[name].attrs.get("long_name", name))
-                words = words.partition(", in units of")[0].partition(" over E*")[0]
-                scales[name] = scale, {"long_name": words, "symbol": symbol, "units": unit}
-        for name in (name for name, row in PARAMETERS.items() if row.scale and name in dataset.coords):
-            by, symbol = units.SCALES[PARAMETERS[name].scale], self.grid.row(name).symbol
-            scales[name] = by.of(self._one), {"symbol": symbol, "units": self.grid.labels.words(by.kind)}
-        for name, (scale, own) in scales.items():
-            old = dataset[name]
-            dataset[name] = old.dims, old.values * scale, {**old.attrs, **own}
-        return dataset
-
-    def _headlines(self, body: int | str, at_rest: bool = False) -> tuple[str, tuple[str, ...]]:
-        """The facts given of one body, with units, and where the model does not hold unless it is at rest."""
-        body, words = self._body(body), {}
-        for name, values in {"profile": self.grid.values("profile"), **self._given()}.items():
-            row = self.grid.row(name)
-            of_other = row.part == "bulk" and body != self.grid.bulk_stress_body + 1
-            if not of_other and (name in units.REST_DEPENDS_ON or not at_rest):
-                value: Any = values[body - 1 if name in self.grid.pairs else 0]
-                value = str(value) if row.kind == "name" else value
-                words[name] = place_words(name, value, {"symbol": row.symbol, "units": row.units})
-        if self.grid.body_names and not at_rest:
-            words["body"] = self.grid.body_names[body - 1]
-        grid = replace(self._grid_of(body), materials=(), shear_materials=(), blocks=())
-        validity = () if at_rest else validity_lines(solve_grid(grid, DEFAULT_RTOL, grid.request(())))
-        return ",  ".join(words.values()), validity
-
-    @contextmanager
-    def _in_equilibrium(self, body: int | str) -> Iterator[None]:
-        """Say in the units of the contact that it has no equilibrium, if that is why a cycle is refused."""
-        try:
-            yield
-        except StudyError as error:
-            lost = [line for line in self._headlines(body)[1] if line.startswith("no equilibrium")]
-            if not lost:
-                raise
-            raise StudyError(replace(mistake, found=lost[0]) for mistake in error.mistakes) from None
+        return OneBody(self.grid, body).parameters
 
     def stress_field(self, x: Any, y: Any, z: Any, *, body: int | str = 1, time: object = None) -> xr.Dataset:
         """`swtstudy.stress_field` of one contact: at lengths, stresses in the unit of stress, in one body."""
@@ -563,45 +452,38 @@ class PhysicalContact:
         """A field at places that are lengths, with units."""
         from swtstudy.results.one_point import read_places
 
-        length, parameters = self._one.length_scale, self.parameters(body)
+        own = OneBody(self.grid, body)
         read_places(**places, allowed="finite positions, which are lengths")  # as they are given
+        length = own.contact.length_scale
         in_a_h = {n: v / length if hasattr(v, "dims") else np.divide(v, length) for n, v in places.items()}
-        with self._in_equilibrium(body):
-            found = field(**in_a_h, **parameters)
-        return self._with_units(found, body)
+        return own.with_units(own.found(field, **in_a_h))
 
     def inspect_point(self, body: int | str = 1) -> xr.Dataset:
         """`swtstudy.inspect_point` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.results.inspection import inspect_point
 
-        with self._in_equilibrium(body):
-            return self._with_units(inspect_point(**self.parameters(body)), body)
+        own = OneBody(self.grid, body)
+        return own.with_units(own.found(inspect_point))
 
     def inspect(self, body: int | str = 1, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.inspect` of one contact, in lengths, forces and stresses, of one body."""
         from swtstudy.figures.point import draw_inspection
         from swtstudy.results.inspection import inspect_point
 
-        labels, headlines = self._labels(body), self._headlines(body)
-        with self._in_equilibrium(body):
-            return draw_inspection(inspect_point(**self.parameters(body)), style, width, labels, headlines)
+        own = OneBody(self.grid, body)
+        found, labels = own.found(inspect_point), own.labels
+        if own.criterion != SWT:
+            symbol = r"\sigma_n$, $\tau"
+            labels = labels | {"normal_stress": labels["normal_stress"]._replace(symbol=symbol)}
+        return draw_inspection(found, style, width, labels, (own.words(), own.validity))
 
     def draw_profile(self, style: Style | None = None, width: Width | None = None) -> Figure:
         """`swtstudy.draw_profile` of the profile of one contact at its mean load, in lengths and stresses."""
         from swtstudy.figures.definitions import draw_shape
 
-        shape = {n: value for n, value in self.parameters().items() if PARAMETERS[n].part == "shape"}
-        given, _ = self._headlines(1, at_rest=True)
-        return draw_shape(shape, style, width, self._labels(1), given)
-
-    def _labels(self, body: int | str) -> dict[str, Label]:
-        """By name of a variable what its numbers are in the units of one body of the contact."""
-        from swtstudy.figures.words import Label
-
-        found = {name: Label(*each) for name, each in self._scales(body).items()}
-        if self.grid.values("criterion")[0] != SWT:
-            found["normal_stress"] = found["normal_stress"]._replace(symbol=r"\sigma_n$, $\tau")
-        return found
+        own = OneBody(self.grid, 1)
+        shape = {n: value for n, value in own.parameters.items() if PARAMETERS[n].part == "shape"}
+        return draw_shape(shape, style, width, own.labels, own.words(at_rest=True))
 
 
 def _of_both(name: str, given: Any, report: Report, kind: type[Any] | None = None) -> tuple[Any, ...]:

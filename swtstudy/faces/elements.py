@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable
+from itertools import chain
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -25,13 +26,13 @@ from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 
-#: The stress components in our order, and in Abaqus' order.
-OURS, OF_ABAQUS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("S11", "S22", "S33", "S12", "S13", "S23")
-#: Places of our components in the order of Abaqus.
-_PLACES = [0, 1, 2, 5, 4, 3]
-ORDERS = {"swtstudy": OURS, "abaqus": OF_ABAQUS}
-#: Components of plane elements, in the order of each.
-IN_PLANE = {"swtstudy": ["xx", "yy", "zz", "xy"], "abaqus": [*OF_ABAQUS[:4]]}
+#: The stress components in our order, and those that plane elements lack.
+COMPONENTS, ACROSS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("yz", "xz")
+#: Headers of the components in their order, each with the component that it is.
+ORDERS = {
+    "swtstudy": dict(zip(COMPONENTS, COMPONENTS, strict=True)),
+    "abaqus": {"S11": "xx", "S22": "yy", "S33": "zz", "S12": "xy", "S13": "xz", "S23": "yz"},
+}
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
 _ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
@@ -65,7 +66,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     given = FileTable.of(form)
     if order not in (None, *ORDERS):
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
-    table = read_table(Path(path), (STEP,), (ID, *POSITION, *OURS, *OF_ABAQUS), given)
+    table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given)
     stress, unit = _components(table, order)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
@@ -88,7 +89,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
         _doubt_positions(place[rows[:, 0]], rows.shape[1], table.source)
     words = {"units": unit} if unit else {}
     variables = {"stress": (("point", STEP, "component"), stress[rows], words)}
-    return xr.Dataset(variables, {"component": [*OURS], **coords}, {"source": str(path)})
+    return xr.Dataset(variables, {"component": [*COMPONENTS], **coords}, {"source": str(path)})
 
 
 def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
@@ -103,32 +104,35 @@ def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
 
 def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
     """The stress components in our order, shape (rows, 6), and their unit; empty if unknown."""
-    has = {own: [name for name in names if table.has(name)] for own, names in ORDERS.items()}
-    found = next((own for own, names in ORDERS.items() if has[own] in ([*names], IN_PLANE[own])), None)
+    known = {own: {n: names[n] for n in names if table.has(n)} for own, names in ORDERS.items()}
+    whole = {*COMPONENTS}, {*COMPONENTS} - {*ACROSS}
+    found = next((own for own, names in known.items() if {*names.values()} in whole), None)
     if found is None and order is None:
-        every = f"{', '.join(OURS)} or {', '.join(OF_ABAQUS)}"
-        allowed = f"columns {every}; of plane elements without the two across; "
-        allowed += "with other headers an order of the last six columns (--order abaqus or swtstudy)"
+        allowed = f"columns {' or '.join(map(', '.join, ORDERS.values()))}; of plane elements without the two"
+        allowed += " across; with other headers an order of the last six columns (--order abaqus or swtstudy)"
         raise refused(f"line {table.line}", ", ".join(table.headers), allowed, table.source)
     if found is not None and order not in (None, found):
         allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
         raise refused("order", literal(order), allowed, table.source)
     names = ORDERS[str(found or order)]
-    others = {table.form.header(name) for name in (STEP, ID, *POSITION)}
-    own = has[found] if found else [header for header in table.headers if header not in others][-len(names) :]
-    if not found and len(own) < len(names):
-        allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
-        raise refused(f"line {table.line}", ", ".join(own), allowed, table.source)
-    places = [names.index(name) for name in own] if found else [*range(len(names))]
+    if found:
+        own = known[found]
+    else:
+        others = {table.form.header(name) for name in (STEP, ID, *POSITION)}
+        last = [header for header in table.headers if header not in others][-len(names) :]
+        if len(last) < len(names):
+            allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
+            raise refused(f"line {table.line}", ", ".join(last), allowed, table.source)
+        own = dict(zip(last, names.values(), strict=True))
     unknown_names(table.form, (STEP, ID, *POSITION, *own)).refuse()
-    values = np.zeros((len(table.cells), len(names)))
-    values[:, places] = table.numbers(own)
-    if lacking := [name for k, name in enumerate(names) if k not in places]:
+    values = np.zeros((len(table.cells), len(COMPONENTS)))
+    values[:, [COMPONENTS.index(name) for name in own.values()]] = table.numbers([*own])
+    if lacking := [header for header, name in names.items() if name not in own.values()]:
         warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
-    return values[:, _PLACES] if names is OF_ABAQUS else values, _unit_of(table, own)
+    return values, _unit_of(table, own)
 
 
-def _unit_of(table: UserTable, names: Sequence[str]) -> str:
+def _unit_of(table: UserTable, names: Iterable[str]) -> str:
     """The unit of columns of stresses, scaled; empty if none is said, or if ``scale`` is 1 for each."""
     report, known, scale = Report(), KNOWN["stress"], table.form.scale
     sizes: dict[str, float] = {}
@@ -222,37 +226,33 @@ def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
         raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
     if "component" in stress.coords:
         labels = stress["component"].values.tolist()
-        ours = [*OURS], [OF_ABAQUS[place] for place in _PLACES]
-        names = next((each for each in ours if {*each} == {*labels}), None)
+        names = next((each for each in ORDERS.values() if {*each} == {*labels}), None)
         if names is None:
             allowed = " or ".join(map(", ".join, ORDERS.values()))
             raise refused("component", ", ".join(map(str, labels)), allowed)
-        stress = stress.sel(component=names)
+        stress = stress.assign_coords(component=[names[each] for each in labels]).sel(component=[*COMPONENTS])
     return np.asarray(stress.transpose("point", STEP, "component").values)
 
 
 def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:
     """The materials of a study file, and the plain numbers among its fixed values, of one body."""
-    raw, source = tables_of(study), str(study)
-    report = Report(source)
-    fixed: Mapping[str, Any] = raw["fixed"] if isinstance(raw.get("fixed"), dict) else {}
-    labels, material = (raw[key] if isinstance(raw.get(key), dict) else None for key in ("units", "material"))
-    details = ContactDetails()
-    if labels is None:
-        report("units", "nothing", "a table with length, force and stress")
-    else:
+    tables: dict[str, Any] = {key: each for key, each in tables_of(study).items() if isinstance(each, dict)}
+    report, details, fixed = Report(str(study)), ContactDetails(), tables.get("fixed", {})
+    if "units" in tables:
+        labels, material = tables["units"], tables.get("material")
         details, _ = read_given(labels, material, fixed, Path(study).parent, report)
+    else:
+        report("units", "nothing", "a table with length, force and stress")
     if body not in (1, 2):
         raise refused("body", literal(body), "1 or 2")
     own: dict[str, float] = {}
-    axes = raw["axes"] if isinstance(raw.get("axes"), dict) else {}
     for name in ("young_modulus", "poisson_ratio", "normal_sensitivity", "walker_exponent"):
         value = two_of(fixed.get(name))[body - 1]
         try:
             own |= {} if value is None else {name: float(read_exact(value))}
         except ValueError as error:
             report(f"fixed.{name}", f"{literal(value)} ({error})", "a number, or one for each body")
-        if name in axes:
+        if name in tables.get("axes", {}):
             report(f"axes.{name}", "an axis", f"one number in [fixed], {name} = …, for a stress history")
         elif value is None and name in OF_BODIES:
             report(f"fixed.{name}", "nothing", "a number, or one for each body")

@@ -15,9 +15,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
 from swtstudy.figures.style import Style, stroke
-from swtstudy.figures.words import NO_LABELS, Labels, show_units
+from swtstudy.figures.words import show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
 from swtstudy.solver.at_rest import AtRest

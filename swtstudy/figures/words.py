@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
+from swtstudy.figures.labels import Labels
 from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
@@ -88,38 +88,8 @@ def flag_words(values: xr.DataArray) -> list[str]:
     return [words.replace("_", " ") for words in values.attrs.get("flag_meanings", "").split()]
 
 
-class Label(NamedTuple):
-    """The scale, symbol and unit that a variable has of a real contact.
-
-    Attributes
-    ----------
-    scale
-        What 1 is worth.
-    symbol
-        Its symbol with a unit, as LaTeX.
-    units
-        Label of the unit; "1" for a plain number.
-    """
-
-    scale: float
-    symbol: str
-    units: str
-
-    @property
-    def unit(self) -> str:
-        """The unit in words of a figure, after a blank."""
-        return "" if self.units == "1" else f" {as_text(self.units)}"
-
-    def number(self, value: float, digits: int = 4) -> str:
-        """A value with its unit."""
-        return f"{self.scale * value:.{digits}g}{self.unit}"
-
-
 #: Most characters of all labels of the ticks across a panel.
 MOST_ACROSS = 20
-#: By the name of a variable.
-Labels = Mapping[str, Label]
-NO_LABELS: Labels = MappingProxyType({})
 
 
 def show_units(axes: Axes, of: tuple[str | None, str | None], labels: Labels) -> None:
