@@ -64,7 +64,12 @@ class _Commands(click.Group):
         return super().main(*arguments, **options)
 
     def invoke(self, context: click.Context) -> Any:
-        _log_to_terminal()
+        # Log messages of the package, and warnings, are plain lines.
+        warnings.showwarning = lambda message, *_, **__: click.echo(f"Warning: {message}", err=True)
+        logger = logging.getLogger("swtstudy")
+        if not logger.handlers:
+            logger.addHandler(logging.StreamHandler())
+        logger.setLevel(logging.INFO)
         # Before it exits, Python would look through all objects once more: for 0.3 s after a run.
         atexit.register(gc.freeze)
         try:
@@ -79,15 +84,6 @@ class _Commands(click.Group):
             signal.signal(signal.SIGINT, signal.SIG_IGN)  # we are stopping: a second Ctrl-C changes nothing
             click.echo(str(error) or "stopped", err=True)
             sys.exit(STOPPED)
-
-
-def _log_to_terminal() -> None:
-    """Print the package's log messages, and warnings, to the terminal as plain lines."""
-    warnings.showwarning = lambda message, *_, **__: click.echo(f"Warning: {message}", err=True)
-    logger = logging.getLogger("swtstudy")
-    if not logger.handlers:
-        logger.addHandler(logging.StreamHandler())
-    logger.setLevel(logging.INFO)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+import swtstudy
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -39,7 +40,6 @@ def sensitivity(
     Examples:
       swtstudy sensitivity sensitivity
     """
-    import swtstudy
     from swtstudy.figures.statistics import draw_sensitivity
     from swtstudy.figures.style import save_figure
     from swtstudy.results.sensitivity import check_design
@@ -86,7 +86,6 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     Examples:
       swtstudy fit rig.toml tests.csv
     """
-    import swtstudy
     from swtstudy.archive.netcdf import save
     from swtstudy.figures.statistics import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
@@ -164,7 +163,6 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
     Examples:
       swtstudy audit figure3 --points 100
     """
-    import swtstudy
     from swtstudy.paper.audit import AUDIT_PREFIX
     from swtstudy.study.definition import read_studies
 
@@ -201,7 +199,6 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
     Examples:
       swtstudy history rig.toml stresses.csv -o lives.vtu
     """
-    import swtstudy
     from swtstudy.faces.elements import ENDINGS, write_history
     from swtstudy.study.definition import tables_of
 
@@ -218,7 +215,7 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
             unit = unit_words(at[name].attrs.get("units", ""))
             words = f"largest {name} = {number_words(float(at[name]))}{unit}"
             words += f", {lives} = {number_words(float(at[lives]), 3)}" if lives in found else ""
-            places = [f"id = {at['id'].item()}"] if "id" in at.coords else []
-            places += [f"{each} = {number_words(float(at[each]))}" for each in "xyz" if each in at.coords]
+            here = {each: at[each].item() for each in ("id", *"xyz") if each in at.coords}
+            places = [f"{n} = {v if n == 'id' else number_words(v)}" for n, v in here.items()]
             terminal.say(f"{words} at {', '.join(places) or 'the only point'}")
     click.echo(str(target))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+import swtstudy
 from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study
 from swtstudy.study.units.rows import Units, rows
@@ -64,12 +65,11 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
       swtstudy solve --phase 0,pi/2 --profile rounded_punch --flat-radius 1/2
       swtstudy list --parameters  # what each means
     """
-    from swtstudy.points.solve import solve as solve_grid
     from swtstudy.vocabulary.choices import REGIMES
 
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
-    dataset = solve_grid(rtol=rtol, quantities=asked, **parameters)
+    dataset = swtstudy.solve(rtol=rtol, quantities=asked, **parameters)
 
     def places(dims: list[str]) -> Iterator[tuple[str, ...]]:
         return itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in dims))
@@ -136,6 +136,7 @@ def show(
     """
     from swtstudy.figures.sheet import INCH, TALLEST
     from swtstudy.figures.style import save_figure
+    from swtstudy.study.reading import read_signal_of
 
     check_writable(output)
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
@@ -143,7 +144,10 @@ def show(
     if study is None:
         figure = _point_or_profile(values, smoothing or 0.0, look)
     elif [*values] == ["load"] and body is None:
-        figure, words = _load(study, str(values["load"]), look)
+        path, name = find_study(study), str(values["load"])
+        signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
+        words = f"{name}: {signal.words}" if signal else ""
+        figure = swtstudy.draw_load(swtstudy.Study.from_toml(study), name, signal, **look)
     else:
         figure = _of_study(study, values, smoothing, body, look)
     save_figure(figure, output, style)
@@ -157,8 +161,6 @@ def show(
 
 def _point_or_profile(values: dict[str, object], smoothing: float, look: dict[str, Any]) -> Figure:
     """A point, or a profile where its shape alone is given."""
-    from swtstudy.figures.definitions import draw_profile
-    from swtstudy.figures.point import inspect
     from swtstudy.study.keys import ProfileTable
     from swtstudy.study.reading import profile_from
 
@@ -166,7 +168,7 @@ def _point_or_profile(values: dict[str, object], smoothing: float, look: dict[st
     if path.suffix == ".csv":
         table = ProfileTable(file=path.name, smoothing=smoothing)
         values = {**values, "profile": profile_from(path.stem, table, path.parent)}
-    draw: Any = draw_profile if _of_shape(values) else inspect
+    draw: Any = swtstudy.draw_profile if _of_shape(values) else swtstudy.inspect
     return draw(**look, **values)
 
 
@@ -192,15 +194,3 @@ def _of_study(
 def _of_shape(values: dict[str, object]) -> bool:
     """Return whether a profile, its shape and sizes of the contact at rest alone are given."""
     return "profile" in values and all(AXES[name].part in ("shape", "contact") for name in values)
-
-
-def _load(source: str, name: str, look: dict[str, Any]) -> tuple[Figure, str]:
-    """A load of a study, and what its record is like in words."""
-    from swtstudy.figures.definitions import draw_load
-    from swtstudy.study.definition import Study
-    from swtstudy.study.reading import read_signal_of
-
-    path = find_study(source)
-    signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
-    figure = draw_load(Study.from_toml(source), name, signal, **look)
-    return figure, "" if signal is None else f"{name}: {signal.words}"

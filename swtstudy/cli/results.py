@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+import swtstudy
 from swtstudy.archive.paths import check_archive_path, locked
 from swtstudy.cli import terminal
 from swtstudy.vocabulary.choices import FIGURES
@@ -78,7 +79,6 @@ def plot(
       swtstudy plot results/figure4.nc --at normal_amplitude=0.75
       swtstudy plot results/contour.nc --kind heatmap --y critical_angle
     """
-    import swtstudy
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
     from swtstudy.study.figure import FigureLayout
@@ -114,12 +114,10 @@ def info(archive: str) -> None:
     Examples:
       swtstudy info results/figure3.nc
     """
-    from swtstudy.archive.archive import open_results
     from swtstudy.archive.describe import INDENT, describe
     from swtstudy.archive.parts import kept_folder, parts_folder, points_saved
 
-    dataset = open_results(archive)
-    for line in describe(dataset):
+    for line in describe(swtstudy.open_results(archive)):
         terminal.say(line, INDENT)
     if saved := points_saved(parts_folder(Path(archive))):
         click.echo(f"  unfinished     {saved} distinct points are saved by an unfinished run")

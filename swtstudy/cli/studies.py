@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+import swtstudy
 from swtstudy.archive.paths import archive_paths
 from swtstudy.cli import terminal
 from swtstudy.study.shipped import in_groups, shipped_folder, shipped_studies
@@ -158,9 +159,8 @@ def list_studies(context: click.Context, parameters: bool) -> None:
         click.echo(_explained(context.make_formatter()), nl=False)
         return
     from swtstudy.points.canonical import LARGEST_GRID
-    from swtstudy.study.definition import Study
 
-    studies = {name: Study.from_toml(path) for name, path in shipped_studies().items()}
+    studies = {name: swtstudy.Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))
     for group, names in in_groups(studies).items():
         click.echo(group)

@@ -236,10 +236,8 @@ class PhysicalContact:
         StudyError
             A ValueError, as of `swt`, or if the constants are none.
         """
-        if constants is None:
-            raise refused("constants", "None", "a FatigueConstants, or a pair of them, one for each body")
         report = Report()
-        both = _of_both("constants", constants, report, FatigueConstants)
+        both = _of_both("constants", constants, report, FatigueConstants, needed=True)
         report.refuse()
         swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
         shares = [] if counted is None else [counted[name] for name in COUNTED]
@@ -269,8 +267,7 @@ class PhysicalContact:
             if body is not None:
                 raise refused("body", literal(body), "nothing, since s has the coordinate body")
             if not np.isin(s.body, units.LABELS).all():
-                found = f"the coordinate {literal(s.body.values.tolist())}"
-                raise refused("body", found, "1 and 2")
+                raise refused("body", f"the coordinate {literal(s.body.values.tolist())}", "1 and 2")
             bodies = (s.body == units.LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
         elif body is None and not alike:
             allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
@@ -486,12 +483,14 @@ class PhysicalContact:
         return draw_shape(shape, style, width, own.labels, own.words(at_rest=True))
 
 
-def _of_both(name: str, given: Any, report: Report, kind: type[Any] | None = None) -> tuple[Any, ...]:
+def _of_both(
+    name: str, given: Any, report: Report, kind: type[Any] | None = None, needed: bool = False
+) -> tuple[Any, ...]:
     """Constants of a kind, or else a stress, of each body: from one for both, or from a pair.
 
     Nothing, if that is not given or wrong; mistakes are added.
     """
-    if given is None:
+    if given is None and not needed:
         return ()
     pair = tuple(given) if dimensions_of(given) == 1 and len(given) == 2 else (given, given)
     allowed = f"a {kind.__name__ if kind else 'positive stress'}, or a pair of them, one for each body"

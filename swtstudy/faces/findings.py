@@ -172,13 +172,15 @@ def extreme_places(dataset: xr.Dataset) -> dict[str, dict[str, int]]:
 
 
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
-    """The best and the worst point; one only where all are equal."""
+    """The best and the worst point by words such as "lowest"; one point, without a word, if all are equal."""
+    life = is_life(measured(dataset).attrs)
     if CRITERION in dataset.dims:
         dataset = dataset.isel({CRITERION: 0})  # values of several are not to be compared
-    points = {word: dataset.isel(place) for word, place in extreme_places(dataset).items()}
-    if points and measured(points["best"]).item() == measured(points["worst"]).item():
-        points.pop("best")
-    return points
+    points = [dataset.isel(place) for place in extreme_places(dataset).values()]
+    words: tuple[str, ...] = ("longest", "shortest") if life else ("lowest", "highest")
+    if len({measured(one).item() for one in points}) == 1:
+        words, points = ("",), points[1:]
+    return dict(zip(words, points, strict=False))
 
 
 def parameters_of(one: xr.Dataset) -> dict[str, Any]:

@@ -8,8 +8,6 @@ import math
 import re
 import unicodedata
 from collections.abc import Mapping
-from functools import cache
-from importlib.resources import files
 from typing import Any
 
 import jinja2
@@ -183,7 +181,16 @@ def packed(table: pd.DataFrame) -> str:
 def about(dataset: xr.Dataset, table: pd.DataFrame) -> dict[str, Any]:
     """Data for the scripts of a page: the dimensions of the rows, and the columns; symbols as HTML."""
     dims = rows_of(dataset)
-    columns = {str(name): _column(dataset, str(name)) for name in table if name not in dims}
+    columns = {}
+    for name in (str(name) for name in table if name not in dims):
+        own, _, place = name.partition("[")
+        columns[name] = labels = _labels(dataset[own])
+        if place:
+            labels["symbol"] += f" ({escape(place.rstrip(']').replace('_', ' '))})"
+        if flags := flag_words(dataset[own]):
+            labels["flags"] = [words.replace(" ", "_") for words in flags]
+        if dataset[own].dims == (SAMPLE,) and own in AXES:
+            labels["sampled"] = True
     return {"dims": [_dimension(dataset[name]) for name in dims], "columns": columns}
 
 
@@ -195,16 +202,6 @@ def _dimension(values: xr.DataArray) -> dict[str, Any]:
     return {"name": name, "size": values.size, "words": words, "log": log, **_labels(values)}
 
 
-def _column(dataset: xr.Dataset, name: str) -> dict[str, Any]:
-    own, _, place = name.partition("[")
-    labels = _labels(dataset[own])
-    if place:
-        labels["symbol"] += f" ({escape(place.rstrip(']').replace('_', ' '))})"
-    if flags := flag_words(dataset[own]):
-        labels["flags"] = [words.replace(" ", "_") for words in flags]
-    return labels | ({"sampled": True} if dataset[own].dims == (SAMPLE,) and own in AXES else {})
-
-
 def _labels(values: xr.DataArray) -> dict[str, Any]:
     """Symbol, meaning and unit."""
     name = str(values.name)
@@ -214,20 +211,15 @@ def _labels(values: xr.DataArray) -> dict[str, Any]:
     return own | rad
 
 
+#: The templates of this folder, each compiled when it is first used, and what they may call.
+_LOOK: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+_LOOK |= {"loader": jinja2.PackageLoader("swtstudy.faces", "."), "undefined": jinja2.StrictUndefined}
+_TEMPLATES = jinja2.Environment(**_LOOK)
+_CALLED: tuple[Any, ...] = (along, is_number, number_words, outside_words, place_html, share, symbol_of)
+_CALLED += (unit_of, validity_lines, value_text)
+_TEMPLATES.globals |= {"describe": describe} | {each.__name__: each for each in _CALLED}
+
+
 def rendered(template: str, **content: Any) -> str:
-    """A page that needs no other file, from a template of this folder, which may call our functions."""
-    return printable(_templates().get_template(template).render(**content))
-
-
-@cache
-def _templates() -> jinja2.Environment:
-    """The templates of this folder, each compiled when it is first used."""
-    look: dict[str, Any] = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
-    loader = jinja2.PackageLoader("swtstudy.faces", ".")
-    room = jinja2.Environment(loader=loader, undefined=jinja2.StrictUndefined, **look)
-    of_page = files("swtstudy.faces")
-    own = {end: Markup(of_page.joinpath(f"page.{end}").read_text("utf-8")) for end in ("css", "js")}
-    ours: tuple[Any, ...] = (along, is_number, number_words, outside_words, place_html, share, symbol_of)
-    ours += (unit_of, validity_lines, value_text)
-    room.globals |= {"describe": describe, **own} | {each.__name__: each for each in ours}
-    return room
+    """A page that needs no other file, from a template of this folder."""
+    return printable(_TEMPLATES.get_template(template).render(**content))

@@ -102,7 +102,7 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
     rows = html.table_of(dataset)
     known = html.about(dataset, rows) | {"panels": [], "derived": {}, "start": {"y": "s"}}
     shown = _study_figure(dataset, known) if "figure" in dataset.attrs else None
-    shipped, ends = shipped_studies().get(name), [*_ends(dataset)]
+    shipped, ends = shipped_studies().get(name), findings.extreme_points(dataset)
     text = str(dataset.attrs.get("study", ""))
     return html.rendered(
         "page.html",
@@ -195,7 +195,7 @@ def caption_of(dataset: xr.Dataset, layout: FigureLayout) -> Markup:
     return said + escape(f" {layout.caption}" if layout.caption else "")
 
 
-def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[tuple[Any, str, Any]]:
+def tiles(dataset: xr.Dataset, ends: dict[str, xr.Dataset]) -> Iterator[tuple[Any, str, Any]]:
     """The numbers that one asks for first: what each is, its value, and a note."""
     values = findings.measured(dataset)
     beside = [dim for dim in values.dims if dim not in dataset.s.dims]
@@ -203,7 +203,7 @@ def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[t
     shape, missing = " × ".join(map(str, known.shape)) or "one", int((~known).sum())
     yield "points", f"{known.size:,}".replace(",", " "), f"{shape}, {missing or 'none'} without a value"
     lives, single = [row.life for row in CRITERIA.values()], values.size == 1 and has_units(dataset)
-    for end, one in ends:
+    for end, one in ends.items():
         first = findings.measured(one)
         names = (*measures(one), *(n for n in one if n in lives)) if single else ()
         for value in ({name: one[name] for name in names} | {first.name: first}).values():
@@ -214,14 +214,6 @@ def tiles(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> Iterator[t
         largest, middle = (html.share(float(each)) for each in (relative.max(), np.median(relative)))
         words = f"estimated, half of them below {middle}" if middle != largest else "estimated"
         yield "relative error, at most", largest, words
-
-
-def _ends(dataset: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
-    """The points of `extreme_points`, each with its word; none where all points have one value."""
-    points, life = findings.extreme_points(dataset), is_life(findings.measured(dataset).attrs)
-    words = {"best": "longest", "worst": "shortest"} if life else {"best": "lowest", "worst": "highest"}
-    for word, one in points.items():
-        yield words[word] if len(points) > 1 else "", one
 
 
 def _where(dataset: xr.Dataset, one: xr.Dataset) -> Markup:
@@ -281,10 +273,10 @@ def _indices(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> An
     }
 
 
-def points_of(dataset: xr.Dataset, ends: list[tuple[str, xr.Dataset]]) -> list[dict[str, Any]]:
+def points_of(dataset: xr.Dataset, ends: dict[str, xr.Dataset]) -> list[dict[str, Any]]:
     """The best and the worst point with their pictures, as `swtstudy.inspect` draws them."""
     parts = []
-    for end, one in ends:
+    for end, one in ends.items():
         symbol = html.symbol_of(findings.measured(one))
         part: dict[str, Any] = {"end": end, "where": _where(dataset, one), "symbol": symbol}
         try:

@@ -254,9 +254,7 @@ def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     drawn = []
     own = swtstudy.draw_profile
-    monkeypatch.setattr(
-        "swtstudy.figures.definitions.draw_profile", lambda **given: drawn.append(given) or own(**given)
-    )
+    monkeypatch.setattr("swtstudy.draw_profile", lambda **given: drawn.append(given) or own(**given))
     rows = "".join(f"{r / 10},{(r / 10) ** 2 / 2}\n" for r in range(20))
     Path("worn.csv").write_text(f"radius,height\n{rows}")
     for words in (["rounded_punch", "--flat-radius", "0.5"], ["worn.csv"]):

@@ -182,7 +182,7 @@ def test_the_phase_is_the_first_lever_and_others_go_by_their_ratio() -> None:
 def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points: None) -> None:
     dataset = swtstudy.open_results(RESULTS / "sphere_on_flat.nc")
     extremes = {word: float(one.cycles) for word, one in extreme_points(dataset).items()}
-    assert extremes == {"best": float(dataset.cycles.max()), "worst": float(dataset.cycles.min())}
+    assert extremes == {"longest": float(dataset.cycles.max()), "shortest": float(dataset.cycles.min())}
     said = told(dataset)
     assert all("changes the life N by a factor of" in each for each in said[:3])
     assert said[0].startswith("The phase")  # which the figure is over
@@ -226,8 +226,8 @@ def test_values_of_several_criteria_are_not_compared() -> None:
     assert "criterion" not in [lever.name for lever in levers(dataset)]
     first = dataset.isel(criterion=0)
     assert {word: float(one.s) for word, one in extreme_points(dataset).items()} == {
-        "best": float(first.s.min()),
-        "worst": float(first.s.max()),
+        "lowest": float(first.s.min()),
+        "highest": float(first.s.max()),
     }
 
 
