@@ -34,9 +34,10 @@ WHY = {
 }
 
 
-#: Digits of the columns that every point has.
+#: The columns that every point has, and their digits.
 _FORMATS = {
-    "s": ".6f", "s_error": ".1e", "s_surface": ".6f", "critical_x": "z.5f", "critical_angle": "z.2f"
+    "s": ".6f", "s_error": ".1e", "s_surface": ".6f", "critical_x": "z.5f", "critical_angle": "z.2f",
+    "regime": "",
 }  # fmt: skip
 
 
@@ -65,8 +66,6 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
       swtstudy solve --phase 0,pi/2 --profile rounded_punch --flat-radius 1/2
       swtstudy list --parameters  # what each means
     """
-    from swtstudy.vocabulary.choices import REGIMES
-
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
     dataset = swtstudy.solve(rtol=rtol, quantities=asked, **parameters)
@@ -76,15 +75,13 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
 
     dims = [*map(str, dataset.s.dims)]
     found = dict(zip(dims, zip(*places(dims), strict=True), strict=True))
-    for name, form in _FORMATS.items():
-        found[name] = tuple(f"{value:{form}}" for value in dataset[name].values.ravel())
-    found["regime"] = tuple(REGIMES[int(value)] for value in dataset.regime.values.ravel())
-    for name in (str(name) for name in dataset.data_vars if name not in found):
+    dataset["regime"] = dataset.swt.words()
+    for name in dict.fromkeys((*_FORMATS, *map(str, dataset.data_vars))):
         # A quantity with dimensions of its own has a column for each place in them.
-        own = [str(dim) for dim in dataset[name].dims if dim not in dims]
+        own, form = [str(dim) for dim in dataset[name].dims if dim not in dims], _FORMATS.get(name, ".6g")
         values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
         for place, column in zip(places(own), values.T, strict=True):
-            found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{each:.6g}" for each in column)
+            found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{v:{form}}" for v in column)
     lines, room = [*zip(*found.values(), strict=True)], terminal.line_length()
     if room is None:  # for programs
         click.echo("\n".join("\t".join(line) for line in [(*found,), *lines]))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.faces.one_body import OneBody, given_values, one_contact
 from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, spanned
@@ -28,7 +28,7 @@ from swtstudy.study.units.life import FatigueConstants, ShearConstants, checked_
 from swtstudy.study.units.material import warn_of_units
 from swtstudy.study.units.reading import check_distances, completed, read_contacts
 from swtstudy.study.units.results import COMMENTS, attributes, derived
-from swtstudy.vocabulary.arrays import FloatArray, IndexArray
+from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of, without_life
 from swtstudy.vocabulary.derived import DERIVED, LIFE, lacking
 from swtstudy.vocabulary.mistakes import (
@@ -242,15 +242,15 @@ class PhysicalContact:
         swt, bodies = self._swt_of(s, self.moduli.alike and both[0] == both[1], body)
         shares = [] if counted is None else [counted[name] for name in COUNTED]
         one, two = (each.curve.rounds("swt", swt, *shares) for each in both)
-        lives = np.where(bodies == 1, two, one)
+        lives = np.where(bodies == 2, two, one)
         if not hasattr(swt, "dims"):
             return lives
         words = attributes(DERIVED[LIFE], self.grid.labels)
         words |= {"comment": COMMENTS["uncounted" if counted is None else LIFE]}
         return one.copy(data=lives).assign_attrs(words)
 
-    def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, IndexArray]:
-        """SWT from s, and the index of the body of each value, 0 or 1, broadcastable to the values' shape.
+    def _swt_of(self, s: ArrayLike | xr.DataArray, alike: bool, body: object) -> tuple[Any, NDArray[Any]]:
+        """SWT from s, and the body of each value, 1 or 2, broadcastable to the values' shape.
 
         Raises
         ------
@@ -260,23 +260,21 @@ class PhysicalContact:
         """
         names = [str(each) for each in self.grid.values("criterion")]
         if SWT not in names:
-            allowed = f"{SWT}; of others solve() has the values in units"
-            raise refused("criterion", ", ".join(names), allowed)
-        bodies: IndexArray
+            raise refused("criterion", ", ".join(names), f"{SWT}; of others solve() has the values in units")
         if isinstance(s, xr.DataArray) and "body" in s.coords:
             if body is not None:
                 raise refused("body", literal(body), "nothing, since s has the coordinate body")
             if not np.isin(s.body, units.LABELS).all():
                 raise refused("body", f"the coordinate {literal(s.body.values.tolist())}", "1 and 2")
-            bodies = (s.body == units.LABELS[1]).broadcast_like(s).transpose(*s.dims).values.astype(np.intp)
+            bodies = s.body.broadcast_like(s).transpose(*s.dims).values
         elif body is None and not alike:
             allowed = "1 or 2, since the bodies differ; or s over the dimension body, as solve() gives it"
             raise refused("body", "nothing", allowed)
         else:
-            bodies = np.array(0 if body is None else units.checked_body(body) - 1)
+            bodies = np.array(1 if body is None else units.checked_body(body))
         with np.errstate(over="ignore"):  # inf is an SWT that nothing lives with
-            shares = np.array([self.moduli.swt_share(0), self.moduli.swt_share(1)])
-            of_body = not_negative("s", s) * shares[bodies]
+            shares = np.where(bodies == 2, self.moduli.swt_share(1), self.moduli.swt_share(0))
+            of_body = not_negative("s", s) * shares
             if not isinstance(s, xr.DataArray):
                 return of_body * self.swt_scale, bodies
             swt = (s.copy(data=of_body) * self.swt_scale).transpose(*s.dims, ...)

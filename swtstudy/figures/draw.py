@@ -8,12 +8,12 @@ from string import ascii_uppercase
 
 import xarray as xr
 
-from swtstudy.figures.lines import add_scale, draw_lines, hue_scale
+from swtstudy.figures.lines import draw_lines, hue_scale
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.statistics import draw_histogram, draw_scatter
 from swtstudy.figures.style import Style, styled
 from swtstudy.figures.surfaces import draw_maps
-from swtstudy.figures.words import flag_words, parts_of, quantity_words, title_words
+from swtstudy.figures.words import flag_words, parts_of, quantity_words, tick_angles, title_words
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
 from swtstudy.results.evaluate import known_regime, quantity, quantity_error, require_points
@@ -151,7 +151,9 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             title = title_words(values, y) if len(layout.y) > 1 else ""
             one.set_title(f"{letter}  {',  '.join(filter(None, (title, place)))}".strip(), loc="left")
     if scale and layout.hue:
-        add_scale(figure, axes, scale, dataset[layout.hue])
+        values = dataset[layout.hue]
+        bar = figure.colorbar(scale, ax=axes, label=axis_words(layout.hue, values.attrs), pad=0.02)
+        tick_angles(bar.ax.yaxis, values)
     return figure
 
 

@@ -11,18 +11,16 @@ from matplotlib import colormaps, rcParams
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, LogNorm, Normalize, to_rgba
-from matplotlib.figure import Figure
 from matplotlib.patheffects import Normal, Stroke
 from numpy.typing import ArrayLike, NDArray
 
-from swtstudy.figures.style import stroke
+from swtstudy.figures.style import dots, stroke
 from swtstudy.figures.words import flag_words, is_life, parts_of, tick_angles, tick_flags, tick_in_ratios
 from swtstudy.results.evaluate import words_of
 from swtstudy.study.figure import FigureLayout
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES
-from swtstudy.vocabulary.wording import axis_words
 
 #: Markers at the point where a regime begins; a regime without s has it at the last point before.
 _MARKERS = dict(zip(REGIMES, "D^osxX", strict=True))
@@ -50,12 +48,6 @@ def hue_scale(values: xr.DataArray) -> ScalarMappable | None:
     # The lightest colours cannot be seen on white.
     colours = colormaps[rcParams["image.cmap"]](np.linspace(0.0, 0.9, 256))
     return ScalarMappable(norm, ListedColormap(colours))
-
-
-def add_scale(figure: Figure, axes: NDArray[Any], scale: ScalarMappable, values: xr.DataArray) -> None:
-    """Add the colour bar of a parameter beside all panels."""
-    bar = figure.colorbar(scale, ax=axes, label=axis_words(str(values.name), values.attrs), pad=0.02)
-    tick_angles(bar.ax.yaxis, values)
 
 
 def draw_lines(
@@ -116,14 +108,12 @@ def _draw_line(
         line.set_markevery(1)
         if line.get_marker() in ("", "None"):
             line.set(marker=".", markersize=1.6 * rcParams["lines.markersize"])
-    dots: dict[str, Any] = {"linestyle": "none", "marker": "o", "color": colour}
     if ends := [*(gaps - 1), *gaps]:
-        small = 0.8 * rcParams["lines.markersize"]
-        axes.plot(*turned(x[ends], curve[ends]), markersize=small, markerfacecolor="white", zorder=3, **dots)
+        axes.plot(*turned(x[ends], curve[ends]), **dots(colour, 0.8, markerfacecolor="white", zorder=3))
     known = np.pad(np.isfinite(curve), 1)
     alone = known[1:-1] & ~known[:-2] & ~known[2:]  # which no line shows
     if alone.any():
-        axes.plot(*turned(x[alone], curve[alone]), **dots)
+        axes.plot(*turned(x[alone], curve[alone]), **dots(colour))
     if layout.validity:
         out = np.insert(part.outside.values, gaps, False)
         _mark_along(axes, across, up, out, part.outside.attrs["long_name"], line.get_drawstyle())
@@ -175,9 +165,8 @@ def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[st
             at, begins = (place - 1, "from here on") if name in WITHOUT_S else (place, "begins")
             words = f"{name.replace('lift_off', 'lift-off').replace('_', ' ')} {begins}"
             # On white, above all lines, and in no line's colour: marks mean the same on every line.
-            look: dict[str, Any] = {"linestyle": "none", "color": "0.25", "markerfacecolor": "white"}
-            size = 1.4 * rcParams["lines.markersize"]
-            axes.plot([x[at]], [s[at]], marker=_MARKERS[name], markersize=size, zorder=4, label=words, **look)
+            look = dots("0.25", 1.4, markerfacecolor="white", marker=_MARKERS[name])
+            axes.plot([x[at]], [s[at]], zorder=4, label=words, **look)
 
 
 def _shade_without(axes: Axes, x: NDArray[Any], regimes: list[list[str]]) -> None:
@@ -216,9 +205,8 @@ def _mark_along(
 def mark_points(axes: Axes, x: ArrayLike, y: ArrayLike, words: str) -> None:
     """White dots with a black rim, seen on dark and on light, on points that are outside of the model."""
     if np.size(x):
-        look: dict[str, Any] = {"linestyle": "none", "marker": "o", "zorder": 4, "clip_on": False}
-        look |= {"color": "black", "markerfacecolor": "white", "markeredgewidth": 0.6}
-        axes.plot(x, y, markersize=0.8 * rcParams["lines.markersize"], label=words, **look)
+        look = dots("black", 0.8, markerfacecolor="white", markeredgewidth=0.6)
+        axes.plot(x, y, label=words, zorder=4, clip_on=False, **look)
 
 
 def _scale_axes(axes: Axes, x: xr.DataArray, values: xr.DataArray, layout: FigureLayout) -> None:

@@ -6,6 +6,7 @@ A colour is a state of the contact, or one of the numbered instants, which are t
 from __future__ import annotations
 
 import math
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from matplotlib.patches import Patch
 
 from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import DASHES, Style, stroke
+from swtstudy.figures.style import DASHES, Style, dots, stroke
 from swtstudy.figures.words import flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.results.inspection import inspect_point
@@ -143,12 +144,6 @@ def _is_finite(dataset: xr.Dataset) -> bool:
 def _thin() -> float:
     """Width of guide lines."""
     return 0.55 * float(rcParams["lines.linewidth"])
-
-
-def _dot() -> dict[str, Any]:
-    """The look of a dot."""
-    size = 1.75 * rcParams["lines.markersize"]
-    return {"marker": "o", "markersize": size, "color": "black", "linestyle": ""}
 
 
 #: Share of their size by which values change that are drawn as constant, such as a measured load with noise.
@@ -300,9 +295,8 @@ def draw_slip(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
 def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], factor: float, words: str) -> None:
     """One line for each marked instant, between its bounds; in the corner, what faint lines are."""
     name, bound = names
-    for number in dataset.instant.values:
+    for number, colour, dashes in zip(dataset.instant.values, cycle(_INSTANTS), cycle(DASHES), strict=False):
         one = dataset.sel(instant=number)
-        colour, dashes = _INSTANTS[(number - 1) % len(_INSTANTS)], DASHES[(number - 1) % len(DASHES)]
         along = one[one[name].dims[0]]
         axes.plot(along, one[name], **stroke(colour, dashes, label=str(number)))
         bounds = np.outer(one[bound], (factor, -factor))
@@ -346,7 +340,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     other = axes.twinx() if is_strain else axes  # a shear stress has the axis of the normal one
     handles += other.plot(time, swing, **stroke(_SECOND, DASHES[1], label=f"${symbol}$"))
     peak = int(stress.values.argmax())
-    axes.plot(time[peak], stress[peak], **_dot())
+    axes.plot(time[peak], stress[peak], **dots("black", 1.75))
     last, high, low = float(time[-1]), float(swing.max()), float(swing.min())
     _guide(other, (high, low), color=_SECOND, alpha=0.7)
     arrow = {"arrowstyle": "<->", "color": _SECOND, "shrinkA": 0, "shrinkB": 0}
@@ -403,7 +397,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> Non
         _guide(axes, (-radius, radius), True, linestyle=dashes)
         if radius > 0.0:
             axes.text(radius, height * top, words, va="center", bbox={**_BOX, "pad": 0.5}, **small)
-    axes.plot(float(dataset.shown_x), found, clip_on=False, **_dot())
+    axes.plot(float(dataset.shown_x), found, clip_on=False, **dots("black", 1.75))
     axes.set(xlim=(-1.2 * largest, 1.2 * largest), ylim=(0.0, 1.45 * top), xlabel="$x/a_H$")
     over = r"\mathrm{swt}/\mathrm{SWT}_0" if criterion == SWT else CRITERIA[criterion].over_unit
     axes.set_ylabel(f"${over}$")

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import cycle
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import rcParams
-from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
-from swtstudy.figures.style import COLOURS, Style, stroke
+from swtstudy.figures.style import COLOURS, Style, dots, stroke
 from swtstudy.figures.words import flag_words, is_life, parts_of, quantity_words, tick_angles, tick_flags
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
@@ -40,8 +39,19 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
     for row, y in enumerate(layout.y):
         whole = quantity(dataset, y)
         for one, name in zip(axes[row], names, strict=True):
-            for index, (label, part) in enumerate(parts_of(dataset, layout.hue)):
-                _draw_points(one, part, y, name, label, index, layout.validity)
+            looks = zip(parts_of(dataset, layout.hue), cycle(_SHADES), cycle(_POINTS), strict=False)
+            for (label, part), shade, marker in looks:
+                drawn, x = quantity(part, y), part[name].values
+                if x.dtype.kind not in "fiu":
+                    words, x = np.unique(x.astype(str), return_inverse=True)
+                    one.set_xticks(range(len(words)), [place_words(name, str(word)) for word in words])
+                # Points of a cloud are the fainter the more there are; in the legend they are to be seen.
+                alpha = min(1.0, (100 / drawn.size) ** 0.5)
+                one.plot(x, drawn.values, **dots(shade, 0.6, marker=marker, mew=0, alpha=alpha))
+                one.plot([], [], label=label, **dots(shade, 1.4, marker=marker, mew=0))
+                if layout.validity:
+                    out = outside(part, drawn)
+                    mark_points(one, x[out.values], drawn.values[out.values], out.attrs["long_name"])
             one.set_xlabel(axis_words(name, dataset[name].attrs))
             tick_flags(one, flag_words(whole))
             tick_angles(one.xaxis, dataset[name])
@@ -49,25 +59,6 @@ def draw_scatter(dataset: xr.Dataset, layout: FigureLayout, width: Width | None 
                 one.set_yscale("log")
         sheet.label_left(axes[row], quantity_words(whole, y))
     return figure
-
-
-def _draw_points(
-    axes: Axes, part: xr.Dataset, y: str, name: str, label: str, index: int, validity: bool
-) -> None:
-    """The points of one value of hue: in grey a marker and a shade tell them apart."""
-    drawn, x = quantity(part, y), part[name].values
-    values = drawn.values
-    if x.dtype.kind not in "fiu":
-        words, x = np.unique(x.astype(str), return_inverse=True)
-        axes.set_xticks(range(len(words)), [place_words(name, str(word)) for word in words])
-    look: dict[str, Any] = {"marker": _POINTS[index % len(_POINTS)], "color": _SHADES[index % len(_SHADES)]}
-    look |= {"markersize": 0.6 * rcParams["lines.markersize"], "linestyle": "none", "mew": 0}
-    # Points of a cloud are the fainter the more there are; in the legend they are to be seen.
-    axes.plot(x, values, alpha=min(1.0, (100 / len(values)) ** 0.5), **look)
-    axes.plot([], [], label=label, **look | {"markersize": 1.4 * rcParams["lines.markersize"]})
-    if validity:
-        out = outside(part, drawn)
-        mark_points(axes, x[out.values], values[out.values], out.attrs["long_name"])
 
 
 def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | None = None) -> Figure:
@@ -81,7 +72,8 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
         edges, flags = _edges(whole), flag_words(whole)
         for one, (title, panel) in zip(axes[row], panels, strict=True):
             lines = [title]
-            for index, (label, part) in enumerate(parts_of(panel, layout.hue)):
+            looks = zip(parts_of(panel, layout.hue), cycle(COLOURS), cycle(_HATCHES), strict=False)
+            for (label, part), colour, hatch in looks:
                 values = _finite(quantity(part, y))
                 places = np.percentile(values, [*_PERCENTILES]) if len(values) and not flags else []
                 said = [f"{n} %: {raised(f'{at:.3g}')}" for n, at in zip(_PERCENTILES, places, strict=False)]
@@ -89,7 +81,6 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 # An entry of the legend is for all panels: of several each has its own percentiles above.
                 alone = axes.size == 1 and label
                 lines += [] if alone else [words]
-                colour, hatch = COLOURS[index % len(COLOURS)], _HATCHES[index % len(_HATCHES)]
                 look: dict[str, Any] = {"facecolor": to_rgba(colour, 0.35), "edgecolor": colour}
                 look |= {"histtype": "stepfilled", "linestyle": "-", "hatch": hatch}
                 one.hist(values, edges, label=words if alone else label, **look)
@@ -185,13 +176,13 @@ def draw_fit(fitted: xr.Dataset, style: Style | None = None, width: Width | None
             if factor > 1:
                 axes.plot(ends, ends / factor, **look)
         survived = fitted.runout.values == 1
-        look = {"color": COLOURS[0], "linestyle": "none"}
-        for some, words, marker in (
-            (~survived, "tests with a crack" if survived.any() else "tests", {"marker": "o"}),
-            (survived, "run-outs: no crack so far", {"marker": ">", "fillstyle": "none"}),
+        for some, words, marker, fill in (
+            (~survived, "tests with a crack" if survived.any() else "tests", "o", "full"),
+            (survived, "run-outs: no crack so far", ">", "none"),
         ):
             if some.any():
-                axes.plot(fitted.observed[some], fitted.predicted[some], label=words, **look, **marker)
+                look = dots(COLOURS[0], marker=marker, fillstyle=fill)
+                axes.plot(fitted.observed[some], fitted.predicted[some], label=words, **look)
         axes.set(xscale="log", yscale="log", xlim=ends, ylim=ends)
         axes.set(xlabel="observed load cycles", ylabel="predicted load cycles")
         add_legend(figure)

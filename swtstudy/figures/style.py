@@ -56,6 +56,12 @@ def stroke(color: Any = "black", dashes: Any = "-", **own: Any) -> dict[str, Any
     return {"color": color, "linestyle": dashes, "marker": "", **own}
 
 
+def dots(color: Any = "black", size: float = 1.0, **own: Any) -> dict[str, Any]:
+    """The look of points without a line, so many times as large as the style's markers."""
+    own = {"marker": "o", "markersize": size * matplotlib.rcParams["lines.markersize"], **own}
+    return {"color": color, "linestyle": "none", **own}
+
+
 @contextmanager
 def styled(style: Style | None = None, width: str | None = None) -> Iterator[None]:
     """The package's style while a figure is drawn or saved.
