@@ -138,15 +138,13 @@ def show(
     check_writable(output)
     values: dict[str, object] = {name: text for name, text in texts.items() if text is not None}
     look, words = dict[str, Any](style=style, width=width), ""
-    if study is None:
-        figure = _point_or_profile(values, smoothing or 0.0, look)
-    elif [*values] == ["load"] and body is None:
+    if study is not None and [*values] == ["load"] and body is None:
         path, name = find_study(study), str(values["load"])
         signal = read_signal_of(path.read_text(encoding="utf-8-sig"), name, path.parent)
         words = f"{name}: {signal.words}" if signal else ""
         figure = swtstudy.draw_load(swtstudy.Study.from_toml(study), name, signal, **look)
     else:
-        figure = _of_study(study, values, smoothing, body, look)
+        figure = _contact_or_profile(study, values, smoothing, body, look)
     save_figure(figure, output, style)
     if width == "column" and figure.get_figheight() > TALLEST:
         height = f"{output} is {INCH * figure.get_figheight():.0f} cm high, more than a page"
@@ -156,38 +154,33 @@ def show(
     click.echo(output)
 
 
-def _point_or_profile(values: dict[str, object], smoothing: float, look: dict[str, Any]) -> Figure:
-    """A point, or a profile where its shape alone is given."""
-    from swtstudy.study.keys import ProfileTable
-    from swtstudy.study.reading import profile_from
-
-    path = Path(str(values.get("profile")))
-    if path.suffix == ".csv":
-        table = ProfileTable(file=path.name, smoothing=smoothing)
-        values = {**values, "profile": profile_from(path.stem, table, path.parent)}
-    draw: Any = swtstudy.draw_profile if _of_shape(values) else swtstudy.inspect
-    return draw(**look, **values)
-
-
-def _of_study(
-    study: str, values: dict[str, object], smoothing: float | None, body: str | None, look: dict[str, Any]
+def _contact_or_profile(
+    study: str | None,
+    values: dict[str, object],
+    smoothing: float | None,
+    body: str | None,
+    look: dict[str, Any],
 ) -> Figure:
-    """The one contact of a study, in its units if it has them, or a profile of it alone."""
+    """One contact, or a profile where its shape alone is given; of a study with units, in these."""
     from swtstudy.faces.contacts import PhysicalContact
     from swtstudy.study.definition import one_of_study
+    from swtstudy.study.keys import ProfileTable
+    from swtstudy.study.reading import profile_from
     from swtstudy.study.units.grid import PhysicalGrid
 
-    of_shape = _of_shape(values)
-    grid = one_of_study(study, values, smoothing, of_shape)
-    if isinstance(grid, PhysicalGrid):
-        contact, one = PhysicalContact(grid), int(body) if body in ("1", "2") else body or 1
-        return contact.draw_profile(**look) if of_shape else contact.inspect(one, **look)
-    if body is not None:
-        raise refused("body", literal(body), "no body in a study without units")
-    names = [name for name in grid.fixed if not of_shape or PARAMETERS[name].part == "shape"]
-    return _point_or_profile({name: grid.fixed[name] for name in names}, 0.0, look)
-
-
-def _of_shape(values: dict[str, object]) -> bool:
-    """Return whether a profile, its shape and sizes of the contact at rest alone are given."""
-    return "profile" in values and all(AXES[name].part in ("shape", "contact") for name in values)
+    # A profile, its shape and sizes of the contact at rest alone.
+    of_shape = "profile" in values and all(AXES[name].part in ("shape", "contact") for name in values)
+    path = Path(str(values.get("profile")))
+    if study is not None:
+        grid = one_of_study(study, values, smoothing, of_shape)
+        if isinstance(grid, PhysicalGrid):
+            contact, one = PhysicalContact(grid), int(body) if body in ("1", "2") else body or 1
+            return contact.draw_profile(**look) if of_shape else contact.inspect(one, **look)
+        if body is not None:
+            raise refused("body", literal(body), "no body in a study without units")
+        values = {n: v for n, v in grid.fixed.items() if not of_shape or PARAMETERS[n].part == "shape"}
+    elif path.suffix == ".csv":
+        table = ProfileTable(file=path.name, smoothing=smoothing or 0.0)
+        values = {**values, "profile": profile_from(path.stem, table, path.parent)}
+    draw: Any = swtstudy.draw_profile if of_shape else swtstudy.inspect
+    return draw(**look, **values)

@@ -156,7 +156,14 @@ def list_studies(context: click.Context, parameters: bool) -> None:
       swtstudy run figure3
     """
     if parameters:
-        click.echo(_explained(context.make_formatter()), nl=False)
+        formatter = context.make_formatter()
+        for title, names in terminal.by_section(PARAMETERS).items():
+            with formatter.section(title):
+                formatter.write_dl([(name, PARAMETERS[name].explained) for name in names])
+        with formatter.section("Quantities beside s"):
+            quantities = [(name, f"{row.meaning}.") for name, row in NAMED.items()]
+            formatter.write_dl([*quantities, (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])
+        click.echo(formatter.getvalue(), nl=False)
         return
     from swtstudy.points.canonical import LARGEST_GRID
 
@@ -170,17 +177,6 @@ def list_studies(context: click.Context, parameters: bool) -> None:
             terminal.say(f"  {name:<{width}}  {points:>12}  {studies[name].title}", indent=width + 18)
         click.echo()
     click.echo(f"files: {shipped_folder()}")
-
-
-def _explained(formatter: click.HelpFormatter) -> str:
-    """Every parameter with its meaning, by what it is a part of, and every quantity."""
-    for title, names in terminal.by_section(PARAMETERS).items():
-        with formatter.section(title):
-            formatter.write_dl([(name, PARAMETERS[name].explained) for name in names])
-    quantities = {name: f"{row.meaning}." for name, row in NAMED.items()}
-    with formatter.section("Quantities beside s"):
-        formatter.write_dl([*quantities.items(), (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])
-    return formatter.getvalue()
 
 
 @click.command()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
+from functools import partial
 from os import PathLike
 from pathlib import Path
 from typing import NamedTuple
@@ -112,17 +113,17 @@ def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterato
     entries: list[Entry] = []
     problems: list[ArchiveError] = []
     with ExitStack() as stack:
-        pages: Iterator[Entry | ArchiveError] = (_write_one(path, folder) for path in paths)
+        pages: list[Callable[[], Entry]] = [partial(_write_one, path, folder) for path in paths]
         if workers > 1 and len(paths) >= _SEVERAL:
             pool = stack.enter_context(LocalPool(workers))
-            tasks = [pool.submit(_write_one, path, folder) for path in paths]
-            pages = (task.result() for task in tasks)
+            pages = [pool.submit(_write_one, path, folder).result for path in paths]
         for path, made in zip(paths, pages, strict=True):
-            if isinstance(made, ArchiveError):
-                problems.append(made)
-                yield path, str(made)
+            try:
+                entries.append(made())
+            except ArchiveError as error:
+                problems.append(error)
+                yield path, str(error)
             else:
-                entries.append(made)
                 yield folder / f"{path.stem}.html", ""
     if problems and not entries:
         raise problems[0]
@@ -130,12 +131,9 @@ def _write_several(paths: Sequence[Path], folder: Path, workers: int) -> Iterato
     yield folder / INDEX, ""
 
 
-def _write_one(path: Path, folder: Path) -> Entry | ArchiveError:
-    """The page of an archive in a folder of several; returns its entry, or what is wrong with the file."""
-    try:
-        dataset = open_results(path)
-    except ArchiveError as error:
-        return error
+def _write_one(path: Path, folder: Path) -> Entry:
+    """The page of an archive in a folder of several; returns its entry."""
+    dataset = open_results(path)
     write_text(folder / f"{path.stem}.html", page(dataset, path.stem, INDEX))
     return entry(dataset, path.stem)
 
