@@ -127,12 +127,10 @@ def solve_grid(
     points = None
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
+        along = [xr.DataArray(np.arange(n), dims=d).chunk({d: lazy.get(d, n)}) for d, n in grid.sizes.items()]
         made = xr.apply_ufunc(
             partial(_values_of_block, grid, rtol, asked),  # unlike a function in a function it can be pickled
-            *(
-                xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
-                for dim, size in grid.sizes.items()
-            ),
+            *along,
             output_core_dims=[*own.values()],
             dask="parallelized",
             output_dtypes=[np.int8 if name == "regime" else float for name in own],
