@@ -128,14 +128,14 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     beside
         Folder for the unfinished file, as for `swtstudy.vocabulary.files.replacing`.
     """
-    encoding: dict[Hashable, dict[str, Any]] = {name: {} for name in dataset.variables}
-    for name in dataset.coords:
-        encoding[name]["_FillValue"] = None  # CF forbids the one that xarray would give to coordinates
+    encoding: dict[Hashable, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
+        # CF forbids the fill value that xarray would give to coordinates.
+        own = encoding[name] = {"_FillValue": None} if name in dataset.coords else {}
         if variable.ndim and variable.dtype.kind in "biuf":
-            encoding[name]["fletcher32"] = True
+            own["fletcher32"] = True
         if variable.ndim and name in dataset.data_vars:
-            encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
+            own |= {"zlib": True, "complevel": 4, "shuffle": True}
     with (
         _ONE_AT_A_TIME,
         replacing(path, beside) as temporary,

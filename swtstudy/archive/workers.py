@@ -95,6 +95,13 @@ class Workers:
 
     Used in a with block.
 
+    Parameters
+    ----------
+    count
+        Number of tasks that run at the same time.
+    start
+        Starts an executor for so many tasks.
+
     Attributes
     ----------
     size
@@ -111,8 +118,8 @@ class Workers:
     _executor: Any = None
     _at_shutdown: Mapping[str, bool] = {"cancel_futures": True}
 
-    def __init__(self, count: int) -> None:
-        self.size = count
+    def __init__(self, count: int, start: Callable[[int], Any] = ThreadPoolExecutor) -> None:
+        self.size, self._start = count, start
 
     def __enter__(self) -> Self:
         return self
@@ -120,16 +127,12 @@ class Workers:
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self.renew(wait=True)
 
-    def _start(self) -> Any:
-        """Start an executor."""
-        return ThreadPoolExecutor(self.size)
-
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
         if self.apart:
             function, arguments = pickle.loads, (cloudpickle.dumps(_Task(function, arguments)),)
         try:
-            self._executor = self._executor or self._start()
+            self._executor = self._executor or self._start(self.size)
             return self._executor.submit(function, *arguments)
         except self.lost as error:
             lost: Future[Any] = Future()
@@ -205,8 +208,8 @@ class LocalPool(Workers):
 
     lost, apart = (BrokenProcessPool,), True
 
-    def _start(self) -> ProcessPoolExecutor:
-        return start_workers(self.size)
+    def __init__(self, count: int) -> None:
+        super().__init__(count, start_workers)
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
@@ -232,12 +235,10 @@ class ClusterPool(Workers):
 
         if not isinstance(client, Client):
             raise refused("client", literal(client), "a Client of dask.distributed")
-        super().__init__(max(1, sum(client.nthreads().values())))
+        count = max(1, sum(client.nthreads().values()))
+        super().__init__(count, lambda _: client.get_executor(pure=False))
         self._client, self._ended = client, threading.Event()
         self.lost, self.gone = (KilledWorker,), (CancelledError, CommClosedError)
-
-    def _start(self) -> Any:
-        return self._client.get_executor(pure=False)
 
     def __enter__(self) -> Self:
         threading.Thread(target=self._watch, daemon=True).start()

@@ -166,9 +166,9 @@ def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     Only amplitudes over the mean load fit the latter.
     """
     sized = [load for load in grid.loops if load.mean_normal is not None]
-    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
-        mean = f"{load.mean_normal:g}"
-        found = f"{literal(load.name)} with a mean normal load of {mean}, without units"
+    if sized and NORMAL_AMPLITUDES.isdisjoint(given):
+        mean = f"{sized[0].mean_normal:g}"
+        found = f"{literal(sized[0].name)} with a mean normal load of {mean}, without units"
         allowed = f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{mean} or the like"
         report.of("load", found, allowed)
     for load, name in itertools.product(grid.loops, AMPLITUDES):
