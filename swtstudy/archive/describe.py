@@ -19,7 +19,7 @@ from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.study.units.reading import read_contact
-from swtstudy.study.units.results import is_uncounted, measures, sequence_words
+from swtstudy.study.units.results import measures, sequence_words
 from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
@@ -52,10 +52,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     Results of `swtstudy.solve` have neither study nor versions.
     """
     yield str(dataset.attrs.get("title", "Results"))
-    for line in outcome(dataset):
-        yield f"  {line}"
-    for label, words in facts(dataset):
-        yield f"{f'  {label}':<{INDENT}}{words}"
+    yield from (f"  {line}" for line in outcome(dataset))
+    yield from (f"{f'  {label}':<{INDENT}}{words}" for label, words in facts(dataset))
 
 
 def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -112,9 +110,8 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "axis", f"{name}: {_axis_words(dataset[name])}{unit_of(dataset[name])}"
     for load, words in recorded_loads(dataset):
         yield "load", f"{load}: {words}"
-    for name in (*PARAMETERS, *CONTACT_AXES):
-        if name not in dataset.coords or name in dataset.dims or name in unsaid(dataset):
-            continue
+    said = {*dataset.dims, *unsaid(dataset)}
+    for name in (n for n in (*PARAMETERS, *CONTACT_AXES) if n in dataset.coords and n not in said):
         values, dims = dataset[name], dataset[name].dims
         label = "fixed" if not dims else "of each body" if dims == ("body",) else "sampled"
         words = _range_words(values) if label == "sampled" else _axis_words(values)
@@ -212,7 +209,7 @@ def _stresses(values: tuple[float, ...], units: Units) -> str:
 
 
 def _counted_words(dataset: xr.Dataset) -> str:
-    if is_uncounted(dataset, "cycles"):
+    if "counted" not in dataset:
         return "uncounted: in load cycles, as if each had one strain cycle"
     several = (dataset.counted_number.sum("counted_cycle") > 1.0).any("counted_place")
     lacking = dataset.counted.isnull().all(["counted_place", "counted_cycle"]) & (dataset.s > 0.0)
