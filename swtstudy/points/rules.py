@@ -235,7 +235,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         if family_of(table).shape or isinstance(table, Definition):
             profiles.setdefault(str(table), {})[code] = table
     for profile, tables in profiles.items():
-        names = family_of(next(iter(tables.values()))).shape
+        names = family_of(profile).shape
         columns = {name: grid.columns[name] for name in ("profile", *names)}
         along = {dim for dims, _ in columns.values() for dim in dims}
         dims, loads = grid.columns["normal_amplitude"]

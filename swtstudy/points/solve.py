@@ -6,7 +6,6 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,7 +107,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 
 def solve_grid(
-    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] = MappingProxyType({})
+    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] | None = None
 ) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process.
 
