@@ -19,7 +19,7 @@ from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.study.units.reading import read_contact
-from swtstudy.study.units.results import is_uncounted, measures, sequence_words
+from swtstudy.study.units.results import measures, sequence_words
 from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
@@ -52,10 +52,8 @@ def describe(dataset: xr.Dataset) -> Iterator[str]:
     Results of `swtstudy.solve` have neither study nor versions.
     """
     yield str(dataset.attrs.get("title", "Results"))
-    for line in outcome(dataset):
-        yield f"  {line}"
-    for label, words in facts(dataset):
-        yield f"{f'  {label}':<{INDENT}}{words}"
+    yield from (f"  {line}" for line in outcome(dataset))
+    yield from (f"{f'  {label}':<{INDENT}}{words}" for label, words in facts(dataset))
 
 
 def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -90,7 +88,11 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     more = [f"{len(failed) - _LISTED} more"] if len(failed) > _LISTED else []
     yield from (("failed", words) for words in [*failed[:_LISTED], *more])
     if "figure" in attributes:
-        yield "figure", _figure_words(FigureLayout.from_json(attributes["figure"]))
+        layout = FigureLayout.from_json(attributes["figure"])
+        roles = {"upwards": layout.vertical, "a line for each": layout.hue, "a panel for each": layout.panels}
+        drawn = [f"{', '.join(layout.y)} over {layout.x}"]
+        drawn += [f"{role} {name}" for role, name in roles.items() if name]
+        yield "figure", ("" if layout.kind == "lines" else f"{layout.kind}: ") + ", ".join(drawn)
 
 
 def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
@@ -108,13 +110,12 @@ def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
             yield "axis", f"{name}: {_axis_words(dataset[name])}{unit_of(dataset[name])}"
     for load, words in recorded_loads(dataset):
         yield "load", f"{load}: {words}"
-    for name in (*PARAMETERS, *CONTACT_AXES):
-        if name not in dataset.coords or name in dataset.dims or name in unsaid(dataset):
-            continue
-        dims = dataset[name].dims
+    said = {*dataset.dims, *unsaid(dataset)}
+    for name in (n for n in (*PARAMETERS, *CONTACT_AXES) if n in dataset.coords and n not in said):
+        values, dims = dataset[name], dataset[name].dims
         label = "fixed" if not dims else "of each body" if dims == ("body",) else "sampled"
-        words = _range_words(dataset[name]) if label == "sampled" else _axis_words(dataset[name])
-        yield label, f"{name}: {words}{unit_of(dataset[name])}"
+        words = _range_words(values) if label == "sampled" else _axis_words(values)
+        yield label, f"{name}: {words}{unit_of(values)}"
 
 
 def unsaid(dataset: xr.Dataset) -> set[str]:
@@ -146,14 +147,6 @@ def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
                 low, high = (number_words(end).replace("-", "−") for end in ends)
                 said.append(f"{names[name]} {low} to {high}{unit_of(dataset[name])}")
         yield str(load), ", ".join(said)
-
-
-def _figure_words(layout: FigureLayout) -> str:
-    """Describe the figure of the study: "s over phase, a line for each normal_amplitude"."""
-    parts = [f"{', '.join(layout.y)} over {layout.x}"]
-    roles = {"upwards": layout.vertical, "a line for each": layout.hue, "a panel for each": layout.panels}
-    parts += [f"{words} {name}" for words, name in roles.items() if name]
-    return ("" if layout.kind == "lines" else f"{layout.kind}: ") + ", ".join(parts)
 
 
 def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
@@ -216,7 +209,7 @@ def _stresses(values: tuple[float, ...], units: Units) -> str:
 
 
 def _counted_words(dataset: xr.Dataset) -> str:
-    if is_uncounted(dataset, "cycles"):
+    if "counted" not in dataset:
         return "uncounted: in load cycles, as if each had one strain cycle"
     several = (dataset.counted_number.sum("counted_cycle") > 1.0).any("counted_place")
     lacking = dataset.counted.isnull().all(["counted_place", "counted_cycle"]) & (dataset.s > 0.0)
@@ -235,11 +228,10 @@ def _axis_words(axis: xr.DataArray) -> str:
 
 
 def _range_words(axis: xr.DataArray) -> str:
-    known = axis[np.sort(np.unique(axis.values, return_index=True)[1])]
-    if axis.dtype.kind not in "fiu" or known.size <= 2:
-        return _axis_words(known)
-    ends = int(known.values.argmin()), int(known.values.argmax())
-    return f"from {_words(known[ends[0]])} to {_words(known[ends[1]])}"
+    _, first = np.unique(axis.values, return_index=True)
+    if axis.dtype.kind not in "fiu" or len(first) <= 2:
+        return _axis_words(axis[np.sort(first)])
+    return f"from {_words(axis[first[0]])} to {_words(axis[first[-1]])}"
 
 
 def completeness(dataset: xr.Dataset) -> str:
@@ -325,11 +317,14 @@ def life_words(dataset: xr.Dataset) -> Iterator[str]:
     kinds = [kind for kind in CRITERIA.values() if kind.life and kind.life in dataset]
     for kind in kinds:
         said = [f"{_ends(dataset[kind.life].values)} load cycles (worst point)"]
-        for name in asked_means(dataset, kind.life):
+        # Lives by means that the figure shows; without one the life by the mean over a volume.
+        means = [name for name in LIVES if name in dataset and name.startswith(f"{kind.life}_")]
+        shown = [y for y in shown_in(dataset) if y in (kind.life, *means)]
+        means = [y for y in shown if y != kind.life] or [n for n in means if n == f"{kind.life}_volume"]
+        for name in means:
             said += [f"{_ends(values)} (mean over {words})" for words, values in _over(dataset[name])]
         yield f"N{f' by {kind.name}' * (len(kinds) > 1)} = {', '.join(said)}"
-        shown = [y for y in shown_in(dataset) if y in (kind.life, *asked_means(dataset, kind.life))]
-        yield from _scatter([*shown, *asked_means(dataset, kind.life), kind.life][0], dataset)
+        yield from _scatter([*shown, *means, kind.life][0], dataset)
 
 
 def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
@@ -342,20 +337,6 @@ def _scatter(life: str, dataset: xr.Dataset) -> Iterator[str]:
     if (name := life.replace(LIFE, FAILED_SHARE)) in dataset:
         most = float(dataset[name].max())
         yield f"{dataset[name].long_name}: {f'up to {number_words(most, 2)}' if most else '0 in all draws'}"
-
-
-def asked_means(dataset: xr.Dataset, life: str) -> list[str]:
-    """Lives by nonlocal means that the study's figure shows; without one the life by the mean over a volume.
-
-    Parameters
-    ----------
-    dataset
-        Results.
-    life
-        Name of the life at the worst point, with which the other names begin.
-    """
-    means = [name for name in LIVES if name in dataset and name.startswith(f"{life}_")]
-    return [y for y in shown_in(dataset) if y in means] or [n for n in means if n == f"{life}_volume"]
 
 
 def shown_in(dataset: xr.Dataset) -> list[str]:

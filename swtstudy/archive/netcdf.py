@@ -21,20 +21,15 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.paths import ArchiveError, LockedError, is_locked
-from swtstudy.archive.recall import lacking, mistakes
+from swtstudy.archive.recall import check_archive, lacking
 from swtstudy.vocabulary.files import replacing
+from swtstudy.vocabulary.mistakes import StudyError
 
 _GROUP = "check_sum"
 #: netCDF and HDF5 are not thread-safe: one thread at a time reads or writes a file.
 _ONE_AT_A_TIME = threading.RLock()
 #: More bytes of values for each byte of a file than deflate can make, and bytes that any file may hold.
 _MOST_PACKED, _ANY = 1100, 2**24
-
-
-def write_check_sum(path: Path, dataset: xr.Dataset) -> None:
-    """Add the check sum of a Dataset to its file."""
-    with netCDF4.Dataset(path, "a") as file:
-        file.createGroup(_GROUP).setncattr("crc32", _check_sum(dataset))
 
 
 def _check_sum(dataset: xr.Dataset) -> str:
@@ -62,17 +57,17 @@ _UNREADABLE = (OSError, ValueError, RuntimeError, KeyError, AttributeError, Inde
 def read_archive(path: Path) -> xr.Dataset:
     """The Dataset in an archive file, loaded and checked; raises as `swtstudy.open_results` does."""
     loaded = load_file(path)
-    absent = lacking(loaded)
-    if absent:
+    if absent := lacking(loaded):
         words = f"{path}: a netCDF file, but not an archive of swtstudy"
         if str(loaded.attrs.get("source", "")).startswith("swtstudy") or "s" in loaded:
             words = f"{path}: an archive changed by another program"
             if {"status", "study"} <= {*absent}:
                 words = f"{path}: results without a study, as of solve; xarray.open_dataset opens them"
         raise ArchiveError(f"{words} (no {', '.join(absent)})")
-    found = mistakes(loaded, str(path))
-    if found:
-        raise ArchiveError("\n".join(map(str, found)))
+    try:
+        check_archive(loaded, str(path))
+    except StudyError as error:
+        raise ArchiveError(str(error)) from None
     return loaded
 
 
@@ -133,16 +128,19 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     beside
         Folder for the unfinished file, as for `swtstudy.vocabulary.files.replacing`.
     """
-    encoding: dict[Hashable, dict[str, Any]] = {name: {} for name in dataset.variables}
-    for name in dataset.coords:
-        encoding[name]["_FillValue"] = None  # CF forbids the one that xarray would give to coordinates
+    encoding: dict[Hashable, dict[str, Any]] = {}
     for name, variable in dataset.variables.items():
+        # CF forbids the fill value that xarray would give to coordinates.
+        own = encoding[name] = {"_FillValue": None} if name in dataset.coords else {}
         if variable.ndim and variable.dtype.kind in "biuf":
-            encoding[name]["fletcher32"] = True
+            own["fletcher32"] = True
         if variable.ndim and name in dataset.data_vars:
-            encoding[name] |= {"zlib": True, "complevel": 4, "shuffle": True}
-    with _ONE_AT_A_TIME, replacing(path, beside) as temporary:
+            own |= {"zlib": True, "complevel": 4, "shuffle": True}
+    with (
+        _ONE_AT_A_TIME,
+        replacing(path, beside) as temporary,
+        netCDF4.Dataset(temporary, "w", format="NETCDF4") as file,
+    ):
         # Not by to_netcdf: that imports all of distributed where it is installed.
-        with netCDF4.Dataset(temporary, "w", format="NETCDF4") as file:
-            dataset.dump_to_store(xr.backends.NetCDF4DataStore(file), encoding=encoding)
-        write_check_sum(temporary, dataset)
+        dataset.dump_to_store(xr.backends.NetCDF4DataStore(file), encoding=encoding)
+        file.createGroup(_GROUP).setncattr("crc32", _check_sum(dataset))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -14,7 +14,7 @@ from swtstudy.points.canonical import Distinct
 from swtstudy.points.chunk import Found
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
-from swtstudy.points.reading import given_twice
+from swtstudy.points.reading import check_pairs
 from swtstudy.points.rules import shapes_needed
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.solver.definitions import defined_in
@@ -22,9 +22,7 @@ from swtstudy.study.units.reading import check_contacts, completed, read_contact
 from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
-from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, is_rtol, literal, plain_number
-from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units, require
@@ -43,34 +41,37 @@ def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
     known = defined_in(dataset.attrs)
-    single: NamedValues = {}
-    axes: NamedValues = {}
-    samples: NamedValues = {}
+    found: NamedValues = {}
     for name in (n for n in table if n in dataset.coords and n not in (*pairs, DISTANCE)):
         own = tuple(map(str, dataset[name].dims))
-        kind = {(): single, (name,): axes, (SAMPLE,): samples}.get(own)
-        if kind is None or not {*own} <= {*dims}:
+        if own not in ((), (name,), (SAMPLE,)) or not {*own} <= {*dims}:
             report(name, f"dimensions {own}", "an axis of s, or a single value")
             continue
-        raw = np.atleast_1d(dataset[name].values).tolist()
-        kind[name] = tuple(_values(table[name], raw, known.get(name, {}), report))
-    for name in (name for name in dims if name not in axes and not (name == SAMPLE and samples)):
+        values: list[Value] = []
+        for raw in np.atleast_1d(dataset[name].values).tolist():
+            try:
+                values.append(read_value(table[name], raw, known.get(name, {})))
+            except ValueError as error:
+                report(name, f"{literal(raw)} ({error})", table[name].allowed)
+                break  # the first wrong value of each coordinate is told
+        found[name] = tuple(values)
+    samples = {name: values for name, values in found.items() if dataset[name].dims == (SAMPLE,)}
+    for name in (n for n in dims if n not in found.keys() - samples and not (n == SAMPLE and samples)):
         report(name, "a dimension without values of a parameter", ", ".join(table))
-    there = {*single, *axes, *samples, *dims, *pairs}
-    replaced, profiles = replaced_by(there), {**single, **axes, **samples}.get("profile", ())
-    shape = shapes_needed([value for value in profiles if isinstance(value, str)])
+    there = {*found, *dims, *pairs}
+    replaced = replaced_by(there)
+    shape = shapes_needed([value for value in found.get("profile", ()) if isinstance(value, str)])
     for name, parameter in PARAMETERS.items():
         needed = parameter.default is not None and not parameter.optional and name not in replaced
         if (needed or name in shape) and name not in there:  # an archive may leave out optional ones
             report(name, "nothing", parameter.allowed)
-    for twice in given_twice(there):
-        report.of(*twice)
+    check_pairs(there, report)
     control = Control.given(there).name
     if dataset.get("control", control) != control:
         report("control", literal(dataset.control.values.tolist()), literal(control))
     report.refuse()
-    fixed = {name: value[0] for name, value in single.items()}
-    axes = {name: axes[name] for name in dims if name != SAMPLE}
+    fixed = {name: values[0] for name, values in found.items() if not dataset[name].dims}
+    axes = {name: found[name] for name in dims if name != SAMPLE}
     if given is None:
         return complete(fixed, axes, samples)
     grid = completed(fixed, axes, samples, given)
@@ -84,18 +85,6 @@ def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
         check_contacts(grid, report)
     report.refuse()
     return grid
-
-
-def _values(
-    parameter: Parameter, raw: list[object], known: Mapping[str, Definition], report: Report
-) -> Iterator[Value]:
-    """Values of a coordinate, up to the first invalid one, which is a mistake."""
-    for value in raw:
-        try:
-            yield read_value(parameter, value, known)
-        except ValueError as error:
-            report(parameter.name, f"{literal(value)} ({error})", parameter.allowed)
-            return
 
 
 def request_of(dataset: xr.Dataset) -> Request:
@@ -149,23 +138,15 @@ def lacking(dataset: xr.Dataset) -> list[str]:
     return names + [f"flag_meanings of {n}" for n in flags if "flag_meanings" not in dataset[n].attrs]
 
 
-def mistakes(dataset: xr.Dataset, source: str) -> Report:
-    """Everything that is wrong in an archive that lacks nothing."""
-    report = Report(source)
+def check_archive(dataset: xr.Dataset, source: str) -> None:
+    """Raise a StudyError with everything that is wrong in an archive that lacks nothing."""
     # Each of these can be checked only if what it relies on, the one before it, is sound.
-    _check_attributes(dataset, report)
-    if not report:
-        _check_shapes(dataset, report)
-    if not report:
-        with report:
-            grid_of(dataset, source)
-    if not report:
-        _check_values(dataset, report)
-    return report
+    for check in (_check_attributes, _check_shapes, grid_of, _check_values):
+        check(dataset, source)
 
 
-def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
-    attributes, real = dataset.attrs, has_units(dataset)
+def _check_attributes(dataset: xr.Dataset, source: str) -> None:
+    report, attributes, real = Report(source), dataset.attrs, has_units(dataset)
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
     if not is_rtol(attributes["rtol"]):
@@ -197,10 +178,11 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
         value = plain[name].attrs.get(attribute, allowed)
         if str(value) != allowed:
             report(f"attribute {attribute} of {name}", _words(value), _words(allowed))
+    report.refuse()
 
 
-def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
-    plain = without_units(dataset)
+def _check_shapes(dataset: xr.Dataset, source: str) -> None:
+    report, plain = Report(source), without_units(dataset)
     own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
     for name, more in (own | request_of(dataset).variables).items():
         if name not in plain:
@@ -211,10 +193,12 @@ def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
             report(name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}")
         if plain[name].dtype.kind not in "fiu":
             report(name, f"values of type {plain[name].dtype}", "numbers")
+    report.refuse()
 
 
-def _check_values(dataset: xr.Dataset, report: Report) -> None:
-    """Values that no run computes, such as from a damaged file."""
+def _check_values(dataset: xr.Dataset, source: str) -> None:
+    """Refuse values that no run computes, such as from a damaged file."""
+    report = Report(source)
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
     unbounded = np.isin(regime, [REGIMES.index(name) for name in WITHOUT_S])
@@ -232,6 +216,7 @@ def _check_values(dataset: xr.Dataset, report: Report) -> None:
             place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
             where = f" at {place}" * bool(place) + f" and {count - 1} more" * (count > 1)
             report(name, f"{dataset[name].isel(index).item()}{where}", allowed)
+    report.refuse()
 
 
 def _words(value: object) -> str:

@@ -250,7 +250,7 @@ class Job:
         parts.clear_unfinished(self._folder)
         self._begin = self._saved = time.perf_counter()
         self.work = assess(study, path, retry_failed)
-        self._what, self._complete = _told(self.work), not self.work.todo.any()
+        self._todo, self._what = int(self.work.todo.sum()), _told(self.work)
         self._unsaved: list[IndexArray] = []
 
     def compute(self, workers: Workers, solver: Solver) -> None:
@@ -259,9 +259,8 @@ class Job:
         started = datetime.now(UTC).isoformat(timespec="seconds")
         run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), started, work.asked.items)
         work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
-        number, todo = work.found.runs.index(run), int(work.todo.sum())
-        missing = chunks(work.points, work.todo, work.asked)
-        with Progress(todo, self.path.stem, delay=0.0) as shown:
+        number, missing = work.found.runs.index(run), chunks(work.points, work.todo, work.asked)
+        with Progress(self._todo, self.path.stem, delay=0.0) as shown:
             try:
                 for places, arrays in workers.solve(missing, rtol, solver):
                     arrays["run"][:] = number
@@ -285,31 +284,28 @@ class Job:
 
         An archive that exactly this study wrote stays as it is, if nothing had to be done.
         """
-        from swtstudy.archive.netcdf import read_archive
+        from swtstudy.archive.archive import build, history_line
+        from swtstudy.archive.netcdf import read_archive, save
 
-        archive = read_archive(self.path) if self.path.exists() else None
+        archive, history = None, [history_line(self._what)]
+        if self.path.exists():
+            archive = read_archive(self.path)
+            history.append(archive.attrs["history"])
         same = archive is not None and archive.attrs["study"] == self.study.text
-        if archive is None or not (same and self._complete) or len(parts.read_parts(self._folder)):
-            self._write([] if archive is None else [archive.attrs["history"]])
+        if archive is None or not same or self._todo or len(parts.read_parts(self._folder)):
+            work, kept = self.work, parts.kept_folder(self.path)
+            seconds = time.perf_counter() - self._begin
+            dataset = build(self.study, work.points, work.found, "\n".join(history), seconds)
+            try:
+                with parts.keeping(kept, work.others):
+                    save(dataset, self.path, beside=self._folder)
+            except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
+                raise OSError(f"cannot write the archive ({error})") from error
+            if len(work.others):
+                _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
             archive = read_archive(self.path)
         parts.clear_parts(self._folder)
         return archive
-
-    def _write(self, history: list[str]) -> None:
-        """Write the archive, with the history of the one that it replaces."""
-        from swtstudy.archive.archive import build, history_line
-        from swtstudy.archive.netcdf import save
-
-        work, kept = self.work, parts.kept_folder(self.path)
-        lines, seconds = [history_line(self._what), *history], time.perf_counter() - self._begin
-        dataset = build(self.study, work.points, work.found, "\n".join(lines), seconds)
-        try:
-            with parts.keeping(kept, work.others):
-                save(dataset, self.path, beside=self._folder)
-        except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
-            raise OSError(f"cannot write the archive ({error})") from error
-        if len(work.others):
-            _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
 
     @contextmanager
     def reporting(self) -> Iterator[None]:

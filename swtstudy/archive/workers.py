@@ -15,6 +15,7 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from concurrent.futures import CancelledError, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
+from importlib import import_module
 from itertools import islice
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Self
@@ -94,6 +95,13 @@ class Workers:
 
     Used in a with block.
 
+    Parameters
+    ----------
+    count
+        Number of tasks that run at the same time.
+    start
+        Starts an executor for so many tasks.
+
     Attributes
     ----------
     size
@@ -110,8 +118,8 @@ class Workers:
     _executor: Any = None
     _at_shutdown: Mapping[str, bool] = {"cancel_futures": True}
 
-    def __init__(self, count: int) -> None:
-        self.size = count
+    def __init__(self, count: int, start: Callable[[int], Any] = ThreadPoolExecutor) -> None:
+        self.size, self._start = count, start
 
     def __enter__(self) -> Self:
         return self
@@ -119,16 +127,12 @@ class Workers:
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         self.renew(wait=True)
 
-    def _start(self) -> Any:
-        """Start an executor."""
-        return ThreadPoolExecutor(self.size)
-
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """As in `concurrent.futures.Executor`; the first task starts the workers."""
         if self.apart:
             function, arguments = pickle.loads, (cloudpickle.dumps(_Task(function, arguments)),)
         try:
-            self._executor = self._executor or self._start()
+            self._executor = self._executor or self._start(self.size)
             return self._executor.submit(function, *arguments)
         except self.lost as error:
             lost: Future[Any] = Future()
@@ -204,8 +208,8 @@ class LocalPool(Workers):
 
     lost, apart = (BrokenProcessPool,), True
 
-    def _start(self) -> ProcessPoolExecutor:
-        return start_workers(self.size)
+    def __init__(self, count: int) -> None:
+        super().__init__(count, start_workers)
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         # Tasks in flight are lost anyway, and a second Ctrl-C must not find us waiting for them.
@@ -231,12 +235,10 @@ class ClusterPool(Workers):
 
         if not isinstance(client, Client):
             raise refused("client", literal(client), "a Client of dask.distributed")
-        super().__init__(max(1, sum(client.nthreads().values())))
+        count = max(1, sum(client.nthreads().values()))
+        super().__init__(count, lambda _: client.get_executor(pure=False))
         self._client, self._ended = client, threading.Event()
         self.lost, self.gone = (KilledWorker,), (CancelledError, CommClosedError)
-
-    def _start(self) -> Any:
-        return self._client.get_executor(pure=False)
 
     def __enter__(self) -> Self:
         threading.Thread(target=self._watch, daemon=True).start()
@@ -261,49 +263,39 @@ class ClusterPool(Workers):
 
 
 def start_workers(count: int) -> ProcessPoolExecutor:
-    """Start `count` worker processes; the caller has to shut the pool down."""
+    """Start `count` worker processes; the caller has to shut the pool down.
+
+    They start with the environment of workers and without the calling script. Spawned processes import that
+    script before any initializer can run: without ``if __name__ == "__main__"`` it would start its run again
+    in every worker.
+    """
     # Spawned, not forked: forking a process with threads, such as a notebook's, can hang.
     context = multiprocessing.get_context("spawn")
     pool = ProcessPoolExecutor(count, mp_context=context, initializer=_prepare)
-    with _clean_start():
+    before = {name: os.environ.get(name) for name in THREADS}
+    main = sys.modules["__main__"]
+    os.environ.update(THREADS)
+    sys.modules["__main__"] = types.ModuleType("__main__")
+    try:
         # A submission that finds no idle worker starts one: these start them all, in this block.
         for _ in range(count):
-            pool.submit(_warm_up)
-    return pool
+            pool.submit(import_module, "swtstudy.kernel.batch")
+        return pool
+    finally:
+        sys.modules["__main__"] = main
+        for name, value in before.items():
+            os.environ.pop(name) if value is None else os.environ.update({name: value})
 
 
 def _prepare() -> None:
-    # Ctrl-C reaches the whole process group; the parent decides what happens.
+    """Prepare a worker process for its end, which its parent decides."""
+    # Ctrl-C reaches the whole process group.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     # A worker whose parent was killed would otherwise wait for work forever.
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
 def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
+    if (parent := multiprocessing.parent_process()) is not None:
         parent.join()
         os._exit(1)
-
-
-def _warm_up() -> None:
-    import swtstudy.kernel.batch  # noqa: F401
-
-
-@contextmanager
-def _clean_start() -> Iterator[None]:
-    """Start processes with the environment of workers and without the calling script.
-
-    Spawned processes import the calling script before any initializer can run: without
-    ``if __name__ == "__main__"`` that script would start its run again in every worker.
-    """
-    before = {name: os.environ.get(name) for name in THREADS}
-    main = sys.modules["__main__"]
-    os.environ.update(THREADS)
-    sys.modules["__main__"] = types.ModuleType("__main__")
-    try:
-        yield
-    finally:
-        sys.modules["__main__"] = main
-        for name, value in before.items():
-            os.environ.pop(name) if value is None else os.environ.update({name: value})

@@ -11,7 +11,7 @@ import numpy as np
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.reading import LONGEST_AXIS, NOTHING_KNOWN, Known
-from swtstudy.points.values import NOTHING, Value, read_value
+from swtstudy.points.values import Value, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number
@@ -61,6 +61,7 @@ def listed(
     shared = {dim: arrays for dim, arrays in over.items() if len(arrays) > 1}
     if not shared:
         return {}, SAMPLE, (), dict(parameters)
+    import pandas as pd
     import xarray as xr
 
     (dim, arrays), *more = shared.items()
@@ -77,23 +78,15 @@ def listed(
         report(", ".join(arrays), f"lengths or coordinates that differ along {dim}", "the same ones")
         return {}, dim, (), dict(parameters)
     labels = tuple(one.indexes[dim]) if dim in one.indexes and dim not in arrays else ()
-    if wrong := [label for label in labels if not is_label(label)]:
-        report(
-            ", ".join(arrays), f"{literal(wrong[0])} along {dim}", "coordinates of numbers, texts or dates"
-        )
+    for label in labels:
+        if not (isinstance(label, str | bool | pd.Timestamp) or math.isfinite(plain_number(label))):
+            found = f"{literal(label)} along {dim}"
+            report(", ".join(arrays), found, "coordinates of numbers, texts or dates")
+            break
     # As plain numbers, but of dates and durations, which are no values.
-    columns = {
-        n: [*raw.values] if raw.dtype.kind in "mM" else raw.values.tolist() for n, raw in arrays.items()
-    }
+    columns = {n: [*v.values] if v.dtype.kind in "mM" else v.values.tolist() for n, v in arrays.items()}
     others = {name: raw for name, raw in parameters.items() if name not in arrays}
     return read_points(columns, report, rows), dim, labels, others
-
-
-def is_label(value: object) -> bool:
-    """Return whether a value may name a point: a finite number, a text, or a date."""
-    import pandas as pd
-
-    return isinstance(value, str | bool | pd.Timestamp) or math.isfinite(plain_number(value))
 
 
 def read_points(
@@ -148,7 +141,7 @@ def read_points(
         wrong: list[str] = []
         for index, raw in enumerate(column):
             try:
-                good.append(read_value(rows[name], raw, known.get(name, NOTHING)))
+                good.append(read_value(rows[name], raw, known.get(name, {})))
             except ValueError as error:
                 wrong.append(f"{literal(raw)} ({error}) at [{index}]")
         if wrong:

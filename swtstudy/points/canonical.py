@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, family_of
+from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, families_with, family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, SHIFT, STRAIN_SHARE, Control
 from swtstudy.vocabulary.quantities import NOTHING, Request
@@ -138,11 +138,8 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
             name, value = family.plain
             same = (profile == code_of(family.name)) & (table[name] == value)
             profile[same] = code_of(PLAIN_OF[family.geometry])
-    for code in np.unique(profile):
-        # Profiles that the user has defined have no shape parameters.
-        shape = family_of(NAMES[code]).shape if code < len(NAMES) else ()
-        for name in {*SHAPE_COLUMNS} - {*shape}:
-            table[name][profile == code] = 0.0
+    for name in SHAPE_COLUMNS:
+        table[name][~np.isin(profile, [code_of(family) for family in families_with(name)])] = 0.0
     table["normal_sensitivity"][table["criterion"] == code_of(SWT, "criterion")] = 0.0
     _make_shifts_canonical(table, columns[-1])
     # A normal load at rest is prescribed as the tangential one is: loops know no mixed control.
@@ -164,8 +161,7 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     nudge = 2 * 10.0**-DIGITS
     folded, mirrored = fold_phase(table["phase"] + nudge, p, q)
     table["phase"] = _in_turns(folded - nudge)
-    moves = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop
-    both_ways = (q % 2 == 0) | rests
+    moves, both_ways = (table["bulk_stress_amplitude"] != 0.0) & ~is_loop, (q % 2 == 0) | rests
     folded, mirrored = fold_bulk_phase(table["bulk_stress_phase"] + nudge, moves, mirrored, both_ways)
     table["bulk_stress_phase"] = np.where(moves, _in_turns(folded - nudge), 0.0)
     return table, mirrored

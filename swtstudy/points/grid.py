@@ -170,18 +170,13 @@ class Grid:
 
     def at(self, places: IndexArray, *names: str) -> list[NDArray]:
         """The numbers of columns at n places of the grid in C order, each of shape (n,)."""
-        return numbers_at((self.columns[name] for name in names), positions(self.sizes, places), len(places))
+        return numbers_at((self.columns[name] for name in names), self.sizes, places)
 
 
-def positions(sizes: Mapping[str, int], places: IndexArray) -> dict[str, IndexArray]:
-    """Positions along the dimensions of n places in C order, by the names of the dimensions."""
-    along = np.unravel_index(places, [*sizes.values()]) if sizes else ()
-    return dict(zip(sizes, along, strict=True))
-
-
-def numbers_at(columns: Iterable[Column], at: Mapping[str, IndexArray], count: int) -> list[NDArray]:
-    """The numbers of columns at n positions, each of shape (n,)."""
-    return [np.broadcast_to(v[tuple(at[dim] for dim in dims)], count) for dims, v in columns]
+def numbers_at(columns: Iterable[Column], sizes: Mapping[str, int], places: IndexArray) -> list[NDArray]:
+    """The numbers of columns over dimensions of these sizes at n places in C order, each of shape (n,)."""
+    at = dict(zip(sizes, np.unravel_index(places, [*sizes.values()]), strict=True)) if sizes else {}
+    return [np.broadcast_to(v[tuple(at[dim] for dim in dims)], len(places)) for dims, v in columns]
 
 
 def _number(name: str, value: Value) -> float:

@@ -101,11 +101,10 @@ def values_at(
 
     ``points`` are the distinct ones of these places, and ``found`` their values.
     """
-    own = {name: row.dims for row in asked.rows for name in row.variables}
     arrays = {name: found[name][points.index] for name in SOLVED}
-    for name, dims in own.items():
-        nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in dims)), np.nan)
-        arrays[name] = found.get(name, nothing)[points.index]
+    for row in asked.rows:
+        nothing = np.full((len(points.rows), *(asked.sizes[dim] for dim in row.dims)), np.nan)
+        arrays |= {name: found.get(name, nothing)[points.index] for name in row.variables}
     return turned(arrays, points.mirrored, grid, np.arange(grid.size) if places is None else places)
 
 

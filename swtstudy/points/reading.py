@@ -7,7 +7,7 @@ import math
 import re
 import sys
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,17 +17,7 @@ from typing import Literal
 from swtstudy.points import rules
 from swtstudy.points.canonical import canonical_number
 from swtstudy.points.grid import Grid, complete
-from swtstudy.points.values import (
-    DEGREES,
-    NOTHING,
-    NamedValues,
-    Value,
-    as_number,
-    evaluate,
-    read_angle,
-    read_exact,
-    read_value,
-)
+from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameter import Parameter
@@ -147,9 +137,8 @@ def read_values(
         found = f"{sum(sizes)} values, {math.prod(sizes):.0g} points"
         report.of(axes, found, f"at most {LONGEST_AXIS} values along all axes")
         known_axes = {}
-    good_axes = {n: _read_axis(rows[n], raw, report.key(n), report, known) for n, raw in known_axes.items()}
-    for twice in given_twice((*fixed, *axes, *samples)):
-        report.of(*twice)
+    good_axes = {n: _read_axis(rows[n], raw, report, known) for n, raw in known_axes.items()}
+    check_pairs((*fixed, *axes, *samples), report)
     return {name: value for name, value in read.items() if value is not None}, good_axes
 
 
@@ -171,23 +160,23 @@ def read_distances(
     fixed: Mapping[str, object], axes: GivenAxes, report: Report, row: Parameter = QUANTITY_AXES[DISTANCE]
 ) -> tuple[tuple[float, ...], bool]:
     """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
-    key, raw = report.key(DISTANCE), axes.get(DISTANCE)
-    if raw is not None:
-        return tuple(map(as_number, _read_axis(row, raw, key, report, NOTHING_KNOWN))), True
-    single = _read(row, fixed[DISTANCE], key, report, NOTHING_KNOWN) if DISTANCE in fixed else None
+    if (raw := axes.get(DISTANCE)) is not None:
+        return tuple(map(as_number, _read_axis(row, raw, report))), True
+    single = _read(row, fixed[DISTANCE], report.key(DISTANCE), report) if DISTANCE in fixed else None
     return (() if single is None else (as_number(single),)), False
 
 
-def given_twice(names: Iterable[str]) -> Iterator[tuple[tuple[str, str], str, str]]:
-    """Names, what was found and what is allowed of each pair of parameters of which one is to be given."""
-    given = {*names}
+def check_pairs(names: Collection[str], report: Report) -> None:
+    """Report both parameters of a pair, of which one is to be given."""
     for name, other in PAIRS.items():
-        if {name, other} <= given:
-            yield (other, name), "both", "one of the two: it says what is prescribed"
+        if name in names and other in names:
+            report.of((other, name), "both", "one of the two: it says what is prescribed")
 
 
-def _read(row: Parameter, raw: object, key: str, report: Report, known: Known) -> Value | None:
-    names = known.get(row.name, NOTHING)
+def _read(
+    row: Parameter, raw: object, key: str, report: Report, known: Known = NOTHING_KNOWN
+) -> Value | None:
+    names = known.get(row.name, {})
     try:
         return read_value(row, raw, names)
     except ValueError as error:
@@ -212,13 +201,13 @@ def _allowed_name(row: Parameter, raw: object, names: Mapping[str, Definition]) 
 
 
 def _read_axis(
-    row: Parameter, raw: Sequence[object] | Range, key: str, report: Report, known: Known
+    row: Parameter, raw: Sequence[object] | Range, report: Report, known: Known = NOTHING_KNOWN
 ) -> tuple[Value, ...]:
-    also = raw.also if isinstance(raw, Range) else ()
+    key, also = report.key(row.name), raw.also if isinstance(raw, Range) else ()
     elements = _expand(raw, key, report, row.units) if isinstance(raw, Range) else list(raw)
-    keys = [f"{key}[{k}]" for k in range(len(elements))] + [f"{key}.also[{k}]" for k in range(len(also))]
     if not elements and not isinstance(raw, Range):
         report(key, "an empty axis", "at least one value")
+    keys = [f"{key}[{k}]" for k in range(len(elements))] + [f"{key}.also[{k}]" for k in range(len(also))]
     if len(keys) > LONGEST_AXIS:
         report(key, f"{len(keys)} values", f"at most {LONGEST_AXIS} values")
         return ()
@@ -251,7 +240,7 @@ def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
         try:
             # The decimal number that a float is written as, not the binary one that it is.
             text = raw if isinstance(raw, str) else str(read_exact(raw))
-            ends.append(read_angle(text) if units == "rad" else evaluate(text))
+            ends.append(read_angle(text) if units == "rad" else read_exact(text))
         except ValueError as error:
             report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
     if not 2 <= axis.num <= LONGEST_AXIS:

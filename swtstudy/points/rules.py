@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
-from swtstudy.points.grid import Grid, complete, numbers_at, positions
+from swtstudy.points.grid import Grid, complete, numbers_at
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
@@ -166,9 +166,9 @@ def check_sizes(grid: Grid, given: Collection[str], report: Report) -> None:
     Only amplitudes over the mean load fit the latter.
     """
     sized = [load for load in grid.loops if load.mean_normal is not None]
-    for load in sized[: NORMAL_AMPLITUDES.isdisjoint(given)]:
-        mean = f"{load.mean_normal:g}"
-        found = f"{literal(load.name)} with a mean normal load of {mean}, without units"
+    if sized and NORMAL_AMPLITUDES.isdisjoint(given):
+        mean = f"{sized[0].mean_normal:g}"
+        found = f"{literal(sized[0].name)} with a mean normal load of {mean}, without units"
         allowed = f"[units], or swtstudy.physical; or normal_force_amplitude = 1/{mean} or the like"
         report.of("load", found, allowed)
     for load, name in itertools.product(grid.loops, AMPLITUDES):
@@ -235,7 +235,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         if family_of(table).shape or isinstance(table, Definition):
             profiles.setdefault(str(table), {})[code] = table
     for profile, tables in profiles.items():
-        names = family_of(next(iter(tables.values()))).shape
+        names = family_of(profile).shape
         columns = {name: grid.columns[name] for name in ("profile", *names)}
         along = {dim for dims, _ in columns.values() for dim in dims}
         dims, loads = grid.columns["normal_amplitude"]
@@ -250,8 +250,7 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         refused, found, why = 0, "", None
         for start in range(0, math.prod(sizes.values()), _SLAB):
             places = np.arange(start, min(start + _SLAB, math.prod(sizes.values())))
-            at = positions(sizes, places)
-            code, *shapes, load = numbers_at(columns.values(), at, len(places))
+            code, *shapes, load = numbers_at(columns.values(), sizes, places)
             for own, table in tables.items():
                 same = np.flatnonzero(code == own)
                 shape = {name: values[same] for name, values in zip(names, shapes, strict=True)}
@@ -263,7 +262,8 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
                     found = ", ".join(f"{name} = {value:g}" for name, value in first.items()) or profile
                     why = check_shape(table, first, float(depth[wrong[0]]))
                     if told is not None:
-                        found = told({dim: int(index[same[wrong[0]]]) for dim, index in at.items()})
+                        at = np.unravel_index(places[same[wrong[0]]], [*sizes.values()])
+                        found = told(dict(zip(sizes, map(int, at), strict=True)))
                         why = f"{why} (in a_H and δ0)"
                 refused += wrong.size
         if refused:

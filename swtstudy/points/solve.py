@@ -6,7 +6,6 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -108,7 +107,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
 
 
 def solve_grid(
-    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] = MappingProxyType({})
+    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] | None = None
 ) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process.
 
@@ -127,12 +126,10 @@ def solve_grid(
     points = None
     if lazy:
         own: dict[str, tuple[str, ...]] = dict.fromkeys(SOLVED, ()) | asked.variables
+        along = [xr.DataArray(np.arange(n), dims=d).chunk({d: lazy.get(d, n)}) for d, n in grid.sizes.items()]
         made = xr.apply_ufunc(
             partial(_values_of_block, grid, rtol, asked),  # unlike a function in a function it can be pickled
-            *(
-                xr.DataArray(np.arange(size), dims=dim).chunk({dim: lazy.get(dim, size)})
-                for dim, size in grid.sizes.items()
-            ),
+            *along,
             output_core_dims=[*own.values()],
             dask="parallelized",
             output_dtypes=[np.int8 if name == "regime" else float for name in own],

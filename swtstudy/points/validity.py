@@ -69,9 +69,9 @@ LIMITS = (
 )
 
 
-#: One way in which points are outside of the model: a few words with the number of points and the worst
-#: value, empty where another one says it; the same in a line, with the point that is worst.
-Excess = tuple[str, str]
+#: A few words on points beyond a limit of the model, with their number and the worst value: empty where
+#: another finding says it, None if all points are inside. Then the same in a line, with the worst point.
+Finding = tuple[str | None, str]
 
 
 def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]:
@@ -89,8 +89,9 @@ def validity_lines(dataset: xr.Dataset, inside: bool = False) -> tuple[str, ...]
     StudyError
         A ValueError, if the results have been left without s or regime.
     """
-    excesses, within = _found(dataset)
-    return (*(line for _, line in excesses), *(within if inside else ()))
+    found = [*_found(dataset)]
+    beyond = [line for short, line in found if short is not None]
+    return (*beyond, *(line for short, line in found if inside and short is None))
 
 
 def outside_words(dataset: xr.Dataset) -> str:
@@ -103,22 +104,19 @@ def outside_words(dataset: xr.Dataset) -> str:
     >>> outside_words(swtstudy.solve(rtol=1e-2, **forces))
     'Outside of the model: no equilibrium at 1 of 2 points.'
     """
-    words = "; ".join(filter(None, (short for short, _ in _found(dataset)[0])))
+    words = "; ".join(filter(None, (short for short, _ in _found(dataset))))
     return f"Outside of the model: {words}." if words else ""
 
 
-def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
-    """Limits that points exceed, and lines on the limits that no point exceeds."""
+def _found(dataset: xr.Dataset) -> Iterator[Finding]:
+    """Yield what there is to say of every limit."""
     require(dataset, "s", "regime")
     if not dataset.s.size:
-        return [], []
-    found = [
-        (f"{words}{_where(out)}", f"{words}{_where(out)}{more}")
-        for out, words, more in _exceptions(dataset)
-        if out.any()
-    ]
-    found += _lives(dataset)
-    within: list[str] = []
+        return
+    for out, words, more in _exceptions(dataset):
+        if out.any():
+            yield f"{words}{_where(out)}", f"{words}{_where(out)}{more}"
+    yield from _lives(dataset)
     for limit in LIMITS:
         values = _limited(dataset, limit)
         out = values > limit.largest
@@ -126,27 +124,25 @@ def _found(dataset: xr.Dataset) -> tuple[list[Excess], list[str]]:
             continue
         worst = _number(np.nanmax(values))
         line = f"{limit.value} up to {worst}, limit {limit.largest:g}"
-        if out.any():
-            place = _place(dataset, values)
-            line = "; ".join(filter(None, (line + f",{place}" * bool(place), limit.consequence)))
-            short = f"{limit.short}{_where(out)} ({worst} {limit.of})"
-            found.append((short, f"{limit.words}{_where(out)}: {line}"))
-        else:
-            within.append(line)
+        if not out.any():
+            yield None, line
+            continue
+        place = _place(dataset, values)
+        line = "; ".join(filter(None, (line + f",{place}" * bool(place), limit.consequence)))
+        yield f"{limit.short}{_where(out)} ({worst} {limit.of})", f"{limit.words}{_where(out)}: {line}"
     if "stick_zone" in dataset:
         zone = _values(dataset, "stick_zone")
         moved, left = zone != IN_PLACE, (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
         if moved.any() and left.any():
             words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
-            found.append((words, words))
+            yield words, words
         if (some := zone == APPROXIMATE).any():
             words = "the rise of the stress at the edge in tension is right within 4 %"
-            within.append(f"stick zone moved approximately{_where(some)}: {words}")
+            yield None, f"stick zone moved approximately{_where(some)}: {words}"
     if has_units(dataset) and "yield_ratio" not in dataset and "peak_pressure" in dataset:
         pressure = dataset.peak_pressure
         words = f"{pressure.name} up to {_number(pressure.max())}{unit_of(pressure)}"
-        within.append(f"{words}; whether that yields is unknown without a yield_strength")
-    return found, within
+        yield None, f"{words}; whether that yields is unknown without a yield_strength"
 
 
 def _exceptions(dataset: xr.Dataset) -> Iterator[tuple[BoolArray, str, str]]:
@@ -238,7 +234,7 @@ def _above_line(dataset: xr.Dataset) -> BoolArray:
     return _values(dataset, "s_surface") > _values(dataset, "s") + _values(dataset, "s_error")
 
 
-def _lives(dataset: xr.Dataset) -> Iterator[Excess]:
+def _lives(dataset: xr.Dataset) -> Iterator[Finding]:
     """Points with lives beyond the range of their constants."""
     beyond: dict[str, list[str]] = {}  # their names by the words for where
     lines = []
