@@ -125,7 +125,19 @@ def read_places(
     report = Report()
     for name, values in zip("xyz", (x, y, z), strict=True):
         with report:
-            arrays.append(_coordinate(name, values, allowed))
+            given = values if isinstance(values, xr.DataArray) else None
+            numbers = read_numbers(name, values if given is None else given.values, allowed)
+            if given is None and numbers.ndim > 1:
+                raise refused(name, f"{numbers.ndim} dimensions", "a number, a sequence or a DataArray")
+            if numbers.size == 0 or not np.isfinite(numbers).all():
+                raise refused(name, "no or not finite values", allowed)
+            own = (
+                xr.DataArray(numbers, dims=(name,) * numbers.ndim)
+                if given is None
+                else given.copy(data=numbers)
+            )
+            meaning = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
+            arrays.append(own.assign_attrs(named(meaning, rf"{name}/a_H")))
     report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
@@ -140,8 +152,8 @@ def read_places(
         found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
         allowed = "the same coordinates along the dimensions that they share"
         raise refused("x, y, z", found, allowed) from None
-    given = dict(zip("xyz", arrays, strict=True))
-    return given, placed[0].dims, np.stack([place.values for place in placed], axis=-1)
+    places = np.stack([place.values for place in placed], axis=-1)
+    return dict(zip("xyz", arrays, strict=True)), placed[0].dims, places
 
 
 def read_finite(name: str, values: object, allowed: str) -> FloatArray:
@@ -150,21 +162,6 @@ def read_finite(name: str, values: object, allowed: str) -> FloatArray:
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise refused(name, literal(values), allowed)
     return array
-
-
-def _coordinate(name: str, values: object, allowed: str) -> xr.DataArray:
-    if isinstance(values, xr.DataArray):
-        values = values.copy(data=read_numbers(name, values.values, allowed))
-    else:
-        array = read_numbers(name, values, allowed)
-        if array.ndim > 1:
-            found = f"{array.ndim} dimensions"
-            raise refused(name, found, "a number, a sequence or a DataArray")
-        values = xr.DataArray(array, dims=(name,) * array.ndim)
-    if values.size == 0 or not bool(np.isfinite(values).all()):
-        raise refused(name, "no or not finite values", allowed)
-    long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
-    return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
 def named(meaning: str, symbol: str) -> dict[str, str]:

@@ -18,7 +18,6 @@ from swtstudy.points import rules
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
-from swtstudy.points.rules import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop
@@ -82,7 +81,7 @@ def read_contacts(
     rules.check_amplitudes(everything, good, report)
     rules.check_criteria(everything, good, report)
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
-    check_shapes_given(single, {**axes, **samples}, good, report, own)
+    rules.check_shapes_given(single, {**axes, **samples}, good, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         rules.check_loops_alone(good, report)
         return None, report
@@ -300,8 +299,11 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             unit, there = unit_words(grid.row(mistake.key).units), _words(grid, here, mistake.key)
             found = f"{mistake.found}{unit} at {there}{more_like_it(len(wrong))}"
             report.of(mistake.key, found, mistake.allowed)
-    elif all([_in_range(grid, column, report) for column in grid.numbers]):
-        rules.check_shapes(grid, report, told)
+    else:
+        for column in grid.numbers:
+            _check_range(grid, column, report)
+        if not report:
+            rules.check_shapes(grid, report, told)
 
 
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
@@ -333,8 +335,8 @@ def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Repo
         report.of(DISTANCE, found, f"at most {upper * smallest:.4g}{unit}, {upper:g} a_H")
 
 
-def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
-    """Return whether a parameter is in its range everywhere; report the first value that is not."""
+def _check_range(grid: PhysicalGrid, column: str, report: Report) -> None:
+    """Report the first value of a parameter that is out of its range, if it has a unit."""
     row, values = PARAMETERS[column], grid.numbers[column]
     if column in rules.AMPLITUDES:
         # The largest load of a loop counts: its vertices are multiplied.
@@ -348,7 +350,7 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     if column in SHAPE_COLUMNS and row.open_lower:
         wrong &= values.values != 0.0  # the profile has none of it
     if not wrong.any() or not row.scale:
-        return True
+        return
     at = index_at(values, int(wrong.argmax()))
     first, here = tuple(at.values()), _at(grid, at)
     own, number = as_number(here[source]), float(values.values[first])
@@ -364,7 +366,6 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     else:
         allowed = f"{most} {bound * own / number:.4g}{unit}, {bound:g} {scale}"
         report.of(source, f"{own:g}{unit} at {words}, {number:.4g} {scale}{more}", allowed)
-    return False
 
 
 def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:
