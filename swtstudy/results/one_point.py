@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -85,19 +86,14 @@ def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> StudyEr
     return refused(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 
-_NAMES = {
-    "x": "position in the direction of sliding",
-    "y": "position across the direction of sliding",
-    "z": "depth",
-}
-
-
+#: Meanings of x, y and z.
+_MEANINGS = ("position in the direction of sliding", "position across the direction of sliding", "depth")
 #: Allowed coordinates, in words.
 POSITIONS = "finite positions in a_H"
 
 
 def read_places(
-    x: object, y: object, z: object, allowed: str = POSITIONS
+    x: Any, y: Any, z: Any, allowed: str = POSITIONS
 ) -> tuple[dict[str, xr.DataArray], tuple[Hashable, ...], FloatArray]:
     """Coordinates in a_H.
 
@@ -123,21 +119,18 @@ def read_places(
     """
     arrays: list[xr.DataArray] = []
     report = Report()
-    for name, values in zip("xyz", (x, y, z), strict=True):
+    for name, words, values in zip("xyz", _MEANINGS, (x, y, z), strict=True):
         with report:
-            given = values if isinstance(values, xr.DataArray) else None
-            numbers = read_numbers(name, values if given is None else given.values, allowed)
-            if given is None and numbers.ndim > 1:
+            labelled = isinstance(values, xr.DataArray)
+            numbers = read_numbers(name, values.values if labelled else values, allowed)
+            if numbers.ndim > 1 and not labelled:
                 raise refused(name, f"{numbers.ndim} dimensions", "a number, a sequence or a DataArray")
             if numbers.size == 0 or not np.isfinite(numbers).all():
                 raise refused(name, "no or not finite values", allowed)
-            own = (
-                xr.DataArray(numbers, dims=(name,) * numbers.ndim)
-                if given is None
-                else given.copy(data=numbers)
-            )
-            meaning = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
-            arrays.append(own.assign_attrs(named(meaning, rf"{name}/a_H")))
+            if not labelled:
+                values = xr.DataArray(numbers, dims=(name,) * numbers.ndim)
+            meaning = named(f"{words}, in units of a_H = sqrt(R delta0)", rf"{name}/a_H")
+            arrays.append(values.copy(data=numbers).assign_attrs(meaning))
     report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"

@@ -43,16 +43,14 @@ _TOGETHER = (TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
 USUAL: dict[str, Any] = TABLES["usual"]
 
 _log = logging.getLogger(__name__)
+#: A table of a study.
+Table = Mapping[str, Any]
 #: Values of both bodies; none of what is not given, or wrong.
 Both = Sequence[Any]
 
 
 def read_given(
-    labels: Mapping[str, Any],
-    material: Mapping[str, Any] | None,
-    fixed: Mapping[str, object],
-    folder: Path,
-    report: Report,
+    labels: Table, material: Table | None, fixed: Table, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """Units and materials of a study, and the critical distance, None without a threshold.
 
@@ -95,7 +93,7 @@ def two_of(value: object) -> list[Any]:
 
 
 def _read_material(
-    raw: Mapping[str, Any], moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
+    raw: Table, moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
@@ -168,7 +166,7 @@ def _number(raw: object) -> object:
         return raw
 
 
-def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[str, Any]]:
+def _named(raw: Table, folder: Path, report: Report) -> list[dict[str, Any]]:
     """The properties of both bodies by the names of their materials in a file."""
     others = sorted(raw.keys() & {*PROPERTIES})
     if others:

@@ -66,13 +66,8 @@ def read_contacts(
     profiles = [tables.get(each, each) if isinstance(each, str) else each for each in several]
     labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
-    pairs, single = _pairs(fixed, own, report)
-    similar = plain_number(single.pop(units.SIMILAR_KEY, given.similar))
-    if not 0.0 <= similar < math.inf:
-        found = literal(fixed[units.SIMILAR_KEY])
-        report.of(units.SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
-    body_names = _body_names(single, given.body_names, report)
-    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *pairs)
+    given, single = _read_bodies(fixed, given, own, report)
+    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *given.pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
@@ -85,8 +80,7 @@ def read_contacts(
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         rules.check_loops_alone(good, report)
         return None, report
-    about = replace(given, pairs=pairs, similar=similar, body_names=body_names)
-    grid = completed(good_fixed, good_axes, good_samples, about)
+    grid = completed(good_fixed, good_axes, good_samples, given)
     check_bodies(grid, report)
     rules.check_loops(grid, report)
     # Sizes of what stands for a wrong load are no mistakes.
@@ -153,28 +147,13 @@ def completed(
     return grid
 
 
-def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
-    """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
-    raw = single.pop(units.NAMES_KEY, given or None)
-    if raw is None:
-        return ()
-    names = tuple(raw) if isinstance(raw, list | tuple) else ()
-    sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
-    if len(names) != 2 or not sound or names[0] == names[1]:
-        report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
-        return ()
-    body = single.get("body")
-    if isinstance(body, str) and body not in map(str, units.LABELS):
-        if body not in names:
-            report.of("body", literal(body), units.labels_or(names))
-        single["body"] = names.index(body) + 1 if body in names else 1
-    return names
+def _read_bodies(
+    fixed: Mapping[str, object], given: ContactDetails, own: Mapping[str, Parameter], report: Report
+) -> tuple[ContactDetails, dict[str, object]]:
+    """The facts of the two bodies, and the other fixed values, in which the name of a body becomes 1 or 2.
 
-
-def _pairs(
-    fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
-) -> tuple[dict[str, Any], dict[str, object]]:
-    """Split the fixed values into unlike values of both bodies, none where wrong, and the others."""
+    Of unlike values of both bodies there are none where one is wrong.
+    """
     pairs, single = dict[str, Any](), dict(fixed)
     for name in (name for name in units.OF_BODIES if isinstance(fixed.get(name), list | tuple)):
         raw: Any = single.pop(name)
@@ -187,7 +166,22 @@ def _pairs(
             single[name] = two[0]
         else:
             pairs[name] = two if len(two) == 2 else ()
-    return pairs, single
+    similar = plain_number(single.pop(units.SIMILAR_KEY, given.similar))
+    if not 0.0 <= similar < math.inf:
+        found = literal(fixed[units.SIMILAR_KEY])
+        report.of(units.SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
+    raw = single.pop(units.NAMES_KEY, given.body_names or None)
+    names = tuple(raw) if isinstance(raw, list | tuple) else ()
+    sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
+    if raw is not None and (len(names) != 2 or not sound or names[0] == names[1]):
+        report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
+        names = ()
+    body = single.get("body")
+    if names and isinstance(body, str) and body not in map(str, units.LABELS):
+        if body not in names:
+            report.of("body", literal(body), units.labels_or(names))
+        single["body"] = names.index(body) + 1 if body in names else 1
+    return replace(given, pairs=pairs, similar=similar, body_names=names), single
 
 
 def _check_given(everything: set[str], good: NamedValues, own: dict[str, Parameter], report: Report) -> None:
