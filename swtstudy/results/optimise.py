@@ -246,11 +246,11 @@ class Search:
     points, values
         Shapes (n, d) and (n,): all points that were solved, in the unit cube, and the values times the sign.
     best
-        Shape (d,): the point of the least of them.
+        Shape (d,): the point with the least of these values.
     searched
         Value of the quantity at the best point before the polish.
     progress
-        Its least value times the sign after each generation; infinite before there was a finite one.
+        The least value so far after each generation; infinite before there was a finite one.
     converged
         True if the population of the search has converged.
 

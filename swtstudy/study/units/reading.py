@@ -152,7 +152,7 @@ def _read_bodies(
 ) -> tuple[ContactDetails, dict[str, object]]:
     """The facts of the two bodies, and the other fixed values, in which the name of a body becomes 1 or 2.
 
-    Of unlike values of both bodies there are none where one is wrong.
+    A pair of values is empty if one of them is wrong.
     """
     pairs, single = dict[str, Any](), dict(fixed)
     for name in (name for name in units.OF_BODIES if isinstance(fixed.get(name), list | tuple)):
