@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
+from functools import cache
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,7 @@ from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import number, read_table
-from swtstudy.study.definition import Study, study_from, tables_of
+from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
@@ -155,48 +156,45 @@ class _Tests:
     distances
         Critical distances at which lives are computed: up to the first at which a test has no finite life at
         the study's friction, since deep beneath the surface there may be no tension.
-    known
-        log10 of the lives over the logarithm of the distance, by friction; None is the study's. For a trial
-        friction as far as all lives are finite, and None if they are so at fewer than four distances.
+    curve
+        See `_curve`, which it calls once for each friction.
     """
 
     def __init__(self, grid: PhysicalGrid, observed: FloatArray, runout: BoolArray, y: str) -> None:
         self.grid, self.observed, self.runout, self.y = grid, observed, runout, y
         self.distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
-        lives = self._lives(None)
-        wrong = np.flatnonzero(~np.isfinite(lives[:, :_LEAST_OF_SPLINE]).all(axis=1))
-        if wrong.size:
-            found = f"no finite life of test {', '.join(map(str, (wrong + 1).tolist()))}"
-            raise refused("tests", found, "tests with equilibrium and tension")
-        self.known: dict[float | None, Any] = {None: self._spline(lives)}
-        self.distances = self.distances[: self.known[None].x.size]
+        self.curve = cache(self._curve)
+        self.distances = self.distances[: self.curve(None).x.size]
 
-    def _lives(self, friction: float | None) -> FloatArray:
-        """log10 of lives at the distances, shape (n, k); lives of tests that survived may be unbounded."""
-        lives = _lives(self.grid, self.y, self.distances, friction)
-        return np.where(self.runout[:, None], np.minimum(lives, UNBOUNDED), lives)
+    def _curve(self, friction: float | None) -> Any:
+        """log10 of lives, shape (n,), over the logarithm of the distance, as far as all are finite.
 
-    def _spline(self, lives: FloatArray) -> Any:
-        """Lives, shape (n, k), between the distances up to which all are finite; None if these are few."""
+        Lives of tests that survived may be unbounded. At a trial friction None if there are too few of them;
+        at the study's friction, None, a StudyError.
+        """
         from scipy.interpolate import CubicSpline
 
-        many = int(np.append(np.isfinite(lives).all(axis=0), False).argmin())
-        if many < _LEAST_OF_SPLINE:
-            return None
-        return CubicSpline(np.log(self.distances[:many]), lives[:, :many], axis=1)
+        lives = _lives(self.grid, self.y, self.distances, friction)
+        lives = np.where(self.runout[:, None], np.minimum(lives, UNBOUNDED), lives)
+        finite = np.isfinite(lives)
+        many = int(np.append(finite.all(axis=0), False).argmin())
+        if many >= _LEAST_OF_SPLINE:
+            return CubicSpline(np.log(self.distances[:many]), lives[:, :many], axis=1)
+        if friction is None:
+            wrong = np.flatnonzero(~finite[:, :_LEAST_OF_SPLINE].all(axis=1)) + 1
+            found = f"no finite life of test {', '.join(map(str, wrong.tolist()))}"
+            raise refused("tests", found, "tests with equilibrium and tension")
+        return None
 
     def residuals(self, logarithms: Any) -> FloatArray:
         """log10 of predicted over observed lives, shape (n,), at logarithms of distance and friction.
 
         They are inf where a trial friction leaves a test without a finite life.
         """
-        own = math.exp(logarithms[1]) if len(logarithms) > 1 else None
-        if own not in self.known:
-            self.known[own] = self._spline(self._lives(own))
-        known = self.known[own]
-        if known is None or logarithms[0] > known.x[-1]:  # unlike any test
+        curve = self.curve(math.exp(logarithms[1]) if len(logarithms) > 1 else None)
+        if curve is None or logarithms[0] > curve.x[-1]:  # unlike any test
             return np.full(len(self.observed), np.inf)
-        return np.asarray(known(logarithms[0])) - self.observed
+        return np.asarray(curve(logarithms[0])) - self.observed
 
     def spread(self, logarithms: Any) -> float:
         """Logarithm of the scatter, but for run-outs that are predicted to survive; see `residuals`."""
@@ -356,8 +354,19 @@ def _read(
         report.append(Mistake("tests", f"the column {LIFE} alone", "parameters that vary, besides"))
     grid = None
     if columns:
-        with report:
-            grid = _with_tests(raw, Path(study), columns, place).grid
+        # The tests are the sample of the study: mistakes in it are mistakes in them, or in their file.
+        kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
+        fixed, replaced = raw.get("fixed", {}), columns.keys() | {DISTANCE}
+        kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced}
+        kept["sample"] = {"points": columns}
+        try:
+            grid = study_from(kept, "", str(study), Path(study).parent).grid
+        except StudyError as error:
+            for mistake in error.mistakes:
+                key = re.sub(r"\bsample(\.points)?\b", "tests", mistake.key)
+                if key != mistake.key:
+                    mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
+                report.append(mistake)
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
@@ -400,24 +409,6 @@ def _observed(
         found = number_of(cracked, "test") + " with a crack" * any(runout)
         report("" if source else "tests", found, f"{parameters + 1} at least")
     return numbers, runout, report
-
-
-def _with_tests(raw: dict[str, Any], path: Path, columns: dict[str, list[Any]], place: str) -> Study:
-    """The study with the tests as its sample; mistakes in these are named as theirs, or of their file."""
-    kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
-    own = columns.keys() | {DISTANCE}
-    kept["fixed"] = {name: value for name, value in raw.get("fixed", {}).items() if name not in own}
-    kept["sample"] = {"points": columns}
-    try:
-        return study_from(kept, "", str(path), path.parent)
-    except StudyError as error:
-        keys = [re.sub(r"\bsample(\.points)?\b", "tests", mistake.key) for mistake in error.mistakes]
-        raise StudyError(
-            mistake
-            if key == mistake.key
-            else replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
-            for key, mistake in zip(keys, error.mistakes, strict=True)
-        ) from None
 
 
 def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:

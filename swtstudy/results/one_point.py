@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -85,19 +86,14 @@ def _no_equilibrium(points: Points, parameters: Mapping[str, object]) -> StudyEr
     return refused(name, found, "forces with |F_x| ≤ μ F_N and F_N ≥ 0 at every instant")
 
 
-_NAMES = {
-    "x": "position in the direction of sliding",
-    "y": "position across the direction of sliding",
-    "z": "depth",
-}
-
-
+#: Meanings of x, y and z.
+_MEANINGS = ("position in the direction of sliding", "position across the direction of sliding", "depth")
 #: Allowed coordinates, in words.
 POSITIONS = "finite positions in a_H"
 
 
 def read_places(
-    x: object, y: object, z: object, allowed: str = POSITIONS
+    x: Any, y: Any, z: Any, allowed: str = POSITIONS
 ) -> tuple[dict[str, xr.DataArray], tuple[Hashable, ...], FloatArray]:
     """Coordinates in a_H.
 
@@ -123,9 +119,18 @@ def read_places(
     """
     arrays: list[xr.DataArray] = []
     report = Report()
-    for name, values in zip("xyz", (x, y, z), strict=True):
+    for name, words, values in zip("xyz", _MEANINGS, (x, y, z), strict=True):
         with report:
-            arrays.append(_coordinate(name, values, allowed))
+            labelled = isinstance(values, xr.DataArray)
+            numbers = read_numbers(name, values.values if labelled else values, allowed)
+            if numbers.ndim > 1 and not labelled:
+                raise refused(name, f"{numbers.ndim} dimensions", "a number, a sequence or a DataArray")
+            if numbers.size == 0 or not np.isfinite(numbers).all():
+                raise refused(name, "no or not finite values", allowed)
+            if not labelled:
+                values = xr.DataArray(numbers, dims=(name,) * numbers.ndim)
+            meaning = named(f"{words}, in units of a_H = sqrt(R delta0)", rf"{name}/a_H")
+            arrays.append(values.copy(data=numbers).assign_attrs(meaning))
     report.refuse()
     if float(arrays[2].min()) < 0.0:
         found = f"{float(arrays[2].min()):g}"
@@ -140,8 +145,8 @@ def read_places(
         found = f"DataArrays that do not fit together ({str(error).splitlines()[0]})"
         allowed = "the same coordinates along the dimensions that they share"
         raise refused("x, y, z", found, allowed) from None
-    given = dict(zip("xyz", arrays, strict=True))
-    return given, placed[0].dims, np.stack([place.values for place in placed], axis=-1)
+    places = np.stack([place.values for place in placed], axis=-1)
+    return dict(zip("xyz", arrays, strict=True)), placed[0].dims, places
 
 
 def read_finite(name: str, values: object, allowed: str) -> FloatArray:
@@ -150,21 +155,6 @@ def read_finite(name: str, values: object, allowed: str) -> FloatArray:
     if array.ndim > 1 or array.size == 0 or not np.isfinite(array).all():
         raise refused(name, literal(values), allowed)
     return array
-
-
-def _coordinate(name: str, values: object, allowed: str) -> xr.DataArray:
-    if isinstance(values, xr.DataArray):
-        values = values.copy(data=read_numbers(name, values.values, allowed))
-    else:
-        array = read_numbers(name, values, allowed)
-        if array.ndim > 1:
-            found = f"{array.ndim} dimensions"
-            raise refused(name, found, "a number, a sequence or a DataArray")
-        values = xr.DataArray(array, dims=(name,) * array.ndim)
-    if values.size == 0 or not bool(np.isfinite(values).all()):
-        raise refused(name, "no or not finite values", allowed)
-    long_name = f"{_NAMES[name]}, in units of a_H = sqrt(R delta0)"
-    return values.assign_attrs(long_name=long_name, units="1", symbol=rf"{name}/a_H")
 
 
 def named(meaning: str, symbol: str) -> dict[str, str]:

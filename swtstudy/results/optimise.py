@@ -14,7 +14,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -69,9 +68,8 @@ class Box:
 
     def sample(self, unit: FloatArray) -> Grid:
         """The grid whose sample is n points of the unit cube, shape (n, d)."""
-        columns = zip(self.names, self.values(unit).T, strict=True)
         axes = {name: values for name, values in self.corners.axes.items() if name not in self.names}
-        samples = {name: tuple(column.tolist()) for name, column in columns}
+        samples = dict(zip(self.names, map(tuple, self.values(unit).T.tolist()), strict=True))
         return replace(self.corners, axes=axes, samples=samples)
 
 
@@ -98,50 +96,8 @@ def worst(values: xr.DataArray) -> FloatArray:
     return np.asarray((values.min(others) if values.name in LIVES else values.max(others)).values, float)
 
 
-class Objective:
-    """A quantity, or its negative, at points of a box; counts them, and keeps what it has found.
-
-    Parameters
-    ----------
-    box
-        The box.
-    solve
-        Results on a grid.
-    quantity
-        Name of the data variable.
-    sign
-        1 where its least value is wanted, -1 where the greatest is.
-    """
-
-    def __init__(self, box: Box, solve: Callable[[Grid], xr.Dataset], quantity: str, sign: int) -> None:
-        self._box, self._solve, self._quantity, self.sign = box, solve, quantity, sign
-        self.points = np.empty((0, len(box.names)))
-        self.values = np.empty(0)
-
-    def __call__(self, unit: FloatArray) -> FloatArray:
-        """Values at points of the unit cube, shape (n, d) to (n,); infinite where there is none."""
-        found = worst(self._solve(self._box.sample(unit))[self._quantity])
-        values = np.where(np.isfinite(found), self.sign * found, np.inf)
-        self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
-        return values
-
-
-#: Points of a generation: so many for each parameter, about scipy's 15, and not fewer than the latter.
-_POINTS_EACH, _LEAST = 16, 64
-#: The search goes so far beyond the ends of a range, which counts as the ends: extremes are often there, and
-#: differential evolution sends what leaves its bounds back to anywhere inside.
-_BEYOND = 0.1
-#: Generations at most; most searches converge before.
-_GENERATIONS = 100
-#: A population has converged when its values differ by this fraction of their mean: the polish does the rest.
-_SPREAD = 0.01
-
-
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
 _DIFFERENCE, _SMALLEST_DIFFERENCE = 0.03, 1e-6
-
-#: Distances, as fractions, within which the lowest point is tried: curvature spoils long steps.
-_FRACTIONS = (1.0, 0.3)
 #: A plane that is off by this fraction of its rise is bent by a kink.
 _BENT = 0.2
 
@@ -188,7 +144,7 @@ def lowest_of(planes: Planes, centre: FloatArray, value: float, distance: float)
     scale = max(float(np.abs(planes.gradients).max()) * distance, np.finfo(float).tiny)
     slopes = planes.gradients * distance / scale
     low, high = np.maximum(-centre / distance, -1.0), np.minimum((1.0 - centre) / distance, 1.0)
-    for fraction in _FRACTIONS:
+    for fraction in (1.0, 0.3):  # curvature spoils long steps
         found = linprog(
             np.append(np.zeros(len(centre)), 1.0),
             A_ub=np.column_stack([slopes, -np.ones(len(slopes))]),
@@ -218,11 +174,6 @@ def newton(planes: Planes, centre: FloatArray, distance: float) -> FloatArray:
 #: Where the search begins and where it ends, as a distance in the unit cube. At the end a kink of the slope 1
 #: is known to 1e-5, and mostly far better: planes miss it by the square of the distance.
 _FIRST, _LAST = 0.05, 1e-5
-#: The distance is multiplied by this where the best point has hardly moved; 0.35 takes a fifth fewer points,
-#: and leaves 2e-3 of a random kink of five parameters instead of 3e-4.
-_SHRINK = 0.5
-#: It has moved, if by more than this fraction of the distance.
-_MOVED = 0.5
 #: Planes in a round for each parameter: all that meet in a kink have to be found sooner or later.
 _PLANES_EACH = 2
 #: Planes that count are so many distances away at most.
@@ -260,8 +211,9 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
             if values[lowest] < value:
                 moved = float(np.abs(points[lowest] - best).max())
                 best, value = points[lowest], float(values[lowest])
-        if moved < _MOVED * distance:
-            distance *= _SHRINK
+        if moved < 0.5 * distance:
+            # 0.35 takes a fifth fewer points, and leaves 2e-3 of a random kink of five parameters, not 3e-4.
+            distance *= 0.5
         if distance < _LAST:
             return
 
@@ -273,94 +225,110 @@ _POLISHED, _APART = 8, 0.1
 _TRIAL = 8
 
 
-class Least(NamedTuple):
-    """The least value of an objective, and how it was found.
+class Search:
+    """The search of the unit cube for the least value of a quantity, or of its negative.
+
+    Parameters
+    ----------
+    solve
+        Results at points of the unit cube, from their shape (n, d).
+    dimensions
+        d.
+    quantity
+        Name of the data variable.
+    sign
+        1 where its least value is wanted, -1 where the greatest is.
+    seed
+        Seed of the random numbers.
 
     Attributes
     ----------
-    unit
-        Shape (d,): where it is, in the unit cube.
+    points, values
+        Shapes (n, d) and (n,): all points that were solved, in the unit cube, and the values times the sign.
+    best
+        Shape (d,): the point with the least of these values.
     searched
-        Value of the quantity there before the polish.
+        Value of the quantity at the best point before the polish.
     progress
-        Its value after each generation of the search; infinite before there was a finite one.
+        The least value so far after each generation; infinite before there was a finite one.
     converged
-        Whether the population of the search has converged.
-    evaluations
-        Number of points evaluated.
-    """
-
-    unit: FloatArray
-    searched: float
-    progress: FloatArray
-    converged: bool
-    evaluations: int
-
-
-def least(objective: Objective, dimensions: int, seed: int) -> Least:
-    """The least value of an objective in the unit cube: a search of the whole, then a polish.
+        True if the population of the search has converged.
 
     Raises
     ------
     StudyError
-        If it has no finite value anywhere.
+        If there is no finite value anywhere.
     """
-    from scipy.optimize import differential_evolution
 
-    lowest: list[float] = []
+    def __init__(
+        self, solve: Callable[[FloatArray], xr.Dataset], dimensions: int, quantity: str, sign: int, seed: int
+    ) -> None:
+        from scipy.optimize import differential_evolution
 
-    def batch(columns: FloatArray) -> FloatArray:
-        values = objective(np.clip(columns.T, 0.0, 1.0))
-        lowest.append(float(values.min()))
+        self._solve, self._quantity, self._sign = solve, quantity, sign
+        self.points, self.values = np.empty((0, dimensions)), np.empty(0)
+        generations: list[float] = []
+
+        def generation(columns: FloatArray) -> FloatArray:
+            values = self._at(np.clip(columns.T, 0.0, 1.0))
+            generations.append(float(values.min()))
+            return values
+
+        found = differential_evolution(
+            generation,
+            # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
+            # sends what leaves its bounds back to anywhere inside.
+            [(-0.1, 1.1)] * dimensions,
+            popsize=max(16, 64 // dimensions),  # about scipy's 15 for each parameter, and 64 at least
+            init="sobol",
+            maxiter=100,  # most searches converge before
+            tol=0.01,  # values differ by this fraction of their mean: the polish does the rest
+            seed=seed,
+            polish=False,
+            updating="deferred",
+            vectorized=True,
+        )
+        searched = float(self.values.min())
+        if not np.isfinite(searched):
+            words = f"no finite value at any of {len(self.values)} points"
+            raise refused("over", words, "ranges in which the quantity is finite somewhere")
+        self.searched, self.converged = sign * searched, bool(found.success)
+        self.progress = sign * np.minimum.accumulate(generations)
+        self._polish(seed)
+        self.best = self.points[self.values.argmin()]
+
+    def _at(self, unit: FloatArray) -> FloatArray:
+        """Values times the sign at points of the unit cube, (n, d) to (n,); infinite where there is none."""
+        found = worst(self._solve(unit)[self._quantity])
+        values = np.where(np.isfinite(found), self._sign * found, np.inf)
+        self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
         return values
 
-    found = differential_evolution(
-        batch,
-        [(-_BEYOND, 1.0 + _BEYOND)] * dimensions,
-        popsize=max(_POINTS_EACH, _LEAST // dimensions),
-        init="sobol",
-        maxiter=_GENERATIONS,
-        tol=_SPREAD,
-        seed=seed,
-        polish=False,
-        updating="deferred",
-        vectorized=True,
-    )
-    searched = float(objective.values.min())
-    if not np.isfinite(searched):
-        words = f"no finite value at any of {len(objective.values)} points"
-        raise refused("over", words, "ranges in which the quantity is finite somewhere")
-    _polish_together(objective, seed)
-    unit, sign = objective.points[objective.values.argmin()], objective.sign
-    progress = sign * np.minimum.accumulate(lowest)
-    return Least(unit, sign * searched, progress, bool(found.success), len(objective.values))
-
-
-def _polish_together(objective: Objective, seed: int) -> None:
-    """Polish the best points; what all of them ask for next is one batch, in which a point costs less."""
-    # The best points that are apart from better ones.
-    begin: list[int] = []
-    for row in objective.values.argsort(kind="stable")[: np.isfinite(objective.values).sum()].tolist():
-        away = [np.abs(objective.points[row] - objective.points[other]).max() for other in begin]
-        if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
-            begin.append(row)
-    polishes = [polish(objective.points[row], float(objective.values[row]), seed) for row in begin]
-    lowest = dict(zip(polishes, objective.values[begin].tolist(), strict=True))
-    asked = {each: next(each) for each in polishes}
-    for batch in itertools.count(1):
-        values = objective(np.concatenate(list(asked.values())))
-        ends = np.cumsum([len(points) for points in asked.values()])
-        for each, part in zip(list(asked), np.split(values, ends[:-1]), strict=True):
-            lowest[each] = min(lowest[each], *part)
-            try:
-                asked[each] = each.send(part)
-            except StopIteration:
-                del asked[each]
-        if not asked:
-            return
-        if batch % _TRIAL == 0:
-            leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
-            asked = {each: asked[each] for each in leading}
+    def _polish(self, seed: int) -> None:
+        """Polish the best points; what all of them ask for next is one batch, in which a point costs less."""
+        # The best points that are apart from better ones.
+        begin: list[int] = []
+        for row in self.values.argsort(kind="stable")[: np.isfinite(self.values).sum()].tolist():
+            away = [np.abs(self.points[row] - self.points[other]).max() for other in begin]
+            if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
+                begin.append(row)
+        polishes = [polish(self.points[row], float(self.values[row]), seed) for row in begin]
+        lowest = dict(zip(polishes, self.values[begin].tolist(), strict=True))
+        asked = {each: next(each) for each in polishes}
+        for batch in itertools.count(1):
+            values = self._at(np.concatenate(list(asked.values())))
+            ends = np.cumsum([len(points) for points in asked.values()])
+            for each, part in zip(list(asked), np.split(values, ends[:-1]), strict=True):
+                lowest[each] = min(lowest[each], *part)
+                try:
+                    asked[each] = each.send(part)
+                except StopIteration:
+                    del asked[each]
+            if not asked:
+                return
+            if batch % _TRIAL == 0:
+                leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
+                asked = {each: asked[each] for each in leading}
 
 
 _NOT_ALWAYS = ("s_error", "run", *MARGINS)
@@ -371,56 +339,6 @@ MINIMISED = (
 )
 #: Steps of the neighbourhood, as fractions of a range.
 _STEPS = np.linspace(-0.1, 0.1, 41)
-
-
-def dataset_of(
-    box: Box, found: Mapping[str, Least], quantity: str, solve: Callable[[Grid], xr.Dataset]
-) -> xr.Dataset:
-    """The Dataset of the optima by case; see `swtstudy.optimise`."""
-    optima = [*found.values()]
-    units = np.array([each.unit for each in optima])
-    cases = solve(box.sample(units)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
-    own = {key: words for key, words in cases[quantity].attrs.items() if key in ("units", "symbol")}
-    searched = {"long_name": f"{quantity} before the polish", **own}
-    progress = {"long_name": f"{quantity} after each generation", **own}
-    rows = [*itertools.zip_longest(*(each.progress for each in optima), fillvalue=np.nan)]
-    converged = np.array([each.converged for each in optima], np.int8)
-    evaluations = [each.evaluations for each in optima]
-    cases = cases.assign_coords(case=[*found]).assign(
-        searched=("case", [each.searched for each in optima], searched),
-        progress=(("case", "generation"), np.array(rows).T, progress),
-        converged=("case", converged, {"long_name": "whether the search converged"}),
-        evaluations=("case", evaluations, {"long_name": "number of points solved"}),
-    )
-    return cases.merge(_neighbourhood(box, units, quantity, own, solve))
-
-
-def _neighbourhood(
-    box: Box, units: FloatArray, quantity: str, own: dict[str, str], solve: Callable[[Grid], xr.Dataset]
-) -> xr.Dataset:
-    """The quantity along each parameter through each of n points of the unit cube, shape (n, d)."""
-    d = units.shape[1]
-    # Shape (cases, d, steps, d): every parameter is stepped by itself.
-    places = units[:, None, None, :] + np.eye(d)[:, None, :] * _STEPS[:, None]
-    inside = ((places >= 0.0) & (places <= 1.0)).all(axis=-1)
-    found = np.full(inside.shape, np.nan)
-    found[inside] = worst(solve(box.sample(places[inside]))[quantity])
-    stepped = np.moveaxis(np.diagonal(box.values(places), axis1=1, axis2=3), -1, 1)
-    along = ("case", "parameter", "step")
-    values = np.where(inside, stepped, np.nan)
-    words = {"long_name": "value of the parameter", "comment": "the other parameters are as in the case"}
-    return xr.Dataset(
-        {"nearby": (along, found, {"long_name": f"{quantity} along each parameter", **own})},
-        {
-            "nearby_value": (along, values, words),
-            "parameter": list(box.names),
-            "step": ("step", _STEPS, {"long_name": "step as a fraction of the range"}),
-        },
-    )
-
-
-#: Goals, and the sign that makes each the least of something.
-CASES = {"best": 1, "worst": -1}
 
 
 @with_parameters(PARAMETERS.values())
@@ -490,14 +408,45 @@ def optimise(
 
 def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
     """The best and the worst points of a box; see `optimise`. The best life is the longest."""
-    turn = -1 if minimise in LIVES else 1
-    solve = partial(solve_grid, rtol=rtol, asked=asked)
-    objectives = {case: Objective(box, solve, minimise, turn * sign) for case, sign in CASES.items()}
+
+    def solve(unit: FloatArray) -> xr.Dataset:
+        return solve_grid(box.sample(unit), rtol, asked)
+
+    d, best = len(box.names), -1 if minimise in LIVES else 1
     with Progress(None, "optimise"):
-        found = {case: least(each, len(box.names), seed) for case, each in objectives.items()}
-        dataset = dataset_of(box, found, minimise, solve)
-    without = sum(int(np.isinf(objective.values).sum()) for objective in objectives.values())
-    return dataset.assign_attrs(minimise=minimise, seed=seed, without_value=without)
+        signs = {"best": best, "worst": -best}
+        found = {case: Search(solve, d, minimise, sign, seed) for case, sign in signs.items()}
+        units = np.array([each.best for each in found.values()])
+        cases = solve(units).drop_vars(SAMPLE).rename({SAMPLE: "case"})
+        # The neighbourhood, shape (cases, d, steps, d): every parameter is stepped by itself.
+        places = units[:, None, None, :] + np.eye(d)[:, None, :] * _STEPS[:, None]
+        inside = ((places >= 0.0) & (places <= 1.0)).all(axis=-1)
+        nearby = np.full(inside.shape, np.nan)
+        nearby[inside] = worst(solve(places[inside])[minimise])
+    stepped = np.moveaxis(np.diagonal(box.values(places), axis1=1, axis2=3), -1, 1)
+    own = {key: words for key, words in cases[minimise].attrs.items() if key in ("units", "symbol")}
+    searches, along = [*found.values()], ("case", "parameter", "step")
+    rows = [*itertools.zip_longest(*(each.progress for each in searches), fillvalue=np.nan)]
+    searched = {"long_name": f"{minimise} before the polish", **own}
+    progress = {"long_name": f"{minimise} after each generation", **own}
+    converged = np.array([each.converged for each in searches], np.int8)
+    evaluations = [len(each.values) for each in searches]
+    cases = cases.assign(
+        searched=("case", [each.searched for each in searches], searched),
+        progress=(("case", "generation"), np.array(rows).T, progress),
+        converged=("case", converged, {"long_name": "whether the search converged"}),
+        evaluations=("case", evaluations, {"long_name": "number of points solved"}),
+        nearby=(along, nearby, {"long_name": f"{minimise} along each parameter", **own}),
+    )
+    words = {"long_name": "value of the parameter", "comment": "the other parameters are as in the case"}
+    cases = cases.assign_coords(
+        case=[*found],
+        nearby_value=(along, np.where(inside, stepped, np.nan), words),
+        parameter=list(box.names),
+        step=("step", _STEPS, {"long_name": "step as a fraction of the range"}),
+    )
+    without = sum(int(np.isinf(each.values).sum()) for each in searches)
+    return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 
 
 def check_asked(report: Report, minimise: object, rtol: object, seed: object, known: Collection[str]) -> None:

@@ -5,13 +5,12 @@ swt, or another criterion, over the body is the field of which s is the maximum.
 
 from __future__ import annotations
 
-from collections.abc import Hashable
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from swtstudy.kernel.field import Opened, contact_radii, criterion_at, instants_at, stress_at
+from swtstudy.kernel.field import contact_radii, criterion_at, instants_at, stress_at
 from swtstudy.kernel.punch import COMPONENTS
 from swtstudy.results.history import one_of_both
 from swtstudy.results.one_point import (
@@ -24,8 +23,6 @@ from swtstudy.results.one_point import (
     read_places,
     turns_of,
 )
-from swtstudy.solver.points import Points
-from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.mistakes import refused
 from swtstudy.vocabulary.variables import flag_attributes
@@ -85,12 +82,19 @@ def stress_field(
     if taken:
         found = f"a dimension named {' and '.join(taken)}"
         raise refused("x, y, z", found, "other names: these belong to the instants")
-    rounds = turns_of(points)
+    rounds, flat = turns_of(points), places.reshape(-1, 3)
     if time is None:
-        instants, history = _at_own_instants(points, opened, own, places)
+        every = [instants_at(opened, place, _OF_INSTANTS) for place in flat]
+        count = max(angle.size for angle in every)
+        angles, history = np.empty((len(flat), count)), np.empty((len(flat), count, 6))
+        for k, angle in enumerate(every):
+            index = np.minimum(np.arange(count), angle.size - 1)
+            angles[k], history[k] = angle[index], stress_at(opened, flat[k : k + 1], angle)[0, index]
+        times = np.moveaxis(rounds * angles, -1, 0).reshape(count, *places.shape[:-1])
+        instants = labelled_time(points, times, ("instant", *own))
     else:
         instants = read_instants(points, time)
-        history = stress_at(opened, places.reshape(-1, 3), instants.values.ravel() / rounds)
+        history = stress_at(opened, flat, instants.values.ravel() / rounds)
     over = tuple(dim for dim in instants.dims if dim not in own)
     dims = (*over, *own)
     stress = np.moveaxis(history, -2, 0).reshape(*instants.shape[: len(over)], *places.shape[:-1], 6)
@@ -102,21 +106,6 @@ def stress_field(
     meaning = named("contact radius, in units of a_H = sqrt(R delta0)", "a/a_H")
     variables["contact_radius"] = (instants.dims, radius, meaning)
     return xr.Dataset(variables, {"time": instants, **coordinates})
-
-
-def _at_own_instants(
-    points: Points, opened: Opened, dims: tuple[Hashable, ...], places: FloatArray
-) -> tuple[xr.DataArray, FloatArray]:
-    """ω1 t over instant and the dimensions of the positions, and the stress, shape (n, T, 6)."""
-    flat = places.reshape(-1, 3)
-    angles = [instants_at(opened, place, _OF_INSTANTS) for place in flat]
-    count = max(angle.size for angle in angles)
-    instant, stress = np.empty((len(flat), count)), np.empty((len(flat), count, 6))
-    for k, angle in enumerate(angles):
-        every = np.minimum(np.arange(count), angle.size - 1)
-        instant[k], stress[k] = angle[every], stress_at(opened, flat[k : k + 1], angle)[0, every]
-    time = np.moveaxis(turns_of(points) * instant, -1, 0).reshape(count, *places.shape[:-1])
-    return labelled_time(points, time, ("instant", *dims)), stress
 
 
 def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Dataset:

@@ -226,17 +226,13 @@ class Contact:
 
     @property
     def shape_parameters(self) -> dict[str, float]:
-        """The non-dimensional parameters of its profile."""
-        return {name: self._number_of(name, value) for name, value in self.shape.items()}
-
-    def _number_of(self, name: str, value: float) -> float:
-        """The non-dimensional parameter from its length; what is no length stays as it is."""
-        if not PARAMETERS[name].scale:
-            return value
-        unit = SCALES[PARAMETERS[name].scale].of(self)
-        if unit == 0.0:
-            return math.inf if value else 0.0
-        return value / unit
+        """The non-dimensional parameters of its profile; what is no length stays as it is."""
+        found = dict(self.shape)
+        for name, value in self.shape.items():
+            if scale := PARAMETERS[name].scale:
+                unit = SCALES[scale].of(self)
+                found[name] = value / unit if unit else math.inf if value else 0.0
+        return found
 
     def length_of(self, name: str, number: Any) -> Any:
         """The length of a non-dimensional parameter; what is no length stays as it is."""

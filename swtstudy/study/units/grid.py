@@ -287,7 +287,8 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def bodies(self) -> xr.Variable:
         """Indices of the bodies of the points, 0 or 1; the first one where they are alike."""
-        return (self.along("body") - 1 if self.values("body") else _scalar(0)).astype(int)
+        labels = self.values("body") or (1.0,)
+        return self.over_dimension("body", np.array([int(as_number(label)) - 1 for label in labels]))
 
     @cached_property
     def numbers(self) -> dict[str, xr.Variable]:
@@ -302,14 +303,14 @@ class PhysicalGrid(ContactDetails, Grid):
             source, known = self.control.given_for(column), {*GIVEN_COLUMNS} - {*found}
             if row.kind == "number" and column in known and self.values(source):
                 scale, values = PARAMETERS[source].scale, self.along(source)
-                unit = self.each(SCALES[scale].of) if scale else _scalar(1.0)
+                unit: Any = self.each(SCALES[scale].of) if scale else 1.0
                 with np.errstate(divide="ignore", invalid="ignore"):
                     found[column] = (values / unit).where((values != 0.0) | (unit != 0.0), 0.0)
         if self.yield_strengths:
             # κ over k: the unit of stress over the strength of the body, or 1 where that does not count.
-            unit = self.of_bodies(lambda contact, body: contact.stress_scale / self.yield_strengths[body])
+            share = self.of_bodies(lambda contact, body: contact.stress_scale / self.yield_strengths[body])
             is_ours = np.array([bool(CRITERIA[str(each)].normal_unit) for each in self.values("criterion")])
-            scale_of_k = unit.where(self.over_dimension("criterion", is_ours), 1.0)
+            scale_of_k = share.where(self.over_dimension("criterion", is_ours), 1.0)
             found["normal_sensitivity"] = found["normal_sensitivity"] * scale_of_k
         if self.values("bulk_stress_ratio"):
             found["bulk_stress_mean"] = self.mean_of_bulk(found["bulk_stress_amplitude"])
@@ -334,8 +335,7 @@ class PhysicalGrid(ContactDetails, Grid):
         """A parameter of the bodies, of each point's own body."""
         if name not in self.pairs:
             return self.along(name)
-        one, two = self.pairs[name]
-        return _scalar(one).where(self.bodies == 0, two)
+        return self.bodies.copy(data=np.array(self.pairs[name])[self.bodies.values])
 
     def _columns(self) -> dict[str, Column]:
         """See `Grid.columns`: in the units of the contacts at rest."""
@@ -348,7 +348,7 @@ class PhysicalGrid(ContactDetails, Grid):
             # With rounded edges: beside the face a/R is the slope.
             "face": self.each(lambda contact: contact.flat * (contact.profile != SHARP)) / length,
             "slip_scale": self.each(SCALES["μ E* δ0/G*"].of) / length,
-            "body_share": self._strain_share,
+            "body_share": self.numbers[STRAIN_SHARE],
         }
         for name, own in self.numbers.items():
             made[name] = own if PARAMETERS[name].units == "rad" else own.copy(data=rounded(own.values))
@@ -368,27 +368,21 @@ class PhysicalGrid(ContactDetails, Grid):
 
     @property
     def _strain_share(self) -> xr.Variable:
-        """Strain of the points' body over the mean of both, over the dimensions that it depends on."""
-        body = self.bulk_stress_body
-        share = self.each(lambda contact: contact.moduli.strain_share(body, contact.plane))
-        if not self.values("body"):
-            return share
+        """Strain of the body with the bulk stress over the mean of both; negative at the other body."""
+        carrier, several = self.bulk_stress_body, bool(self.values("body"))
 
-        def over_own(contact: Contact) -> float:
-            """Number of the other body over the number of this one, by which a shift in `a_H` is divided."""
+        def share(contact: Contact, body: int) -> float:
+            found = contact.moduli.strain_share(carrier, contact.plane)
+            if body == carrier or not several:
+                return found
+            # Divided as a shift in `a_H` is: by the number of this body over the number of the other one.
             of_both = [1.0 if contact.plane else (1.0 + ν) * (4.0 - 3.0 * ν) for ν in contact.moduli.poisson]
-            return of_both[1 - body] / of_both[body]
+            return -found * (of_both[1 - carrier] / of_both[carrier])
 
-        return share.where(self.bodies == body, -share * self.each(over_own))
+        return self.of_bodies(share)
 
     def presented(self, dataset: xr.Dataset, asked: Request) -> xr.Dataset:
         """See `Grid.presented`."""
         from swtstudy.study.units.results import with_units
 
         return with_units(dataset, self, asked)
-
-
-def _scalar(value: float) -> xr.Variable:
-    import xarray as xr
-
-    return xr.Variable((), value)

@@ -49,20 +49,20 @@ class LifeCurve(NamedTuple):
             return np.asarray(np.exp(self.level + self.slopes * logarithm[..., None]).sum(axis=-1))
 
     def life(self, value: FloatArray) -> FloatArray:
-        """Cycles at values ≥ 0, by Newton steps; arrays are broadcast."""
-        slopes = self.slopes
+        """Cycles at values ≥ 0, shape (n,), by Newton steps; the curve's shape is broadcast."""
         with np.errstate(divide="ignore"):
             level = self.level - np.log(value)[..., None]
         # Each term alone gives too short a life: from there Newton's steps only go up.
-        x = np.max(-level / slopes, axis=-1)
-        known = np.isfinite(x)[..., None]
+        x = np.max(-level / self.slopes, axis=-1)
+        finite = np.isfinite(x)
+        level, slopes = level[finite], np.broadcast_to(self.slopes, level.shape)[finite]
         for _ in range(_STEPS):
             # The larger one of both terms over the value is near 1: nothing overflows.
-            terms = np.exp(np.where(known, level + slopes * np.where(known, x[..., None], 0.0), 0.0))
+            terms = np.exp(level + slopes * x[finite][:, None])
             total = terms.sum(axis=-1)
             step = np.log(total) * total / (terms * slopes).sum(axis=-1)
-            x = np.where(known[..., 0], x - step, x)
-            if not (np.abs(step) > _ROUNDING)[known[..., 0]].any():
+            x[finite] -= step
+            if not (np.abs(step) > _ROUNDING).any():
                 break
         with np.errstate(over="ignore"):
             return np.asarray(0.5 * np.exp(x))
@@ -114,9 +114,8 @@ class _Constants:
         report = Report()
         for name, value in vars(self).items():
             report += wrong_size(name, value)
-        report.refuse()
-        for name, value in vars(self).items():
             object.__setattr__(self, name, plain_number(value))
+        report.refuse()
 
     @property
     def curve(self) -> LifeCurve:

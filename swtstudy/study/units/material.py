@@ -39,23 +39,18 @@ SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for it
 #: Properties that go together, of which the load ratio alone may be left out.
 _TORSION = tuple(SHEAR_CONSTANTS)
 _TOGETHER = (TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
-#: Why a modulus is needed.
-_SINGLE = ", since that of the bodies is no single value"
-_FILE = "a TOML file with a table of constants for each material"
 #: Values of metals, least and largest.
 USUAL: dict[str, Any] = TABLES["usual"]
 
 _log = logging.getLogger(__name__)
+#: A table of a study.
+Table = Mapping[str, Any]
 #: Values of both bodies; none of what is not given, or wrong.
 Both = Sequence[Any]
 
 
 def read_given(
-    labels: Mapping[str, Any],
-    material: Mapping[str, Any] | None,
-    fixed: Mapping[str, object],
-    folder: Path,
-    report: Report,
+    labels: Table, material: Table | None, fixed: Table, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """Units and materials of a study, and the critical distance, None without a threshold.
 
@@ -76,20 +71,19 @@ def read_given(
         units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
-    sound = {  # 0 for what is no positive number: 0 is not below NaN
-        name: [max(0.0, plain_number(_number(each))) for each in two_of(fixed[name])]
-        for name in OF_BODIES
-        if name in fixed
-    }
+    # 0 for what is no positive number: 0 is not below NaN.
+    young, poisson = (
+        [max(0.0, plain_number(_number(each))) for each in two_of(fixed.get(name))] for name in OF_BODIES
+    )
     moduli: dict[str, Both] = {}
-    if _YOUNG in sound:
+    if _YOUNG in fixed:
         # A wrong one is reported elsewhere: meanwhile any stands for it.
-        one, two = moduli[_YOUNG] = [each or 1.0 for each in sound[_YOUNG]]
-        if "poisson_ratio" in sound:
-            moduli[_MODULUS] = Moduli((one, two), (*sound["poisson_ratio"],)).shear  # type: ignore[arg-type]
+        one, two = moduli[_YOUNG] = [each or 1.0 for each in young]
+        if "poisson_ratio" in fixed:
+            moduli[_MODULUS] = Moduli((one, two), (poisson[0], poisson[1])).shear
     found, distance = _read_material(material, moduli, units, folder, report)
-    if all(sound.get(_YOUNG, (0.0,))):
-        warn_of_units(found, moduli[_YOUNG])
+    if all(young):
+        warn_of_units(found, young)
     return found, distance
 
 
@@ -99,7 +93,7 @@ def two_of(value: object) -> list[Any]:
 
 
 def _read_material(
-    raw: Mapping[str, Any], moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
+    raw: Table, moduli: Mapping[str, Both], units: Units, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
@@ -118,7 +112,9 @@ def _read_material(
     for group, there in groups.items():
         for key in group if there else ():
             if key not in silent and key not in moduli and key != LOAD_RATIO:
-                why = _SINGLE if key in (_YOUNG, _MODULUS) else f", beside {there[0]}" * (key != there[0])
+                why = f", beside {there[0]}" * (key != there[0])
+                if key in (_YOUNG, _MODULUS):
+                    why = ", since that of the bodies is no single value"
                 report(f"material.{key}", "nothing", _allowed(key, units) + why)
     strengths = tuple(values.get(STRENGTH, ()))
     if len(report) > before or not tables:
@@ -170,7 +166,7 @@ def _number(raw: object) -> object:
         return raw
 
 
-def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[str, Any]]:
+def _named(raw: Table, folder: Path, report: Report) -> list[dict[str, Any]]:
     """The properties of both bodies by the names of their materials in a file."""
     others = sorted(raw.keys() & {*PROPERTIES})
     if others:
@@ -183,7 +179,8 @@ def _named(raw: Mapping[str, Any], folder: Path, report: Report) -> list[dict[st
     try:
         materials = parse_toml(read_text(folder / file))
     except (OSError, ValueError) as error:
-        report("material.file", f"{literal(file)} ({reason_of(error)})", _FILE)
+        allowed = "a TOML file with a table of constants for each material"
+        report("material.file", f"{literal(file)} ({reason_of(error)})", allowed)
         return []
     known = [name for name, table in materials.items() if isinstance(table, dict)]
     wrong = {str(name or ""): name for name in names if str(name or "") not in known}

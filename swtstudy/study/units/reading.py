@@ -18,7 +18,6 @@ from swtstudy.points import rules
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
-from swtstudy.points.rules import check_shapes_given
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop
@@ -67,13 +66,8 @@ def read_contacts(
     profiles = [tables.get(each, each) if isinstance(each, str) else each for each in several]
     labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
-    pairs, single = _pairs(fixed, own, report)
-    similar = plain_number(single.pop(units.SIMILAR_KEY, given.similar))
-    if not 0.0 <= similar < math.inf:
-        found = literal(fixed[units.SIMILAR_KEY])
-        report.of(units.SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
-    body_names = _body_names(single, given.body_names, report)
-    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *pairs)
+    given, single = _read_bodies(fixed, given, own, report)
+    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *given.pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
@@ -82,12 +76,11 @@ def read_contacts(
     rules.check_amplitudes(everything, good, report)
     rules.check_criteria(everything, good, report)
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
-    check_shapes_given(single, {**axes, **samples}, good, report, own)
+    rules.check_shapes_given(single, {**axes, **samples}, good, report, own)
     if report or None in (*samples.values(), *axes.values()):  # reported elsewhere
         rules.check_loops_alone(good, report)
         return None, report
-    about = replace(given, pairs=pairs, similar=similar, body_names=body_names)
-    grid = completed(good_fixed, good_axes, good_samples, about)
+    grid = completed(good_fixed, good_axes, good_samples, given)
     check_bodies(grid, report)
     rules.check_loops(grid, report)
     # Sizes of what stands for a wrong load are no mistakes.
@@ -154,28 +147,13 @@ def completed(
     return grid
 
 
-def _body_names(single: dict[str, object], given: tuple[str, ...], report: Report) -> tuple[str, ...]:
-    """Names of the bodies, taken from the fixed values, in which a name becomes 1 or 2."""
-    raw = single.pop(units.NAMES_KEY, given or None)
-    if raw is None:
-        return ()
-    names = tuple(raw) if isinstance(raw, list | tuple) else ()
-    sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
-    if len(names) != 2 or not sound or names[0] == names[1]:
-        report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
-        return ()
-    body = single.get("body")
-    if isinstance(body, str) and body not in map(str, units.LABELS):
-        if body not in names:
-            report.of("body", literal(body), units.labels_or(names))
-        single["body"] = names.index(body) + 1 if body in names else 1
-    return names
+def _read_bodies(
+    fixed: Mapping[str, object], given: ContactDetails, own: Mapping[str, Parameter], report: Report
+) -> tuple[ContactDetails, dict[str, object]]:
+    """The facts of the two bodies, and the other fixed values, in which the name of a body becomes 1 or 2.
 
-
-def _pairs(
-    fixed: Mapping[str, object], own: Mapping[str, Parameter], report: Report
-) -> tuple[dict[str, Any], dict[str, object]]:
-    """Split the fixed values into unlike values of both bodies, none where wrong, and the others."""
+    A pair of values is empty if one of them is wrong.
+    """
     pairs, single = dict[str, Any](), dict(fixed)
     for name in (name for name in units.OF_BODIES if isinstance(fixed.get(name), list | tuple)):
         raw: Any = single.pop(name)
@@ -188,7 +166,22 @@ def _pairs(
             single[name] = two[0]
         else:
             pairs[name] = two if len(two) == 2 else ()
-    return pairs, single
+    similar = plain_number(single.pop(units.SIMILAR_KEY, given.similar))
+    if not 0.0 <= similar < math.inf:
+        found = literal(fixed[units.SIMILAR_KEY])
+        report.of(units.SIMILAR_KEY, found, "a number ≥ 0: the largest |β|/μ of similar bodies")
+    raw = single.pop(units.NAMES_KEY, given.body_names or None)
+    names = tuple(raw) if isinstance(raw, list | tuple) else ()
+    sound = all(isinstance(name, str) and name.isprintable() and name.strip() for name in names)
+    if raw is not None and (len(names) != 2 or not sound or names[0] == names[1]):
+        report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
+        names = ()
+    body = single.get("body")
+    if names and isinstance(body, str) and body not in map(str, units.LABELS):
+        if body not in names:
+            report.of("body", literal(body), units.labels_or(names))
+        single["body"] = names.index(body) + 1 if body in names else 1
+    return replace(given, pairs=pairs, similar=similar, body_names=names), single
 
 
 def _check_given(everything: set[str], good: NamedValues, own: dict[str, Parameter], report: Report) -> None:
@@ -300,8 +293,11 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             unit, there = unit_words(grid.row(mistake.key).units), _words(grid, here, mistake.key)
             found = f"{mistake.found}{unit} at {there}{more_like_it(len(wrong))}"
             report.of(mistake.key, found, mistake.allowed)
-    elif all([_in_range(grid, column, report) for column in grid.numbers]):
-        rules.check_shapes(grid, report, told)
+    else:
+        for column in grid.numbers:
+            _check_range(grid, column, report)
+        if not report:
+            rules.check_shapes(grid, report, told)
 
 
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
@@ -333,8 +329,8 @@ def check_distances(grid: PhysicalGrid, distances: Sequence[float], report: Repo
         report.of(DISTANCE, found, f"at most {upper * smallest:.4g}{unit}, {upper:g} a_H")
 
 
-def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
-    """Return whether a parameter is in its range everywhere; report the first value that is not."""
+def _check_range(grid: PhysicalGrid, column: str, report: Report) -> None:
+    """Report the first value of a parameter that is out of its range, if it has a unit."""
     row, values = PARAMETERS[column], grid.numbers[column]
     if column in rules.AMPLITUDES:
         # The largest load of a loop counts: its vertices are multiplied.
@@ -348,7 +344,7 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     if column in SHAPE_COLUMNS and row.open_lower:
         wrong &= values.values != 0.0  # the profile has none of it
     if not wrong.any() or not row.scale:
-        return True
+        return
     at = index_at(values, int(wrong.argmax()))
     first, here = tuple(at.values()), _at(grid, at)
     own, number = as_number(here[source]), float(values.values[first])
@@ -364,7 +360,6 @@ def _in_range(grid: PhysicalGrid, column: str, report: Report) -> bool:
     else:
         allowed = f"{most} {bound * own / number:.4g}{unit}, {bound:g} {scale}"
         report.of(source, f"{own:g}{unit} at {words}, {number:.4g} {scale}{more}", allowed)
-    return False
 
 
 def _at(grid: PhysicalGrid, at: Mapping[str, Any]) -> dict[str, Value]:

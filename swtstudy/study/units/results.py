@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -101,11 +100,17 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
             if row.of not in ranks:
                 kind = CRITERIA[row.criterion]
                 of = found[f"{kind.name}{row.of.removeprefix(kind.life)}"]
-                make = partial(_ranks, target=grid.target_life)
-                ranks[row.of] = _of_constants(of, grid, found, row.criterion, make, drawn=True)
+                ranks[row.of] = _of_constants(of, grid, found, row.criterion, drawn=True)
             values = ranks[row.of].isel(rank=RANKS.index(row.kind))
         else:
-            values = _measured(found, row, grid)
+            stresses = getattr(grid, row.needs[0]) if row.needs and row.kind != LIFE else ()
+            scale = grid.of_bodies(scale_of(row.scale, stresses))
+            values = found[NORMALISED.get(row.of, row.of)] * scale if row.of else xr.DataArray(scale)
+            if row.criterion and grid.dimension("criterion") is not None:  # NaN at points of others
+                is_own = np.array([value == row.criterion for value in grid.values("criterion")])
+                values = values.where(grid.over_dimension("criterion", is_own))
+            if row.kind == LIFE:
+                values = _of_constants(values, grid, found, row.criterion, drawn=False)
         words: dict[str, Any] = attributes(row, grid.labels)
         comment = "uncounted" if row.kind == LIFE and not asked.counts else row.kind
         words |= {"comment": COMMENTS[comment]} if comment in COMMENTS else {}
@@ -126,19 +131,6 @@ def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Da
     return found.assign_attrs({CONTACT: json.dumps(facts)})
 
 
-def _measured(dataset: xr.Dataset, row: Derived, grid: PhysicalGrid) -> xr.DataArray:
-    """A variable without units in units, NaN at points of other criteria; or the life at it."""
-    stresses = getattr(grid, row.needs[0]) if row.needs and row.kind != LIFE else ()
-    scale = grid.of_bodies(scale_of(row.scale, stresses))
-    values = dataset[NORMALISED.get(row.of, row.of)] * scale if row.of else xr.DataArray(scale)
-    if row.criterion and grid.dimension("criterion") is not None:
-        is_own = np.array([value == row.criterion for value in grid.values("criterion")])
-        values = values.where(grid.over_dimension("criterion", is_own))
-    if row.kind == LIFE:
-        return _of_constants(values, grid, dataset, row.criterion, LifeCurve.lives)
-    return values
-
-
 def without_units(dataset: xr.Dataset) -> xr.Dataset:
     """The data variables by the names of results without units."""
     if not has_units(dataset):
@@ -149,12 +141,7 @@ def without_units(dataset: xr.Dataset) -> xr.Dataset:
 
 
 def _of_constants(
-    value: xr.DataArray,
-    grid: PhysicalGrid,
-    dataset: xr.Dataset,
-    criterion: str,
-    make: Callable[[LifeCurve, FloatArray, list[FloatArray]], FloatArray],
-    drawn: bool = False,
+    value: xr.DataArray, grid: PhysicalGrid, dataset: xr.Dataset, criterion: str, drawn: bool
 ) -> xr.DataArray:
     """Lives at values of a criterion, or ranks of lives, by the constants of each body.
 
@@ -166,33 +153,33 @@ def _of_constants(
         The contacts, and their results with counted cycles.
     criterion
         The name of the criterion.
-    make
-        Function of a curve of lives, of values and of counted cycles: an array of values' shape, or
-        with the ranks of lives before it.
     drawn
-        True to call it with the curves by each draw of constants.
+        True for the ranks of the lives by each draw of constants.
+
+    Returns
+    -------
+    DataArray
+        Of the value's shape, with the ranks before it if there are.
     """
     value = value.clip(min=0.0)  # means that are below 0 by rounding
     names = COUNTED if COUNTED.keys() <= {*dataset.data_vars} else ()
-    both = grid.of_both("poisson_ratio")
-    if len({grid.constants(criterion, ratios) for ratios in both}) == 1:
-        both = both[:1]
-    dim = grid.dimension("poisson_ratio") or ""  # estimated ones differ from one Poisson ratio to another
+    shares = [dataset[n].broadcast_like(value).transpose(*value.dims, *COUNTED_SIZES) for n in names]
+    is_first = (xr.ones_like(value, bool) & (grid.bodies == 0)).transpose(*value.dims)
+    both, dim = grid.of_both("poisson_ratio"), grid.dimension("poisson_ratio")
+    # Estimated constants differ from one Poisson ratio to another.
+    several = len({grid.constants(criterion, ratios) for ratios in both}) > 1
     parts = []
-    for k, ratios in enumerate(both):
-        at = {dim: [k]} if len(both) > 1 else {}
-        own = value.isel(at, missing_dims="ignore")
-        dims = (*own.dims, *COUNTED_SIZES)
-        shares = (dataset[name].isel(at, missing_dims="ignore") for name in names)
-        counted = [each.broadcast_like(own).transpose(*dims).values for each in shares]
+    for k, ratios in enumerate(both if several else both[:1]):
+        at = {dim: [k]} if several else {}
+        first, own, *counted = (each.isel(at).values for each in (is_first, value, *shares))
         one, other = grid.curves(criterion, ratios, drawn)
-        found = make(one, own.values, counted)
-        if not np.array_equal(one, other):
-            is_first = xr.ones_like(own, bool) & (grid.bodies.isel(at, missing_dims="ignore") == 0)
-            found = np.where(is_first.transpose(*own.dims), found, make(other, own.values, counted))
-        before = ("rank",) * drawn
-        parts.append(xr.DataArray(found, own.coords, (*before, *own.dims)))
-    return (xr.concat(parts, dim) if parts[1:] else parts[0]).transpose(*before, *value.dims)
+        of_bodies = [
+            _ranks(curve, own, counted, grid.target_life) if drawn else curve.lives(own, counted)
+            for curve in ([one] if np.array_equal(one, other) else [one, other])
+        ]
+        parts.append(np.where(first, of_bodies[0], of_bodies[-1]))
+    found = np.concatenate(parts, drawn + value.get_axis_num(dim)) if several else parts[0]
+    return xr.DataArray(found, dims=(*("rank",) * drawn, *value.dims))
 
 
 def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArray:
@@ -242,7 +229,7 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     return f"{rounds}{':' if several[0].startswith('no crack') else ','} {'; '.join(several)}"
 
 
-def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], *, target: float) -> FloatArray:
+def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], target: float) -> FloatArray:
     """Percentiles of lives over n draws, and the share of them below a target last, shape (4, ...)."""
     flat = values.ravel()
     of_each = [each.reshape(len(flat), *each.shape[-2:]) for each in counted]

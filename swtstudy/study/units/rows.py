@@ -36,9 +36,6 @@ _WRITTEN_OUT = {
     for prefix, letter in TABLES["prefixes"].items()
 } | TABLES["written_out"]
 
-#: Relative rounding of the numbers above.
-_ROUNDING = 1e-9
-
 
 @dataclass(frozen=True)
 class Units:
@@ -95,7 +92,7 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             report(f"units.{kind}", found, f"did you mean {' or '.join(likely)}?")
     if all(label in KNOWN[kind] for kind, label in labels.items()):
         length, force, stress = (KNOWN[kind][label] for kind, label in labels.items())
-        if not math.isclose(force / length**2, stress, rel_tol=_ROUNDING):
+        if not math.isclose(force / length**2, stress):  # to the rounding of the table
             number, unit = f"{force / length**2 / stress:.3g}", labels["stress"]
             found = f"{labels['force']} over {labels['length']}², which is {number} {unit}"
             report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {unit}")
@@ -183,12 +180,6 @@ SIMILAR_KEY, SIMILAR = "similar", 0.3
 NOTICEABLE_MISMATCH = 0.06
 #: Another: what the two bodies are called.
 NAMES_KEY = "bodies"
-#: Parameters that are 0 unless given: a constant normal load is the plainest one.
-_ZERO = ("normal_amplitude",)
-#: The kinds of sizes of the contact that have a unit.
-_KINDS: dict[str, str] = TABLES["kinds"]
-#: Symbols that are not the numerator of the non-dimensional one.
-_SYMBOLS = {"tangential_amplitude": "u_A"}
 #: Exactly one of each group is given.
 MEAN_LOADS = ("depth", "normal_force")
 #: One of each pair takes the other's place.
@@ -213,30 +204,31 @@ def rows(units: Units) -> dict[str, Parameter]:
     # The share of the strain follows from the moduli.
     names = [*CONTACT_AXES, *(name for name in PARAMETERS if name != STRAIN_SHARE)]
     names += [name for name, row in QUANTITY_AXES.items() if row.kind != "name"]
-    return {name: _row(AXES[name], units) for name in names}
+    found: dict[str, Parameter] = {}
+    for name in names:
+        row, kind = AXES[name], kind_of(name)
+        own: dict[str, Any] = {"default": None if name in WITHOUT_DEFAULT else row.default}
+        if name == "normal_amplitude":
+            own["default"] = 0.0  # a constant normal load is the plainest one
+        if kind is not None:
+            # Nothing else can be measured in what may be 0.
+            is_measure = any(scale.made_of == name for scale in SCALES.values())
+            vanishes = row.scale and not row.open_lower and not is_measure and row.part != "quantity"
+            lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
+            label = units.label(kind)
+            size = f"{kind} in {label}" if label else kind
+            words = f"a {size}" if lower < 0.0 else f"a {size}, ≥ 0" if lower == 0.0 else f"a positive {size}"
+            symbol = "u_A" if name == "tangential_amplitude" else row.symbol.split("/")[0]
+            own |= {"units": label, "lower": lower, "upper": LARGEST, "open_lower": False}
+            own |= {"symbol": symbol, "words": words}
+        found[name] = replace(row, **own)
+    return found
 
 
 def kind_of(name: str) -> str | None:
     """Dimension of a parameter: "length", "force" or "stress"; None if it has none of them."""
     scale = AXES[name].scale
-    return SCALES[scale].kind if scale else _KINDS.get(name)
-
-
-def _row(row: Parameter, units: Units) -> Parameter:
-    default = None if row.name in WITHOUT_DEFAULT else 0.0 if row.name in _ZERO else row.default
-    kind = kind_of(row.name)
-    if kind is None:
-        return replace(row, default=default)
-    # Nothing else can be measured in what may be 0.
-    is_measure = any(scale.made_of == row.name for scale in SCALES.values())
-    vanishes = row.scale and not row.open_lower and not is_measure and row.part != "quantity"
-    lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
-    label = units.label(kind)
-    size = f"{kind} in {label}" if label else kind
-    words = f"a {size}" if lower < 0.0 else f"a {size}, ≥ 0" if lower == 0.0 else f"a positive {size}"
-    own: dict[str, Any] = {"default": default, "units": label, "lower": lower, "upper": LARGEST}
-    own |= {"open_lower": False, "symbol": _SYMBOLS.get(row.name, row.symbol.split("/")[0])}
-    return replace(row, **own, words=words)
+    return SCALES[scale].kind if scale else TABLES["kinds"].get(name)
 
 
 #: Labels of the bodies along the dimension ``body``.
