@@ -10,7 +10,7 @@ by one harmonic: with C = cos φ, S = sin φ, t = (σ_xx + σ_yy)/(1+ν) of the 
 The value is a maximum over planes and instants of smooth functions of φ, so that only downward curvature can
 hide a higher one between two angles. As on the line (`swtstudy.kernel.line`) the curvature follows from the
 values around, and the arc with the highest bound is halved until no bound exceeds the best value by more than
-the tolerance. Where the values are 0 the largest tension and its curvature give a bound. From the best place
+the tolerance. Where there is no tension its curvature gives a bound. From the best place
 of all circles a climb over angle and radius goes on to a maximum.
 
 If a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
@@ -53,7 +53,7 @@ MAX_ARCS = 400
 #: Arcs at first, over half a turn.
 ARCS = np.int64(8)
 #: Share of the best value below which the first angles do not matter.
-FAR = 0.8
+FAR = 0.5
 #: Intervals of a part at first; no literal, for which Numba would compile anew.
 FIRST = np.int64(2 * COARSEST)
 CIRCLE = np.dtype(
@@ -63,7 +63,7 @@ CIRCLE = np.dtype(
         *fields("f8", "best angle summit"),  # h, and the angle and the place at which it is
         ("plane", "f8", (3,)),  # and the normal of its plane
         *fields("f8", "of_tension swing tension"),  # bounds of |T″| over φ, of A, and of T at the last angle
-        # At both ends of arcs: φ, h, perhaps less where it does not matter, bound of T.
+        # At both ends of arcs: φ, h or more where it does not matter, bound of T.
         *fields("f8", "ends value most", (MAX_ARCS, 2)),
         ("upper", "i8", (MAX_ARCS,)),  # 1: the upper half of what was halved
         # The value at the other end of the other half, and -h″ times the square of the width.
@@ -108,18 +108,15 @@ def sample_angle(circle, body, angle):
 
 @jit
 def value_at(circle, body, angle, floor, proof):
-    """Largest h over the planes at an angle, 0 without room for it; below the floor it may be low.
-
-    No plane is higher by more than the proof, relative.
-    """
+    """Largest h over planes at an angle, the floor at least. No plane is higher by more than the proof."""
     planes, ask = body.planes, body.point.ask
     if not sample_angle(circle, body, angle):
-        return 0.0
+        return floor
     h = highest_here(body, floor, ask.line, proof)
     circle.tension, circle.swing = planes.most[0], max(circle.swing, planes.most[1])
     if h > circle.best:
         set_best(circle, planes, h, angle)
-    return h
+    return max(h, floor)
 
 
 @jit
@@ -132,11 +129,11 @@ def set_best(circle, planes, h, angle):
 
 @jit
 def bound_of_arc(circle, ask, k):
-    """Bound of h on arc k: by what the values around show, and by the bound of T where they show nothing."""
+    """Bound of h on arc k: by the curvature of T, and by that of h where there is tension at both ends."""
     width = circle.ends[k, 1] - circle.ends[k, 0]
     T = above(circle.most[k, 0], circle.most[k, 1], circle.of_tension * width * width)
     bound = lifted(ask, T, circle.swing, 0.0)
-    if circle.value[k, 0] > 0.0 and circle.value[k, 1] > 0.0:
+    if ask.criterion != SWT or min(circle.most[k, 0], circle.most[k, 1]) > 0.0:
         bound = min(bound, above(circle.value[k, 0], circle.value[k, 1], circle.drop[k]))
     return bound
 
