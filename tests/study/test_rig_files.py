@@ -130,7 +130,7 @@ REFUSED = {
     "a word in the first row": (
         table("time,normal,tangential\n0,zero,1").encode(),
         "",
-        r"file: found 'zero' \(.*: line 2, normal\); allowed: a finite number; lines above the header are skip_",
+        r"file: found 'zero' \(.*: line 2, normal\); allowed: a finite number; lines above the header are sk",
     ),
     "a word in the second row": (
         table("time,normal,tangential\n0,1,1\n0,zero,1").encode(),
