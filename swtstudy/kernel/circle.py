@@ -7,13 +7,15 @@ by one harmonic: with C = cos φ, S = sin φ, t = (σ_xx + σ_yy)/(1+ν) of the 
     σ_rr = within - p + C σ_xx + C² B,        σ_rφ = S ((ν - ½) t - σ_yy) - C S B,
     σ_φφ = -within - 2ν p + C σ_yy + S² B,    σ_rz = -C q,   σ_φz = S q,   σ_zz = -p.
 
-On a fixed plane σ_n is a sinusoid of φ, so that the value, a maximum over planes and instants of smooth
-functions, has a bounded downward curvature over φ: the arc with the highest bound is halved until no bound
-exceeds the best value by more than the tolerance.
+The value is a maximum over planes and instants of smooth functions of φ, so that only downward curvature can
+hide a higher one between two angles. As on the line (`swtstudy.kernel.line`) the curvature follows from the
+values around, and the arc with the highest bound is halved until no bound exceeds the best value by more than
+the tolerance. Where there is no tension its curvature gives a bound. From the best place
+of all circles a climb over angle and radius goes on to a maximum.
 
 If a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
 its own and the stress is no harmonic of the angle. Then places of the circle are solved as places of the
-body. The stress turns about as fast, so the same bounds are good estimates.
+body. The stress turns about as fast, so the same bound of the tension is a good estimate.
 """
 
 from math import cos, pi, sin, sqrt
@@ -26,9 +28,10 @@ from swtstudy.kernel.body import fill_circle, highest_here, sample_place
 from swtstudy.kernel.climb import climb_from_principal
 from swtstudy.kernel.compiled import fields, jit
 from swtstudy.kernel.contact import solve_cycle
-from swtstudy.kernel.criterion import SWT, curvature_bound, lift, lifted, slope_bound, value_of
+from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import sample_cycle
+from swtstudy.kernel.line import MEMORY, TRUST
 from swtstudy.kernel.load import has_bulk
 from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.planes import above
@@ -40,15 +43,17 @@ from swtstudy.kernel.records import Body, Point
 SAFE_POISSON_RATIO = 0.35
 #: Relative height that counts as higher than the line: more than either search leaves.
 HIGHER = 1e-4
-#: Circles between the least and the largest contact radius, and climbs from the highest one.
+#: Circles between the least and the largest contact radius, and climbs, each with a circle after it.
 BETWEEN, CLIMBS = 4, 3
-#: First step of a climb over the largest contact, and the last one over the root of the tolerance.
+#: First step of a climb, in rad and in the largest contact, and the last one over the root of the tolerance.
 STEP, NARROWEST = 0.05, 0.02
+#: No plane is higher by more than this share, while a climb goes on.
+ROUGHLY = 1.0
 MAX_ARCS = 400
 #: Arcs at first, over half a turn.
 ARCS = np.int64(8)
 #: Share of the best value below which the first angles do not matter.
-FAR = 0.8
+FAR = 0.5
 #: Intervals of a part at first; no literal, for which Numba would compile anew.
 FIRST = np.int64(2 * COARSEST)
 CIRCLE = np.dtype(
@@ -56,10 +61,13 @@ CIRCLE = np.dtype(
         *fields("f8", "x place largest"),  # radius, its place s, and place of the largest contact
         ("places", "f8", (BETWEEN + 2,)),  # of the circles
         *fields("f8", "best angle summit"),  # h, and the angle and the place at which it is
-        *fields("f8", "of_tension of_swing"),  # bounds of the derivatives over φ
-        *fields("f8", "swing highest tension"),  # bounds of A and T, and of T at the last angle
+        ("plane", "f8", (3,)),  # and the normal of its plane
+        *fields("f8", "of_tension swing tension"),  # bounds of |T″| over φ, of A, and of T at the last angle
         # At both ends of arcs: φ, h or more where it does not matter, bound of T.
         *fields("f8", "ends value most", (MAX_ARCS, 2)),
+        ("upper", "i8", (MAX_ARCS,)),  # 1: the upper half of what was halved
+        # The value at the other end of the other half, and -h″ times the square of the width.
+        *fields("f8", "beyond drop", (MAX_ARCS,)),
         ("normal", "f8", (MAX_ARCS, 2, 3)),
     ]
 )
@@ -67,24 +75,20 @@ CIRCLE = np.dtype(
 
 @jit
 def begin_circle(circle, body):
-    """Sample the cycle on the line, and write bounds of the derivatives of T and A over φ.
+    """Sample the cycle on the line, and write a bound of |T″| over φ: a norm of the stress that turns.
 
-    The bounds are norms of the stresses that turn. A shifted stick zone has other stresses at both sides.
+    A shifted stick zone has other stresses at both sides.
     """
-    point, ask, history = body.point, body.point.ask, body.point.history
-    nu, square, bulk, total = ask.poisson_ratio, 0.0, 0.0, 0.0
-    of_sum = (nu - 0.5) / (1.0 + nu)
+    point, nu, history = body.point, body.point.ask.poisson_ratio, body.point.history
+    of_sum, square, bulk = (nu - 0.5) / (1.0 + nu), 0.0, 0.0
     for number in range(2 if point.cycle.shift != 0.0 else 1):
         sample_cycle(point, circle.place, circle.largest, 1.0 - 2.0 * number, FIRST)
         for i in range(history.instants):
             xx, yy, q = history.xx[i], history.yy[i], history.q[i]
             w = of_sum * (xx + yy) - yy
             square = max(square, xx * xx + yy * yy + 2.0 * q * q, 2.0 * (w * w + q * q))
-            bulk, total = max(bulk, abs(history.bulk[i])), max(total, abs(xx + yy))
+            bulk = max(bulk, abs(history.bulk[i]))
     circle.of_tension = sqrt(square) + 2.0 * bulk
-    circle.of_swing = 2.0 * circle.of_tension
-    if ask.criterion == SWT:
-        circle.of_swing = 2.0 * ((1.0 + nu) * circle.of_tension + nu * total)
 
 
 @jit
@@ -103,32 +107,35 @@ def sample_angle(circle, body, angle):
 
 
 @jit
-def value_at(circle, body, angle, floor):
-    """Largest h over the planes at an angle; below the floor it may be low."""
+def value_at(circle, body, angle, floor, proof):
+    """Largest h over planes at an angle, the floor at least. No plane is higher by more than the proof."""
     planes, ask = body.planes, body.point.ask
     if not sample_angle(circle, body, angle):
         return floor
-    h = highest_here(body, floor, ask.line, 0.5 * ask.line)
+    h = highest_here(body, floor, ask.line, proof)
     circle.tension, circle.swing = planes.most[0], max(circle.swing, planes.most[1])
     if h > circle.best:
-        circle.best, circle.angle, circle.summit = h, angle, circle.place
+        set_best(circle, planes, h, angle)
     return max(h, floor)
 
 
 @jit
-def curvature_over_angles(circle, ask, T):
-    """Bound of -h″ over φ on an arc whose tension is bounded by T."""
-    slope = slope_bound(circle.of_tension, circle.highest)
-    return curvature_bound(ask, T, circle.swing, circle.of_tension, circle.of_swing, slope)
+def set_best(circle, planes, h, angle):
+    """Make the last plane at an angle of the open circle the best one."""
+    circle.best, circle.angle, circle.summit = h, angle, circle.place
+    for c in range(3):
+        circle.plane[c] = planes.normal[c]
 
 
 @jit
 def bound_of_arc(circle, ask, k):
-    """Bound of h on arc k."""
-    square = (circle.ends[k, 1] - circle.ends[k, 0]) * (circle.ends[k, 1] - circle.ends[k, 0])
-    T = above(circle.most[k, 0], circle.most[k, 1], circle.of_tension * square)
-    K = curvature_over_angles(circle, ask, T)
-    return min(above(circle.value[k, 0], circle.value[k, 1], K * square), lifted(ask, T, circle.swing, 0.0))
+    """Bound of h on arc k: by the curvature of T, and by that of h where there is tension at both ends."""
+    width = circle.ends[k, 1] - circle.ends[k, 0]
+    T = above(circle.most[k, 0], circle.most[k, 1], circle.of_tension * width * width)
+    bound = lifted(ask, T, circle.swing, 0.0)
+    if ask.criterion != SWT or min(circle.most[k, 0], circle.most[k, 1]) > 0.0:
+        bound = min(bound, above(circle.value[k, 0], circle.value[k, 1], circle.drop[k]))
+    return bound
 
 
 @jit
@@ -148,14 +155,21 @@ def first_count(load):
 @jit
 def first_arcs(circle, body):
     """Look at evenly spaced angles; returns the number of arcs between them."""
-    planes, arcs = body.planes, first_count(body.point.load)
+    planes, ask, arcs = body.planes, body.point.ask, first_count(body.point.load)
     for k in range(arcs + 1):
         angle = pi * k / ARCS
-        value = value_at(circle, body, angle, FAR * circle.best)
+        value = value_at(circle, body, angle, FAR * circle.best, 0.5 * ask.line)
         if k < arcs:
             set_end(circle, planes, k, 0, angle, value)
         if k > 0:
             set_end(circle, planes, k - 1, 1, angle, value)
+    for k in range(arcs):  # the value is even about both ends
+        f1, f2 = circle.value[k, 0], circle.value[k, 1]
+        before = circle.value[k - 1, 0] if k > 0 else f2
+        after = circle.value[k + 1, 1] if k < arcs - 1 else f1
+        d1, d2 = 2.0 * f1 - before - f2, 2.0 * f2 - f1 - after
+        circle.upper[k], circle.beyond[k] = 1, before
+        circle.drop[k] = max(d1, d2, 0.0) + 2.0 * abs(d1 - d2)
     return arcs
 
 
@@ -163,7 +177,7 @@ def first_arcs(circle, body):
 def open_circle(circle, body, place):
     """Sample the cycle on the circle at a place s; False on the axis, which has no circle."""
     b, normal = body.point.profile.flat_radius, body.planes.normal
-    circle.place, circle.x = place, sqrt(b * b + place * abs(place))
+    circle.place, circle.x, circle.swing = place, sqrt(b * b + place * abs(place)), 0.0
     if not circle.x > 0.0:
         return False
     begin_circle(circle, body)
@@ -172,18 +186,12 @@ def open_circle(circle, body, place):
 
 
 @jit
-def search_circle(circle, body, place, known):
-    """Largest value on the circle at a place s, if it is above what is known; else that."""
+def search_circle(circle, body, place):
+    """Raise the best value to the largest one on the circle at a place s, if that is higher."""
     ask = body.point.ask
     if not open_circle(circle, body, place):
-        return known
-    circle.swing, circle.highest = 0.0, 0.0
-    circle.best = least = lift(ask, known)
+        return
     m = first_arcs(circle, body)
-    for i in range(m):
-        square = (circle.ends[i, 1] - circle.ends[i, 0]) * (circle.ends[i, 1] - circle.ends[i, 0])
-        tension = above(circle.most[i, 0], circle.most[i, 1], circle.of_tension * square)
-        circle.highest = max(circle.highest, tension)
     while m < MAX_ARCS:
         k, bound = 0, -1.0
         for i in range(m):
@@ -194,28 +202,31 @@ def search_circle(circle, body, place, known):
             break
         halve_arc(circle, body, k, m)
         m += 1
-    return value_of(ask, circle.best) if circle.best > least else known
 
 
 @jit
 def halve_arc(circle, body, k, m):
     """Halve arc k; its upper half becomes arc m."""
     planes, ask = body.planes, body.point.ask
-    angle, half = 0.5 * (circle.ends[k, 0] + circle.ends[k, 1]), 0.5 * (circle.ends[k, 1] - circle.ends[k, 0])
-    T = max(circle.most[k, 0], circle.most[k, 1])
-    drop = curvature_over_angles(circle, ask, T) * half * half
+    f1, f2, before = circle.value[k, 0], circle.value[k, 1], circle.drop[k]
+    angle = 0.5 * (circle.ends[k, 0] + circle.ends[k, 1])
     for end in range(2):
         for of_ends in (circle.ends, circle.value, circle.most):
             of_ends[m, end] = of_ends[k, end]
         for c in range(3):
             circle.normal[m, end, c] = circle.normal[k, end, c]
-    # A value so low that its bound stays below the best does not matter.
-    higher = 1 if circle.value[k, 1] > circle.value[k, 0] else 0
     for c in range(3):
-        planes.normal[c] = circle.normal[k, higher, c]
-    value = value_at(circle, body, angle, max(circle.best - 0.125 * drop, FAR * circle.best))
+        planes.normal[c] = circle.normal[k, 1 if f2 > f1 else 0, c]
+    # A value so low that its bound stays below the best does not matter.
+    floor = max(circle.best - 0.125 * before, FAR * circle.best)
+    value = value_at(circle, body, angle, floor, 0.5 * ask.line)
     set_end(circle, planes, k, 1, angle, value)
     set_end(circle, planes, m, 0, angle, value)
+    near, far = (f1, f2) if circle.upper[k] else (f2, f1)
+    expected = 0.125 * (3.0 * far + 6.0 * near - circle.beyond[k])
+    drop = max(2.0 * value - f1 - f2, 0.0) + TRUST * abs(value - expected)
+    circle.drop[k] = circle.drop[m] = max(drop, MEMORY * before)
+    circle.upper[k], circle.upper[m], circle.beyond[k], circle.beyond[m] = 0, 1, f2, f1
 
 
 @jit
@@ -234,25 +245,6 @@ def beside_singular_edge(profile, x, share):
 def may_be_anywhere(load, ask):
     """True if places in mere pressure may be critical, or places outside of the contact."""
     return ask.criterion != SWT or has_bulk(load)
-
-
-@jit
-def climb_radius(circle, body):
-    """From the place of the best value to a higher one at the same angle, by steps that are halved.
-
-    A maximum changes by the square of a distance from it, so the last step follows from the tolerance.
-    """
-    ask, step, angle = body.point.ask, STEP * circle.largest, circle.angle
-    while step > NARROWEST * sqrt(ask.line) * circle.largest:
-        before = circle.best
-        for side in (1.0, -1.0):
-            new = circle.summit + side * step
-            if abs(new) >= INNERMOST * circle.largest and open_circle(circle, body, new):
-                value_at(circle, body, angle, FAR * before)
-                if circle.best > before:
-                    break
-        if circle.best == before:
-            step *= 0.5
 
 
 @jit
@@ -296,25 +288,42 @@ def glance(circle, body, place):
         planes.best, planes.limit = 0.0, 0.0
         climb_from_principal(planes, here.stress, history.instants, ask)
         if planes.best > circle.best:
-            circle.best, circle.angle, circle.summit = planes.best, angle, place
+            set_best(circle, planes, planes.best, angle)
 
 
 @jit
-def climb_circles(circle, body, top):
-    """From the place of the best value to a maximum over angle and radius, by turns; returns it.
+def look_near(circle, body, place, angle, proof):
+    """Look at an angle of the circle at a place s, from the best plane on; no place next to the axis."""
+    if abs(place) >= INNERMOST * circle.largest and open_circle(circle, body, place):
+        for c in range(3):
+            body.planes.normal[c] = circle.plane[c]
+        value_at(circle, body, angle, FAR * circle.best, proof)
 
-    It is at least ``top``, which is that of the begin.
+
+@jit
+def climb_surface(circle, body):
+    """From the place of the best value to a maximum over angle and radius, by the method of Hooke and Jeeves.
+
+    Where no step along or around leads to a higher value, steps are halved; the way of a round that did is
+    tried once more. A maximum changes by the square of a distance from it, so the last step follows from
+    the tolerance.
     """
-    ask = body.point.ask
-    for _ in range(0 if body.point.profile.singular else CLIMBS):
-        circle.best = lift(ask, top)
-        climb_radius(circle, body)
-        value = search_circle(circle, body, circle.summit, value_of(ask, circle.best))
-        done = value <= top * (1.0 + ask.line)
-        top = max(top, value)
-        if done:
-            break
-    return top
+    line, largest, step, along, around = body.point.ask.line, circle.largest, STEP, 0.0, 0.0
+    while step > NARROWEST * sqrt(line):
+        place, angle, before = circle.summit, circle.angle, circle.best
+        if along != 0.0 or around != 0.0:
+            look_near(circle, body, place + along, angle + around, ROUGHLY)
+        for axis in range(2):
+            top = circle.best
+            for side in (1.0, -1.0):
+                if circle.best == top:
+                    moved = circle.summit + (side * step * largest if axis == 0 else 0.0)
+                    turned = circle.angle + (side * step if axis == 1 else 0.0)
+                    look_near(circle, body, moved, turned, ROUGHLY)
+        along, around = circle.summit - place, circle.angle - angle
+        if circle.best <= before * (1.0 + 0.1 * line):
+            step *= 0.5
+    look_near(circle, body, circle.summit, circle.angle, 0.5 * line)
 
 
 @jit
@@ -329,14 +338,21 @@ def surface_value(circle, body, found):
     solve_cycle(cycle, load)
     cycle.shift = found.shift
     lay_out(body.point.growth, cycle, profile, load, found.growth)
-    count, known = choose_circles(circle, body, found), (1.0 + HIGHER) * found.s
-    circle.best = floor = lift(ask, known)
+    count = choose_circles(circle, body, found)
+    circle.best = floor = lift(ask, (1.0 + HIGHER) * found.s)
     for k in range(count if count > 1 else 0):  # one circle is searched at once
         glance(circle, body, circle.places[k])
-    top = value_of(ask, circle.best) if circle.best > floor else known
     for k in range(count):
-        top = max(top, search_circle(circle, body, circle.places[k], top))
-    return climb_circles(circle, body, top) if top > known else found.s
+        search_circle(circle, body, circle.places[k])
+    if circle.best <= floor:
+        return found.s
+    for _ in range(0 if profile.singular else CLIMBS):
+        climb_surface(circle, body)
+        top = circle.best
+        search_circle(circle, body, circle.summit)
+        if circle.best <= top * (1.0 + ask.line):
+            break
+    return value_of(ask, circle.best)
 
 
 @jit

@@ -554,6 +554,15 @@ def test_several_archives_get_a_page_that_lists_them(tmp_path: Path) -> None:
     assert 'href="index.html"' in files["loops.html"].read_text("utf-8")
 
 
+def test_archives_that_are_none_make_no_page(tmp_path: Path) -> None:
+    for name in "ab":
+        (tmp_path / f"{name}.nc").write_text("no archive")
+    outcome = call("report", tmp_path / "a.nc", tmp_path / "b.nc", "-o", tmp_path / "site")
+    assert outcome.exit_code == 2
+    assert outcome.stderr.splitlines()[-1].startswith(f"Error: {tmp_path / 'a.nc'}: not a readable")
+    assert not [*(tmp_path / "site").glob("*.html")]
+
+
 @pytest.mark.slow
 def test_pages_made_side_by_side_are_in_order(tmp_path: Path, small: xr.Dataset) -> None:
     archives = [tmp_path / f"{name}.nc" for name in "abcd"]

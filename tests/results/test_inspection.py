@@ -142,6 +142,8 @@ def test_instants_near_to_one_another_are_one_also_across_the_end_of_the_cycle(p
     period = float(point.time.max() - point.time.min())
     share = np.sort(point.instant_time.values) / period
     assert np.diff(np.append(share, share[0] + 1.0)).min() >= 0.079
+    # The smallest normal stress and the largest strain do not make s.
+    assert not {"σ_n smallest", "ε_n largest"} & {*point.reason.values.tolist()}
     largest = point.normal_stress.argmax("time")
     at = float(point.instant_time[point.reason.values.tolist().index("σ_n largest")])
     assert at == pytest.approx(float(point.time[largest]), abs=1e-9)

@@ -127,6 +127,16 @@ REFUSED = {
         'columns = { normal = "normal [kN]", tangential = "tangential [N]" }\nscale = { normal = -1e-3 }',
         r"file: found 'normal \[kN\]' in kN .*, and scale has normal = -0.001 \(.*: scale = .* = 1000 }",
     ),
+    "a word in the first row": (
+        table("time,normal,tangential\n0,zero,1").encode(),
+        "",
+        r"file: found 'zero' \(.*: line 2, normal\); allowed: a finite number; lines above the header are sk",
+    ),
+    "a word in the second row": (
+        table("time,normal,tangential\n0,1,1\n0,zero,1").encode(),
+        "",
+        r"file: found 'zero' \(.*: line 3, normal\); allowed: a finite number$",
+    ),
     "a displacement": (
         table("time,normal,u [µm]").encode(),
         'columns = { tangential = "u [µm]" }\nscale = { tangential = 1e-3 }',
