@@ -83,7 +83,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     """
     rows, _ = canonical_points(grid_of(dataset), np.arange(dataset.s.size))
     radius = np.empty(len(rows))
-    for members in alike(rows, rows["p"], rows["q"]):
+    for members in alike(rows):
         radius[members] = np.nan_to_num(margins_of(points_from(rows[members], {}))["stick_radius"])
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 

@@ -62,7 +62,7 @@ def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
     """The values of s and of its means, their errors, lives, and usages of a limit."""
     for of, end in _ENDS.items():
         place, words = end.removeprefix("_"), end.replace("_", " ")
-        symbol, meaning = row.sign + rf"_\mathrm{{{place}}}" * bool(place), row.values + words
+        symbol, meaning = _indexed(row.sign, place), row.values + words
         name, scale = f"{row.name}{end}", (row.unit, row.scale)
         yield Derived(name, symbol, meaning, *scale, of, criterion=criterion)
         if row.limit:

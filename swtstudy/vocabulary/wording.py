@@ -265,12 +265,9 @@ def pi_words(multiple: Fraction) -> str:
     >>> [pi_words(Fraction(n, 2)) for n in range(-1, 5)]
     ['-π/2', '0', 'π/2', 'π', '3π/2', '2π']
     """
-    if multiple == 0:
-        return "0"
-    sign = "-" if multiple < 0 else ""
-    numerator = "" if abs(multiple.numerator) == 1 else str(abs(multiple.numerator))
-    denominator = "" if multiple.denominator == 1 else f"/{multiple.denominator}"
-    return f"{sign}{numerator}π{denominator}"
+    numerator, slash, denominator = str(multiple).partition("/")
+    numerator = {"1": "", "-1": "-"}.get(numerator, numerator)
+    return f"{numerator}π{slash}{denominator}" if multiple else "0"
 
 
 def _fraction(value: float, largest: int) -> Fraction | None:
@@ -288,9 +285,7 @@ def duration(seconds: float) -> str:
     """
     if seconds < 10:
         return f"{seconds:.1f} s"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"
+    minutes, whole = divmod(round(seconds), 60)
+    if minutes >= 60:
+        return f"{minutes // 60} h {minutes % 60} min"
+    return f"{minutes} min {whole} s" if minutes else f"{whole} s"
