@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy.vocabulary.arrays import FloatArray, IntArray, Shape
-from swtstudy.vocabulary.parameters import Control
+from swtstudy.vocabulary.parameters import DISPLACEMENTS, PARAMETERS, Control
 
 if TYPE_CHECKING:
     from swtstudy.solver.loop import Loop
     from swtstudy.solver.table import AnyProfile
+
+#: Numbers that points have unless they are given.
+_UNLESS_GIVEN = {n: row.default for n, row in PARAMETERS.items() if row.optional and row.kind == "number"}
+#: Arrays of shape (0,) are not given.
+_not_given = partial(np.empty, 0)
 
 
 @dataclass(frozen=True)
@@ -39,13 +45,13 @@ class Points:
     criterion
         The criterion whose largest value is s, a key of `swtstudy.vocabulary.choices.CRITERIA`.
     walker_exponent
-        Shape (n,), of SWT.
+        Shape (n,), of SWT; 1/2 unless given.
     normal_sensitivity
-        Shape (n,), of the criteria of shear.
+        Shape (n,), of the criteria of shear; 0 unless given.
     bulk_stress_amplitude, bulk_stress_mean, bulk_stress_phase
-        Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`.
+        Shape (n,), as in `swtstudy.vocabulary.parameters.PARAMETERS`; 0 unless given.
     bulk_strain_share
-        Shape (n,), as there, and 0 where the stick zone is not to be shifted.
+        Shape (n,), as there; 1 unless given, and 0 where the stick zone is not to be shifted.
     """
 
     profile: AnyProfile
@@ -56,16 +62,21 @@ class Points:
     q: IntArray
     tangential_amplitude: FloatArray
     phase: FloatArray
-    shape: Shape
-    control: Control
-    path: Loop | None
-    criterion: str
-    walker_exponent: FloatArray
-    normal_sensitivity: FloatArray
-    bulk_stress_amplitude: FloatArray
-    bulk_stress_mean: FloatArray
-    bulk_stress_phase: FloatArray
-    bulk_strain_share: FloatArray
+    shape: Shape = field(default_factory=dict)
+    control: Control = DISPLACEMENTS
+    path: Loop | None = None
+    criterion: str = "swt"
+    walker_exponent: FloatArray = field(default_factory=_not_given)
+    normal_sensitivity: FloatArray = field(default_factory=_not_given)
+    bulk_stress_amplitude: FloatArray = field(default_factory=_not_given)
+    bulk_stress_mean: FloatArray = field(default_factory=_not_given)
+    bulk_stress_phase: FloatArray = field(default_factory=_not_given)
+    bulk_strain_share: FloatArray = field(default_factory=_not_given)
+
+    def __post_init__(self) -> None:
+        for name, value in _UNLESS_GIVEN.items():
+            if not getattr(self, name).size:
+                object.__setattr__(self, name, np.full(len(self), value))
 
     def __len__(self) -> int:
         return len(self.phase)
