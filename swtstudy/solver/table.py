@@ -158,16 +158,13 @@ class TabulatedProfile(Definition):
         b, end, knots, jumps = self.flat_radius, self.end, self.fit.x[:-1], self.jumps()
         radius = np.hypot(np.minimum(s, end), b)
         depth = _abel(knots, jumps, radius, 1) if self.plane else radius * _abel(knots, jumps, radius)
-        half_load = depth if self.plane else _abel(knots, jumps, radius, 2)
-        beyond = np.maximum(s - end, 0.0)
-        if not beyond.any():
-            return depth, half_load
-        # There the slope over the radius is constant.
+        half_load = 0.0 if self.plane else _abel(knots, jumps, radius, 2)
+        # Beyond the end the slope over the radius is constant.
         rate = float(self._density(end)) / end
-        depth = depth + 0.5 * rate * beyond * (end + s)
+        depth = depth + 0.5 * rate * np.maximum(s - end, 0.0) * (end + s)
         if self.plane:
             return depth, depth
-        return depth, half_load + rate / 3.0 * (np.hypot(s, b) ** 3 - np.hypot(np.minimum(s, end), b) ** 3)
+        return depth, half_load + rate / 3.0 * (np.hypot(s, b) ** 3 - radius**3)
 
     @cached_property
     def deepest(self) -> float:
