@@ -146,30 +146,31 @@ class TabulatedProfile(Definition):
         return radius * found if self.plane else found
 
     def density(self, s: FloatArray) -> FloatArray:
-        """dG/ds at s, by cubics between 4,001 places."""
+        """dG/ds at s, G as `rise` has it, by cubics between 4,001 places."""
         inside = np.minimum(s, self.end)
-        return np.asarray(self._density(inside) * np.maximum(s / self.end, 1.0))
+        rate = self._density(inside) * np.maximum(s / self.end, 1.0)
+        return np.asarray(rate / (MEAN_LOAD if self.plane else 1.0))
 
     def rise(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """G, which is ξ ∫ f′ dr/√(ξ² − r²) or N, and ∫ ξ dG, which is ∫ r² f′ dr/√(ξ² − r²) or N, at s.
+        """G and half of the normal force over E* at s: ξ ∫ f′ dr/√(ξ² − r²), and ∫ r² f′ dr/√(ξ² − r²).
 
-        N = ∫ x f′ dx/√(ξ² − x²) is over E*, in a length.
+        In the plane N/N_0, and half of N = ∫ x f′ dx/√(ξ² − x²), a load per length over E*.
         """
         b, end, knots, jumps = self.flat_radius, self.end, self.fit.x[:-1], self.jumps()
         radius = np.hypot(np.minimum(s, end), b)
-        depth = _abel(knots, jumps, radius, 1) if self.plane else radius * _abel(knots, jumps, radius)
-        half_load = 0.0 if self.plane else _abel(knots, jumps, radius, 2)
         # Beyond the end the slope over the radius is constant.
         rate = float(self._density(end)) / end
-        depth = depth + 0.5 * rate * np.maximum(s - end, 0.0) * (end + s)
+        beyond = 0.5 * rate * np.maximum(s - end, 0.0) * (end + s)
         if self.plane:
-            return depth, depth
-        return depth, half_load + rate / 3.0 * (np.hypot(s, b) ** 3 - radius**3)
+            load = _abel(knots, jumps, radius, 1) + beyond
+            return load / MEAN_LOAD, 0.5 * load
+        half_load = _abel(knots, jumps, radius, 2) + rate / 3.0 * (np.hypot(s, b) ** 3 - radius**3)
+        return radius * _abel(knots, jumps, radius) + beyond, half_load
 
     @cached_property
     def deepest(self) -> float:
         """The depth, or N/N_0, up to which there is a full disc or strip of contact within the table."""
-        return float(self.rise(self._largest)[0][0]) / (MEAN_LOAD if self.plane else 1.0)
+        return float(self.rise(self._largest)[0][0])
 
     @property
     def compact_radius(self) -> float:
