@@ -104,11 +104,11 @@ def raises_and_lowers(
 ) -> Measured:
     """Extreme s over s without a normal oscillation."""
     without = at(tangential_amplitude, normal_amplitude=0).s.interp(tangential_amplitude=_TANGENTIAL)
-    one, several = (
-        [figure.s.max() / without - 1, figure.s.min() / without - 1] for figure in (figure3, figure4)
-    )
-    words = {"one": "{:+.0%} to {:+.0%}".format(*one), "several": "{:+.0%} to {:+.0%}".format(*several)}
-    return several[0] >= by and several[1] <= -by, {"without": without, **words}
+    values = {"without": without}
+    for name, figure in (("one", figure3), ("several", figure4)):
+        high, low = figure.s.max() / without - 1, figure.s.min() / without - 1
+        values[name] = f"{high:+.0%} to {low:+.0%}"
+    return high >= by and low <= -by, values
 
 
 def _by_phase(archive: xr.Dataset) -> xr.DataArray:

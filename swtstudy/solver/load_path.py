@@ -164,10 +164,9 @@ class LoadPath(Loop):
         for column, rows in path.harmonics.items():
             largest = max((phase for *_, phase in rows), key=abs, default=0.0)
             if abs(largest) > MANY_TURNS:
-                words = f'for degrees np.radians({largest:g}), in a study "{largest:g} deg"'
-                warnings.warn(
-                    f"{column} of {name}: a phase of {largest:g} is in radians; {words}", stacklevel=2
-                )
+                words = f"{column} of {name}: a phase of {largest:g} is in radians; for degrees "
+                words += f'np.radians({largest:g}), in a study "{largest:g} deg"'
+                warnings.warn(words, stacklevel=2)
         return path
 
     @staticmethod

@@ -312,10 +312,8 @@ def _climb(mean: Mean, x: float, step: float, accuracy: float) -> tuple[float, f
     at, of, foretold, far = [x], [mean(x)[0]], np.inf, 3.0 * step
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
-        is_outer = (np.array(of) < (1.0 - TOLD_APART * accuracy) * of[k]) | (
-            np.abs(np.array(at) - at[k]) >= far
-        )
-        outer = np.flatnonzero(is_outer)
+        lower = np.array(of) < (1.0 - TOLD_APART * accuracy) * of[k]
+        outer = np.flatnonzero(lower | (np.abs(np.array(at) - at[k]) >= far))
         before, after = outer[outer < k], outer[outer > k]
         if before.size and after.size:
             three = [int(before[-1]), k, int(after[0])]

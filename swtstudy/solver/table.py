@@ -331,30 +331,28 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         name = "profile"
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1:
-            yield Mistake(
-                f"{name}.{key}", "no one-dimensional array of numbers", "a list of numbers, or an array"
-            )
-            return
-        if (gaps := np.flatnonzero(~np.isfinite(values))).size:
+            found, allowed = "no one-dimensional array of numbers", "a list of numbers, or an array"
+        elif (gaps := np.flatnonzero(~np.isfinite(values))).size:
             found = f"{values[gaps[0]]:g} at point {gaps[0] + 1}{more_like_it(gaps.size)}"
-            yield Mistake(f"{name}.{key}", found, "finite numbers: leave out points without a value")
-            return
-        largest = np.abs(values).max(initial=0.0)
-        if largest > 0.0 and not SMALLEST <= largest <= LARGEST:
-            allowed = f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
-            yield Mistake(f"{name}.{key}", f"up to {largest:g}", allowed)
-            return
+            allowed = "finite numbers: leave out points without a value"
+        elif (largest := np.abs(values).max(initial=0.0)) > LARGEST or 0.0 < largest < SMALLEST:
+            found, allowed = f"up to {largest:g}", f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
+        else:
+            continue
+        yield Mistake(f"{name}.{key}", found, allowed)
+        return
+    both = f"{name}.radius, {name}.height"
     if radius.size != height.size or radius.size < FEWEST:
         found = f"{radius.size} radii and {height.size} heights"
-        yield Mistake(f"{name}.radius, {name}.height", found, f"as many of each, at least {FEWEST}")
+        yield Mistake(both, found, f"as many of each, at least {FEWEST}")
         return
     if radius.size > MOST:
         allowed = f"at most {MOST}: every {-(-radius.size // MOST)}th, or the mean of so many"
-        yield Mistake(f"{name}.radius, {name}.height", f"{radius.size} points", allowed)
+        yield Mistake(both, f"{radius.size} points", allowed)
         return
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
-        yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
+        yield Mistake(both, found, "0 and 0: the axis, and heights above it")
     falls = np.flatnonzero(np.diff(radius) <= LEAST_STEP * radius.max())
     if falls.size:
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"

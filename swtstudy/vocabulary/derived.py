@@ -121,13 +121,8 @@ DERIVED: dict[str, Derived] = {row.name: row for row in _rows()}
 #: Names of all lives that there may be.
 LIVES = tuple(name for name, row in DERIVED.items() if row.kind == LIFE)
 #: Names without units, for variables that have units in a study with units.
-NORMALISED = {
-    name: f"normalised_{name}"
-    for name in (
-        *("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift"),
-        *STICK_ENDS,
-    )
-}
+_WITH_UNITS = ("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift")
+NORMALISED = {name: f"normalised_{name}" for name in (*_WITH_UNITS, *STICK_ENDS)}
 #: Words for the facts of contacts that data variables need.
 _FACTS = {
     "materials": "fatigue constants ([material], swtstudy.FatigueConstants)",

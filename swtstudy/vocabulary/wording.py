@@ -49,10 +49,9 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     >>> axis_words("phase"), axis_words("friction")
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
-    units = attributes.get("units", AXES[name].units)
-    words = (
-        f"{AXES[name].meaning}, " if AXES[name].part == "criterion" and AXES[name].kind == "number" else ""
-    )
+    row = AXES[name]
+    units = attributes.get("units", row.units)
+    words = f"{row.meaning}, " if row.part == "criterion" and row.kind == "number" else ""
     return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
