@@ -36,16 +36,14 @@ def partial_slip(*archives: xr.Dataset, at_least: float) -> Measured:
 def on_the_line(audit: xr.Dataset, at_least: float) -> Measured:
     """Share of the points whose maximum over the body and all planes is on the surface line."""
     audit = audit.isel(sample=np.isfinite(audit.excess.values))
-    beneath, oblique, off = (
-        audit.verdict.values == VERDICTS.index(name)
-        for name in ("surface", "plane_through_y", "symmetry_line")
-    )
-    left = beneath | oblique | off
+    verdicts = np.array(VERDICTS)[audit.verdict.values]
+    off_line = {"beneath": "surface", "oblique": "plane_through_y", "off": "symmetry_line"}
+    left = np.isin(verdicts, [*off_line.values()])
     share, worst = 1.0 - left.mean(), ""
     if left.any():
         excess, ν = audit.excess.values[left].max(), audit.poisson_ratio.values[left].min()
         worst = f", with swt up to {excess:.1%} higher, for ν ≥ {ν:.2f}"
-    counts = {"beneath": beneath.sum(), "oblique": oblique.sum(), "off": off.sum()}
+    counts = {words: (verdicts == name).sum() for words, name in off_line.items()}
     return share >= at_least, {"share": share, "points": left.size, "worst": worst, **counts}
 
 

@@ -160,12 +160,12 @@ def period_shrinks(*archives: xr.Dataset) -> Measured:
         curves = even(with_dims(archive, "frequency_ratio"), "phase").s.isel(normal_amplitude=-1)
         for ratio in curves.frequency_ratio.values.tolist():
             found[ratio] = period(curves.sel(frequency_ratio=ratio).sortby("phase").values)
-    ratios = sorted(found)
-    periods = [found[ratio] for ratio in ratios]
+    found = dict(sorted(found.items()))
+    periods = [*found.values()]
     never_longer = all(b <= a or math.isclose(a, b) for a, b in itertools.pairwise(periods))
     words = (
         f"{value_words('frequency_ratio', ratio)}: {value_words('phase', p) if p < math.inf else 'none'}"
-        for ratio, p in zip(ratios, periods, strict=True)
+        for ratio, p in found.items()
     )
     return never_longer and periods[-1] < periods[0], {"periods": ", ".join(words)}
 

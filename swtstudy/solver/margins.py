@@ -58,7 +58,7 @@ def margins_of(points: Points) -> Margins:
 def foreseen(points: Points) -> Margins:
     """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read.
 
-    Only for discs under one force and one displacement, which few studies have, the compiled function is used.
+    Discs under one force and one displacement, which few studies have, are left to the compiled function.
     """
     if points.control.mixed and not is_plane(points.profile):
         return margins_of(points)

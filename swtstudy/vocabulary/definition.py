@@ -55,9 +55,9 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
         raise refused(key, literal(values), allowed) from None
     if array.dtype.kind in "iuf":
         return np.asarray(np.ma.filled(array.astype(float), np.nan))
-    known = np.ma.filled(array.astype(object), np.nan)
-    if array.dtype.kind != "O" or not all(map(is_number, known.flat)):
+    if array.dtype.kind != "O" or not all(map(is_number, np.ma.filled(array, np.nan).flat)):
         raise refused(key, literal(values), allowed)
+    known = np.ma.filled(array, np.nan)
     return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
 
 

@@ -98,8 +98,7 @@ def value_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     # Lengths, forces and stresses have a unit, which is empty where nobody has named it.
     if attributes.get("units", "1") not in ("1", "rad") or (row is not None and row.part == "contact"):
         return number_words(value)
-    fraction = _fraction(value, _LARGEST_DENOMINATOR)
-    if fraction is not None:
+    if (fraction := _fraction(value, _LARGEST_DENOMINATOR)) is not None:
         return str(fraction)
     square = round(value**2)
     if value > 0 and 0 < square < 1000 and math.isclose(value**2, square, rel_tol=_TOLERANCE):
