@@ -216,9 +216,10 @@ def _checked(vertices: ArrayLike, name: str) -> FloatArray:
     try:
         found = read_numbers(key, vertices, "a list of pairs of numbers, or of triples with the bulk stress")
     except StudyError:
-        rows = vertices if isinstance(vertices, Sequence) else []
-        for number, (before, each) in enumerate(itertools.pairwise(rows), start=2):
-            if all(isinstance(row, Sequence) for row in rows) and {len(before), len(each)} == {2, 3}:
+        rows: Any = vertices if isinstance(vertices, Sequence) else []
+        pairs = itertools.pairwise(rows if all(isinstance(each, Sequence) for each in rows) else [])
+        for number, (before, each) in enumerate(pairs, start=2):
+            if {len(before), len(each)} == {2, 3}:
                 allowed = f"{len(before)} numbers, as before: the third one is the bulk stress"
                 raise refused(f"{key}, number {number}", literal(each), allowed) from None
         raise

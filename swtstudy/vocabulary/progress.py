@@ -84,6 +84,7 @@ class Progress:
             unit=f" {self._unit}",
             leave=not _in_notebook(),
             dynamic_ncols=True,
+            disable=False,
         )
         # The rate counts from the beginning, not from when the bar appeared.
         self._bar.start_t -= time.monotonic() - self._begin
