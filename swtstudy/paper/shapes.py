@@ -37,23 +37,19 @@ def monotone(figure5: xr.Dataset, profile: str, sense: int) -> Measured:
 def weakly_coupled(
     archive: xr.Dataset, dim: str, at_most: float, profile: str = "", regular: str = ""
 ) -> Measured:
-    """Coupling of a shape parameter with the load, of one profile, at the regular steps of one axis."""
+    """Coupling of a shape parameter with the load, of one profile, at the regular steps of one axis.
+
+    Share of the variance of ln s that no product of a function of the shape parameter and one of all others
+    explains: the interaction term of a two-way analysis of variance.
+    """
     chosen = at(archive, profile=profile) if profile else archive
     chosen = even(chosen, regular) if regular else chosen
-    share = coupling(with_dims(chosen, dim).s, dim)
-    return share <= at_most, {"share": share}
-
-
-def coupling(values: xr.DataArray, dim: str) -> float:
-    """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
-
-    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
-    """
-    logarithm = np.log(values)
+    logarithm = np.log(with_dims(chosen, dim).s)
     centred = logarithm - logarithm.mean()
-    others = [other for other in values.dims if other != dim]
+    others = [other for other in centred.dims if other != dim]
     interaction = centred - centred.mean(dim) - centred.mean(others)
-    return float((interaction**2).sum() / (centred**2).sum())
+    share = float((interaction**2).sum() / (centred**2).sum())
+    return share <= at_most, {"share": share}
 
 
 def all_curves_fall(figure6: xr.Dataset) -> Measured:
