@@ -67,7 +67,7 @@ def foreseen(points: Points) -> Margins:
         alike = np.flatnonzero((points.p == p) & (points.q == q))
         parts = -(-alike.size * _motion(points[alike[:1]])[0].shape[1] // AT_ONCE)
         for rows in np.array_split(alike, parts):
-            for name, values in _seen(points[rows], found["unit_shift"][rows]).items():
+            for name, values in _from_samples(points[rows], found["unit_shift"][rows]).items():
                 found[name][rows] = values
     return found
 
@@ -105,7 +105,7 @@ def _largest(values: FloatArray, smooth: bool) -> FloatArray:
     return np.asarray((values + rise).max(axis=1))
 
 
-def _seen(points: Points, unit_shift: FloatArray) -> Margins:
+def _from_samples(points: Points, unit_shift: FloatArray) -> Margins:
     """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
     normal, tangential, bulk, smooth = _motion(points)
     follows = _follows(points, normal, tangential, bulk)

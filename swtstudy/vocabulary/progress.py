@@ -46,7 +46,7 @@ class Progress:
 
     def __enter__(self) -> Self:
         self._token = _OUTER.set(self._outer or self)
-        if self._total and not self._delay and self._outer is None and _is_seen():
+        if self._total and not self._delay and self._outer is None and _is_visible():
             self._show()
         return self
 
@@ -67,10 +67,10 @@ class Progress:
         now = time.monotonic()
         if self._bar is not None:
             self._bar.update(finished)
-        elif not _is_seen() and now - self._told >= LINE_SECONDS:
+        elif not _is_visible() and now - self._told >= LINE_SECONDS:
             self._told = now
             self._tell()
-        elif _is_seen() and now - self._begin >= self._delay:
+        elif _is_visible() and now - self._begin >= self._delay:
             self._show()
 
     def _show(self) -> None:
@@ -104,7 +104,7 @@ def _in_notebook() -> bool:
     return shell is not None and "IPKernelApp" in shell.config
 
 
-def _is_seen() -> bool:
+def _is_visible() -> bool:
     """True in a notebook and on a terminal; not if that is missing or closed."""
     try:
         return _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
