@@ -70,13 +70,14 @@ class AtRest:
     def density(self, s: FloatArray) -> FloatArray:
         """dG/ds, of shape (n, …)."""
         if self._table:
-            return self._table.density(s)
+            return self._table.density(s) / (MEAN_LOAD if self.plane else 1.0)
         return self._form.density(s, *(value.reshape(-1, *(1,) * (s.ndim - 1)) for value in self._values))
 
     def rise(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
         """G, and half of the normal force over E* δ0 a_H or E* δ0, up to s = √(ξ² − b²)."""
         if self._table:
-            return self._table.rise(s)
+            depth, half_load = self._table.rise(s)
+            return (depth / MEAN_LOAD, 0.5 * depth) if self.plane else (depth, half_load)
         if self._form.density is power_law:
             n = self._values[0]
             depth = s**n

@@ -146,15 +146,14 @@ class TabulatedProfile(Definition):
         return radius * found if self.plane else found
 
     def density(self, s: FloatArray) -> FloatArray:
-        """dG/ds at s, G as `rise` has it, by cubics between 4,001 places."""
+        """dG/ds, or dN/ds in the plane, at s, by cubics between 4,001 places."""
         inside = np.minimum(s, self.end)
-        rate = self._density(inside) * np.maximum(s / self.end, 1.0)
-        return np.asarray(rate / (MEAN_LOAD if self.plane else 1.0))
+        return np.asarray(self._density(inside) * np.maximum(s / self.end, 1.0))
 
     def rise(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """G and half of the normal force over E* at s: ξ ∫ f′ dr/√(ξ² − r²), and ∫ r² f′ dr/√(ξ² − r²).
+        """G = ξ ∫ f′ dr/√(ξ² − r²), and ∫ ξ dG = ∫ r² f′ dr/√(ξ² − r²), half of the normal force, at s.
 
-        In the plane N/N_0, and half of N = ∫ x f′ dx/√(ξ² − x²), a load per length over E*.
+        In the plane both are N = ∫ x f′ dx/√(ξ² − x²), a load over E*, in a length.
         """
         b, end, knots, jumps = self.flat_radius, self.end, self.fit.x[:-1], self.jumps()
         radius = np.hypot(np.minimum(s, end), b)
@@ -163,14 +162,14 @@ class TabulatedProfile(Definition):
         beyond = 0.5 * rate * np.maximum(s - end, 0.0) * (end + s)
         if self.plane:
             load = _abel(knots, jumps, radius, 1) + beyond
-            return load / MEAN_LOAD, 0.5 * load
+            return load, load
         half_load = _abel(knots, jumps, radius, 2) + rate / 3.0 * (np.hypot(s, b) ** 3 - radius**3)
         return radius * _abel(knots, jumps, radius) + beyond, half_load
 
     @cached_property
     def deepest(self) -> float:
         """The depth, or N/N_0, up to which there is a full disc or strip of contact within the table."""
-        return float(self.rise(self._largest)[0][0])
+        return float(self.rise(self._largest)[0][0]) / (MEAN_LOAD if self.plane else 1.0)
 
     @property
     def compact_radius(self) -> float:
