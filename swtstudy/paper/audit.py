@@ -36,10 +36,9 @@ VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface"
 _ATTRIBUTES = read_table(__file__, "audit")
 _ATTRIBUTES["regime"] |= flag_attributes(REGIMES)
 _ATTRIBUTES["verdict"] |= flag_attributes(VERDICTS)
-#: Numbers that the audit of a point finds.
-FOUND = [
-    name for name in _ATTRIBUTES if name not in ("excess", "remainder", "shortfall", "regime", "verdict")
-]
+#: What follows from these; and the numbers that the audit of a point finds.
+_FOLLOWS = ("excess", "remainder", "shortfall", "verdict")
+FOUND = [name for name in _ATTRIBUTES if name not in (*_FOLLOWS, "regime")]
 #: An audited point, in an array: its numbers, and its regime's flag value.
 AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Columns of the rows that an audit holds: the loop knows what it costs. And the columns of names.
@@ -240,11 +239,8 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
 
     points = points_from(np.array([tuple(row)], ROW), definitions)
     line = solve_points(points, TOLERANCE / 10.0)
-    found = np.zeros(1, AUDITED)[0]
-    for name in FOUND:
-        found[name] = np.nan
-    for name in ("s", "s_error", "s_surface", "critical_x", "regime"):
-        found[name] = getattr(line, name)[0]
+    found = dict.fromkeys(FOUND, np.nan)
+    found |= {name: getattr(line, name)[0] for name in ("s", "s_error", "s_surface", "critical_x", "regime")}
     if dense and np.isfinite(found["s"]):
         found["s_dense"] = dense_maximum(points)[0]
     if np.isfinite(found["s_surface"]):
@@ -254,4 +250,4 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
         found["s_all_planes"], found["s_body"] = at_line.swt, body.swt
         for axis, position, normal in zip("xyz", body.position, body.normal, strict=True):
             found[f"body_{axis}"], found[f"normal_{axis}"] = position, normal
-    return found
+    return np.array([tuple(found.values())], AUDITED)[0]

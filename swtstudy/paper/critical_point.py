@@ -36,16 +36,14 @@ def partial_slip(*archives: xr.Dataset, at_least: float) -> Measured:
 def on_the_line(audit: xr.Dataset, at_least: float) -> Measured:
     """Share of the points whose maximum over the body and all planes is on the surface line."""
     audit = audit.isel(sample=np.isfinite(audit.excess.values))
-    beneath, oblique, off = (
-        audit.verdict.values == VERDICTS.index(name)
-        for name in ("surface", "plane_through_y", "symmetry_line")
-    )
-    left = beneath | oblique | off
+    verdicts = np.array(VERDICTS)[audit.verdict.values]
+    off_line = {"beneath": "surface", "oblique": "plane_through_y", "off": "symmetry_line"}
+    left = np.isin(verdicts, [*off_line.values()])
     share, worst = 1.0 - left.mean(), ""
     if left.any():
         excess, ν = audit.excess.values[left].max(), audit.poisson_ratio.values[left].min()
         worst = f", with swt up to {excess:.1%} higher, for ν ≥ {ν:.2f}"
-    counts = {"beneath": beneath.sum(), "oblique": oblique.sum(), "off": off.sum()}
+    counts = {words: (verdicts == name).sum() for words, name in off_line.items()}
     return share >= at_least, {"share": share, "points": left.size, "worst": worst, **counts}
 
 
@@ -83,7 +81,7 @@ def stick_radius(dataset: xr.Dataset) -> xr.DataArray:
     """
     rows, _ = canonical_points(grid_of(dataset), np.arange(dataset.s.size))
     radius = np.empty(len(rows))
-    for members in alike(rows, rows["p"], rows["q"]):
+    for members in alike(rows):
         radius[members] = np.nan_to_num(margins_of(points_from(rows[members], {}))["stick_radius"])
     return dataset.s.copy(data=radius.reshape(dataset.s.shape)).rename("stick_radius")
 

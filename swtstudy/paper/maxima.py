@@ -70,14 +70,6 @@ class BodyMaximum(NamedTuple):
     normal: FloatArray
 
 
-class _Search(NamedTuple):
-    """The load cycle of one point, its largest contact radius, and half the ring that is left out."""
-
-    opened: field.Opened
-    largest: float
-    ring: float
-
-
 def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximum]:
     """Largest swt over the body, and swt over all planes at the surface line's critical point.
 
@@ -98,11 +90,10 @@ def body_maximum(points: Points, line_x: float) -> tuple[BodyMaximum, BodyMaximu
     line_is_far = not np.isfinite(line_x)
     line_x = largest if line_is_far else line_x
     own = np.array([abs(line_x), 0.0 if line_x >= 0.0 else np.pi, 0.0])
-    flat = float(opened.point.profile["flat_radius"])
-    search = _Search(opened, largest, min(RING * largest, 0.9 * abs(own[0] - flat)))
+    ring = min(RING * largest, 0.9 * abs(own[0] - float(opened.point.profile["flat_radius"])))
     place, highest = own, 0.0
-    for one in (own, *_first_look(search, own)):
-        summit, height = _climb_from(search, one, highest)
+    for one in (own, *_first_look(opened, ring, own)):
+        summit, height = _climb_from(opened, ring, one, highest)
         if height > (1.0 + ROUNDING) * highest:
             place, highest = summit, height
     at_line, found = (_maximum_at(opened, _cartesian(each)) for each in (own, place))
@@ -119,10 +110,10 @@ def _maximum_at(opened: field.Opened, place: FloatArray) -> BodyMaximum:
     return BodyMaximum(float(swt[0]), place, normal[0])
 
 
-def _first_look(search: _Search, own: FloatArray) -> FloatArray:
+def _first_look(opened: field.Opened, ring: float, own: FloatArray) -> FloatArray:
     """The highest places of a grid that are not close to one another or to ``own``, shape (k, 3)."""
-    opened, largest = search.opened, search.largest
     # Distances from the axis: ends of the memory's pieces and edges, and in between.
+    largest = field.largest_radius(opened)
     b = float(opened.point.profile["flat_radius"])
     between = b + (largest - b) * np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, BETWEEN))
     rest = np.concatenate([b * np.array([0.0, 0.5, 0.95]), largest * np.array([1.03, 1.15])])
@@ -133,7 +124,7 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
         radii, depths = np.append(radii, largest * BEYOND), np.append(depths, largest * BENEATH)
     angles = ANGLES[[0, -1]] if opened.point.profile["plane"] else ANGLES
     grid = np.stack(np.meshgrid(radii, angles, depths, indexing="ij"), axis=-1).reshape(-1, 3)
-    grid = _off_ring(search, grid)
+    grid = _off_ring(opened, ring, grid)
     highest = float(field.criterion_at(opened, _cartesian(own[None]), SEARCH)[0][0])
     swt = field.criterion_at(opened, _cartesian(grid), LOOK, PROMISING * highest, field.MANY)[0]
     chosen = [own]
@@ -146,16 +137,17 @@ def _first_look(search: _Search, own: FloatArray) -> FloatArray:
     return np.array(chosen[1:]).reshape(-1, 3)
 
 
-def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[FloatArray, float]:
+def _climb_from(
+    opened: field.Opened, ring: float, place: FloatArray, rival: float
+) -> tuple[FloatArray, float]:
     """Pattern search from one place, given up when it stays below a rival: a summit and its swt."""
     stencil = np.stack(np.meshgrid(*([-1.0, 0.0, 1.0],) * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    opened = search.opened
     # In the plane all is in the section.
-    across = 0.0 if opened.point.profile["plane"] else 1.0
-    steps = FIRST_STEPS * np.array([search.largest, across, search.largest])
+    across, largest = 0.0 if opened.point.profile["plane"] else 1.0, field.largest_radius(opened)
+    steps = FIRST_STEPS * np.array([largest, across, largest])
     height, width = 0.0, 1.0
     while width > LAST_WIDTH:
-        trial = _off_ring(search, _folded(place + width * steps * stencil))
+        trial = _off_ring(opened, ring, _folded(place + width * steps * stencil))
         # Reflection maps trials onto one another where the place is on the line or on the surface.
         trial = np.unique(np.round(np.concatenate([place[None], trial]), 12), axis=0)
         swt = field.criterion_at(opened, _cartesian(trial), SEARCH, LEFT_OUT * height, field.MANY)[0]
@@ -170,14 +162,12 @@ def _climb_from(search: _Search, place: FloatArray, rival: float) -> tuple[Float
     return place, height
 
 
-def _off_ring(search: _Search, places: FloatArray) -> FloatArray:
-    """Places moved away from the edge of a flat face."""
-    b, near = float(search.opened.point.profile["flat_radius"]), search.ring
-    if b == 0.0:
-        return places
-    offset = places[..., 0] - b
-    r = np.where(np.abs(offset) < near, b + np.where(offset < 0.0, -near, near), places[..., 0])
-    return np.concatenate([r[..., None], places[..., 1:]], axis=-1)
+def _off_ring(opened: field.Opened, ring: float, places: FloatArray) -> FloatArray:
+    """Places moved out of half a ring about the edge of a flat face."""
+    b, r = float(opened.point.profile["flat_radius"]), places[..., 0]
+    if b > 0.0:
+        places[..., 0] = np.where(np.abs(r - b) < ring, np.where(r < b, b - ring, b + ring), r)
+    return places
 
 
 def _folded(places: FloatArray) -> FloatArray:

@@ -76,11 +76,7 @@ def even(dataset: xr.Dataset, name: str) -> xr.Dataset:
 def listed(values: xr.DataArray, form: str = ".2f") -> str:
     """The values of a one-dimensional array with their places: "1/2: 2.74, 1: 1.50"."""
     (dim,) = map(str, values.dims)
-    places = values[dim].values.tolist()
-    return ", ".join(
-        f"{value_words(dim, place)}: {value:{form}}"
-        for place, value in zip(places, values.values.tolist(), strict=True)
-    )
+    return ", ".join(f"{value_words(dim, each[dim].item())}: {each.item():{form}}" for each in values)
 
 
 def spread(dataset: xr.Dataset, dim: str, *others: str) -> xr.DataArray:

@@ -104,11 +104,11 @@ def raises_and_lowers(
 ) -> Measured:
     """Extreme s over s without a normal oscillation."""
     without = at(tangential_amplitude, normal_amplitude=0).s.interp(tangential_amplitude=_TANGENTIAL)
-    one, several = (
-        [figure.s.max() / without - 1, figure.s.min() / without - 1] for figure in (figure3, figure4)
-    )
-    words = {"one": "{:+.0%} to {:+.0%}".format(*one), "several": "{:+.0%} to {:+.0%}".format(*several)}
-    return several[0] >= by and several[1] <= -by, {"without": without, **words}
+    values = {"without": without}
+    for name, figure in (("one", figure3), ("several", figure4)):
+        high, low = figure.s.max() / without - 1, figure.s.min() / without - 1
+        values[name] = f"{high:+.0%} to {low:+.0%}"
+    return high >= by and low <= -by, values
 
 
 def _by_phase(archive: xr.Dataset) -> xr.DataArray:
@@ -160,12 +160,12 @@ def period_shrinks(*archives: xr.Dataset) -> Measured:
         curves = even(with_dims(archive, "frequency_ratio"), "phase").s.isel(normal_amplitude=-1)
         for ratio in curves.frequency_ratio.values.tolist():
             found[ratio] = period(curves.sel(frequency_ratio=ratio).sortby("phase").values)
-    ratios = sorted(found)
-    periods = [found[ratio] for ratio in ratios]
+    found = dict(sorted(found.items()))
+    periods = [*found.values()]
     never_longer = all(b <= a or math.isclose(a, b) for a, b in itertools.pairwise(periods))
     words = (
         f"{value_words('frequency_ratio', ratio)}: {value_words('phase', p) if p < math.inf else 'none'}"
-        for ratio, p in zip(ratios, periods, strict=True)
+        for ratio, p in found.items()
     )
     return never_longer and periods[-1] < periods[0], {"periods": ", ".join(words)}
 

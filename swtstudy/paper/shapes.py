@@ -37,23 +37,19 @@ def monotone(figure5: xr.Dataset, profile: str, sense: int) -> Measured:
 def weakly_coupled(
     archive: xr.Dataset, dim: str, at_most: float, profile: str = "", regular: str = ""
 ) -> Measured:
-    """Coupling of a shape parameter with the load, of one profile, at the regular steps of one axis."""
+    """Coupling of a shape parameter with the load, of one profile, at the regular steps of one axis.
+
+    Share of the variance of ln s that no product of a function of the shape parameter and one of all others
+    explains: the interaction term of a two-way analysis of variance.
+    """
     chosen = at(archive, profile=profile) if profile else archive
     chosen = even(chosen, regular) if regular else chosen
-    share = coupling(with_dims(chosen, dim).s, dim)
-    return share <= at_most, {"share": share}
-
-
-def coupling(values: xr.DataArray, dim: str) -> float:
-    """Share of the variance of ln(values) that no product f(dim)·g(all other dimensions) explains.
-
-    The interaction term of a two-way analysis of variance: 0 if the dimensions are not coupled.
-    """
-    logarithm = np.log(values)
+    logarithm = np.log(with_dims(chosen, dim).s)
     centred = logarithm - logarithm.mean()
-    others = [other for other in values.dims if other != dim]
+    others = [other for other in centred.dims if other != dim]
     interaction = centred - centred.mean(dim) - centred.mean(others)
-    return float((interaction**2).sum() / (centred**2).sum())
+    share = float((interaction**2).sum() / (centred**2).sum())
+    return share <= at_most, {"share": share}
 
 
 def all_curves_fall(figure6: xr.Dataset) -> Measured:
@@ -108,10 +104,9 @@ def raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset, by: float) -> Me
     """Extreme s over s of the paraboloid, at each amplitude."""
     holds, words = True, []
     for amplitude in figure7.normal_amplitude.values.tolist():
-        relative = (
-            at(figure7, normal_amplitude=amplitude).s / at(figure3, normal_amplitude=amplitude, phase=0).s
-        )
-        low, high = float(relative.min()) - 1, float(relative.max()) - 1
+        without = at(figure3, normal_amplitude=amplitude, phase=0).s
+        relative = at(figure7, normal_amplitude=amplitude).s / without - 1
+        low, high = float(relative.min()), float(relative.max())
         holds = holds and low <= -by and high >= by
         words.append(f"δA/δ0 = {amplitude:g}: {low:+.0%} to {high:+.0%}")
     return holds, {"changes": "; ".join(words)}
@@ -189,11 +184,9 @@ def oscillations_shrink(figure7: xr.Dataset, share: float) -> Measured:
     found = oscillations(figure7, "wavelength", "normal_amplitude")
     steps, longest = growing(found), max(found, key=lambda one: len(one.swings))
     periods, swings = (f"{each.sum()} of {len(each)}" for each in steps)
-    ends = (f"{each[0]:.2g} to {each[-1]:.2g}" if len(each) else "none" for each in longest)
+    ends = [f"{each[0]:.2g} to {each[-1]:.2g}" if len(each) else "none" for each in longest]
     words = {"periods": periods, "swings": swings, "curves": len(found)}
-    return as_a_rule(steps, share), words | dict(
-        zip(("longest_periods", "longest_swings"), ends, strict=True)
-    )
+    return as_a_rule(steps, share), words | {"longest_periods": ends[0], "longest_swings": ends[1]}
 
 
 def effects_are_alike(figure7: xr.Dataset, at_most: float) -> Measured:

@@ -65,10 +65,6 @@ class Statement:
 STATEMENTS = {name: Statement(**row) for name, row in read_table(__file__, "statements").items()}
 
 
-#: Names of the archives and audits that the statements are about.
-STUDIES = tuple(dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies))
-
-
 def check(results: str | PathLike[str] = "results") -> list[Outcome]:
     """Test every statement of the paper.
 
@@ -93,7 +89,7 @@ def check(results: str | PathLike[str] = "results") -> list[Outcome]:
 
     archives: dict[str, xr.Dataset] = {}
     problems: dict[str, str] = {}
-    for name in STUDIES:
+    for name in dict.fromkeys(name for each in STATEMENTS.values() for name in each.studies):
         path, audited = Path(results) / f"{name}.nc", name.startswith(AUDIT_PREFIX)
         command = f"swtstudy {'audit' if audited else 'run'} {name.removeprefix(AUDIT_PREFIX)}"
         if not path.is_file():

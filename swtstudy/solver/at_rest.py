@@ -6,7 +6,7 @@ at together, when a study is read, and a few contacts by themselves.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
@@ -31,9 +31,6 @@ RADII, LOOKS = 201, 4
 
 #: Shapes whose depths are found together from forces: the working memory for one is some 7 kB.
 _TOGETHER = 5_000
-
-#: A function of s.
-Function = Callable[[FloatArray], FloatArray]
 
 
 class AtRest:
@@ -70,11 +67,6 @@ class AtRest:
         face = self._table.flat_radius if self._table else values[0] if self._form.faced else 0.0
         self.flat_radius = np.asarray(face, float) + np.zeros_like(self._values[0])
 
-    @property
-    def singular(self) -> BoolArray:
-        """True where the pressure has no bound, at the edge of a face; shape (n, 1)."""
-        return np.asarray(self._form.singular & (self.flat_radius > 0.0))
-
     def density(self, s: FloatArray) -> FloatArray:
         """dG/ds, of shape (n, …)."""
         if self._table:
@@ -106,26 +98,17 @@ class AtRest:
         """G = g(ξ)/δ0 (eq. 11), or N/N_0."""
         return self.rise(self._place(radius))[0]
 
-    def half_load(self, radius: FloatArray) -> FloatArray:
-        """∫ ξ g′ dξ: half of the normal force over E* δ0 a_H; of a line load over E* δ0."""
-        return self.rise(self._place(radius))[1]
-
     def radius(self, depth: FloatArray) -> FloatArray:
         """Contact radius ξ/a_H at a depth, b at depth 0."""
-        return self._radius_where(lambda s: self.rise(s)[0], self.density, depth)
+        return self._radius_where(0, depth)
 
     def radius_at(self, half_load: FloatArray) -> FloatArray:
         """Contact radius ξ/a_H at half of a normal force."""
-
-        def rate(s: FloatArray) -> FloatArray:
-            across = 0.5 * MEAN_LOAD if self.plane else np.hypot(s, self.flat_radius)
-            return np.asarray(self.density(s) * across)
-
-        return self._radius_where(lambda s: self.rise(s)[1], rate, half_load)
+        return self._radius_where(1, half_load)
 
     def unit(self) -> FloatArray:
         """Half of the normal force at the depth δ0, shape (n, 1)."""
-        return self.half_load(self.radius(np.ones_like(self.flat_radius)))
+        return self.rise(self._place(self.radius(np.ones_like(self.flat_radius))))[1]
 
     def pressure(self, radius: FloatArray, edge: FloatArray) -> FloatArray:
         """Pressure over E* δ0/a_H at radii, ∫ dG/(π √(ξ² − r²)) up to the contact radius ``edge``, (n, 1)."""
@@ -141,7 +124,7 @@ class AtRest:
 
     def largest_pressure(self) -> float:
         """The largest pressure of the first profile at the depth δ0; inf at the edge of a sharp face."""
-        if self.singular[0, 0]:
+        if self._form.singular and self.flat_radius[0, 0] > 0.0:
             return np.inf
         n = float(self._values[0][0, 0])
         if self._form.density is power_law and not self._table and n <= 2.0:
@@ -166,16 +149,19 @@ class AtRest:
         """Even panels on the way up to s."""
         return OF_TABLE if self._table else 1 + int(self._waves * largest / PHASE)
 
-    def _radius_where(self, value: Function, rate: Function, goal: FloatArray) -> FloatArray:
-        """Radius where a function of s that rises from 0 has a value: Newton's method in logarithms."""
+    def _radius_where(self, which: int, goal: FloatArray) -> FloatArray:
+        """Radius where G (0) or half of a force (1) has a value: Newton's method in logarithms."""
         goal = np.maximum(goal, 0.0) + np.zeros_like(self.flat_radius)
         s = np.where(goal > 0.0, 1.0, 0.0)
         low, high = np.zeros_like(s), np.full_like(s, np.inf)
         for _ in range(MOST_STEPS):
-            found = value(s)
+            found = self.rise(s)[which]
             low, high = np.where(found < goal, s, low), np.where(found >= goal, s, high)
             with np.errstate(all="ignore"):
-                new = s * np.exp(np.log(goal / found) * found / (s * rate(s)))
+                rate = self.density(s)  # of G, and of half of the force so many times that
+                if which == 1:
+                    rate = rate * (0.5 * MEAN_LOAD if self.plane else np.hypot(s, self.flat_radius))
+                new = s * np.exp(np.log(goal / found) * found / (s * rate))
             middle = np.where(np.isfinite(high), 0.5 * (low + high), 2.0 * s)
             # A last step may lead out of the bracket by its rounding.
             inside = (new > low) & (new < high) | (np.abs(new - s) <= SAME * s)
@@ -223,11 +209,11 @@ def compact_shapes(profile: AnyProfile, shape: Shape, largest: Any) -> BoolArray
 
 def too_small(profile: str, shape: Mapping[str, float], largest: float) -> tuple[str, float] | None:
     """The shape parameter that no full disc up to a depth can have, and its least value, or None."""
-    arrays = {name: np.array([value]) for name, value in shape.items()}
-    if compact_shapes(profile, arrays, largest).all():
+    h, wavelength = (np.array([shape.get(name, 0.0)]) for name in ("waviness_amplitude", "wavelength"))
+    if "wavelength" not in shape or h[0] == 0.0:
         return None
-    least = smallest_wavelength(profile, largest, arrays["waviness_amplitude"], arrays["wavelength"])
-    return "wavelength", float(least[0])
+    least = float(smallest_wavelength(profile, largest, h, wavelength)[0])
+    return None if wavelength[0] >= least else ("wavelength", least)
 
 
 def check_shape(profile: AnyProfile, shape: Mapping[str, float], largest: float) -> str | None:

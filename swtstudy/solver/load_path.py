@@ -16,7 +16,7 @@ from swtstudy.solver.loop import FINITE, LARGEST, Loop, checked_name
 from swtstudy.solver.smooth_path import SmoothPath, sampled
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.definition import read_numbers
-from swtstudy.vocabulary.mistakes import Mistake, StudyError, literal, refused
+from swtstudy.vocabulary.mistakes import StudyError, literal, refused
 from swtstudy.vocabulary.parameters import MANY_TURNS
 
 #: Most vertices of a loop: a value with so many takes some 6 s.
@@ -62,8 +62,21 @@ class LoadPath(Loop):
 
     def __init__(self, name: str, vertices: ArrayLike, mean_normal: float | None = None) -> None:
         super().__init__(name, mean_normal)
+        found = _checked(vertices, self.name)
+        if found.shape[1] == 3 and not found[:, 2].any():
+            found = found[:, :2]
+        lean = without_collinear(found) + 0.0
+        if len(lean) < 2:
+            raise refused(f"vertices of {name}", "a single point", "2 distinct points at least")
+        if len(lean) > MOST_VERTICES:
+            words = f"{len(lean)} vertices that are not on a line between their neighbours"
+            allowed = (
+                f"at most {MOST_VERTICES}; of more a smooth loop is the harmonic sum (LoadPath.harmonic_sum; "
+                "harmonics of a signal), and several cycles are folded (recorded_cycles)"
+            )
+            raise refused(f"vertices of {name}", words, allowed)
         #: Shape (k, 2), or (k, 3) unless c_b is 0, from the vertex that is the first in lexicographic order.
-        self.vertices = _canonical(_checked(vertices, self.name), self.name)
+        self.vertices = np.roll(lean, -np.lexsort(lean.T[::-1])[0], axis=0)
 
     @classmethod
     def absolute(cls, name: str, loads: ArrayLike) -> LoadPath:
@@ -151,10 +164,9 @@ class LoadPath(Loop):
         for column, rows in path.harmonics.items():
             largest = max((phase for *_, phase in rows), key=abs, default=0.0)
             if abs(largest) > MANY_TURNS:
-                words = f'for degrees np.radians({largest:g}), in a study "{largest:g} deg"'
-                warnings.warn(
-                    f"{column} of {name}: a phase of {largest:g} is in radians; {words}", stacklevel=2
-                )
+                words = f"{column} of {name}: a phase of {largest:g} is in radians; for degrees "
+                words += f'np.radians({largest:g}), in a study "{largest:g} deg"'
+                warnings.warn(words, stacklevel=2)
         return path
 
     @staticmethod
@@ -199,46 +211,22 @@ class LoadPath(Loop):
 
 
 def _checked(vertices: ArrayLike, name: str) -> FloatArray:
+    """The vertices of a loop as numbers, all of them finite."""
     key = f"vertices of {name}"
     try:
         found = read_numbers(key, vertices, "a list of pairs of numbers, or of triples with the bulk stress")
-    except StudyError as error:
-        raise StudyError([_of_another_length(vertices, key) or error.mistakes[0]]) from None
+    except StudyError:
+        rows: Any = vertices if isinstance(vertices, Sequence) else []
+        pairs = itertools.pairwise(rows if all(isinstance(each, Sequence) for each in rows) else [])
+        for number, (before, each) in enumerate(pairs, start=2):
+            if {len(before), len(each)} == {2, 3}:
+                allowed = f"{len(before)} numbers, as before: the third one is the bulk stress"
+                raise refused(f"{key}, number {number}", literal(each), allowed) from None
+        raise
     if found.ndim != 2 or found.shape[1] not in (2, 3):
         allowed = "pairs of numbers, shape (k, 2), or triples with the bulk stress, (k, 3)"
         raise refused(key, f"an array of shape {found.shape}", allowed)
     wrong = np.flatnonzero(~(np.abs(found) <= LARGEST).all(axis=1))
     if wrong.size:
-        row = int(wrong[0])
-        found_words = literal(found[row].tolist())
-        raise refused(f"{key}, number {row + 1}", found_words, FINITE)
+        raise refused(f"{key}, number {wrong[0] + 1}", literal(found[wrong[0]].tolist()), FINITE)
     return found
-
-
-def _of_another_length(vertices: object, key: str) -> Mistake | None:
-    """The first vertex that has not as many numbers as the one before."""
-    if not isinstance(vertices, Sequence) or not all(isinstance(each, Sequence) for each in vertices):
-        return None
-    for number, (before, each) in enumerate(itertools.pairwise(vertices), start=2):
-        if {len(before), len(each)} == {2, 3}:
-            allowed = f"{len(before)} numbers, as before: the third one is the bulk stress"
-            return Mistake(f"{key}, number {number}", literal(each), allowed)
-    return None
-
-
-def _canonical(vertices: FloatArray, name: str) -> FloatArray:
-    """Without vertices on the line between their neighbours, and from the least vertex on."""
-    if vertices.shape[1] == 3 and not vertices[:, 2].any():
-        vertices = vertices[:, :2]
-    lean = without_collinear(vertices) + 0.0
-    if len(lean) < 2:
-        raise refused(f"vertices of {name}", "a single point", "2 distinct points at least")
-    if len(lean) > MOST_VERTICES:
-        found = f"{len(lean)} vertices that are not on a line between their neighbours"
-        allowed = (
-            f"at most {MOST_VERTICES}; of more a smooth loop is the harmonic sum (LoadPath.harmonic_sum; "
-        )
-        allowed += "harmonics of a signal), and several cycles are folded (recorded_cycles)"
-        raise refused(f"vertices of {name}", found, allowed)
-    first = np.lexsort(lean.T[::-1])[0]
-    return np.roll(lean, -first, axis=0)

@@ -76,12 +76,6 @@ MOST_COLUMNS, NARROW, LOWEST = 400, 0.1, 0.02
 Mean = Callable[[float], tuple[float, float]]
 
 
-def _in_series(t: FloatArray) -> FloatArray:
-    """Weights of a column's values in its value at t, by the polynomial through them, (..., len(NODE))."""
-    series = np.linalg.inv(np.polynomial.legendre.legvander(_NODE, len(NODE) - 1))
-    return np.polynomial.legendre.legvander(2.0 * t - 1.0, len(NODE) - 1) @ series
-
-
 #: Distances of columns from the middle of a ball, over ℓ.
 OFFSET = np.linspace(0.0, 1.0, 33)
 
@@ -96,7 +90,10 @@ def _of_ball(power: float) -> FloatArray:
     deepest = np.sqrt(0.5 * np.sqrt(1.0 - OFFSET**2))[:, None]  # at the surface of the ball
     t = deepest * (0.5 + 0.5 * share)
     inside = np.maximum(1.0 - OFFSET[:, None] ** 2 - 4.0 * t**4, 0.0) ** (0.5 * power)
-    weights = np.einsum("oi,oij->oj", deepest * of_share * t * inside, _in_series(t))
+    # A column's value at t is of the polynomial through its values.
+    series = np.linalg.inv(np.polynomial.legendre.legvander(_NODE, len(NODE) - 1))
+    in_series = np.polynomial.legendre.legvander(2.0 * t - 1.0, len(NODE) - 1) @ series
+    weights = np.einsum("oi,oij->oj", deepest * of_share * t * inside, in_series)
     whole = weights.sum(axis=1)  # 0 at the last offset: by the trapezium rule half of the first value counts
     return weights / (2.0 * OFFSET[1] * (whole.sum() - 0.5 * whole[0]))
 
@@ -207,22 +204,17 @@ def _columns(
     x = np.unique(np.concatenate([*own, outside, peaks, beyond, -beyond, [critical]]))
     if opened.point.load["mirrored"]:
         x = x[x >= -distance]
+    of_ball = OF_DISC if opened.point.profile["plane"] else OF_SPHERE
     columns = _columns_at(opened, x, distance, limit)
     while True:
-        estimates = _estimates(opened, x, columns, distance)
+        volume = _ball_means(x / distance, columns, of_ball)
+        estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
         wide = _wide_gaps(x, estimates, distance)
         if not wide.size:
             return x, estimates
         new = 0.5 * (x[wide] + x[wide + 1])
         columns = np.insert(columns, wide + 1, _columns_at(opened, new, distance, limit), axis=0)
         x = np.insert(x, wide + 1, new)
-
-
-def _estimates(opened: Opened, x: FloatArray, columns: FloatArray, distance: float) -> dict[str, FloatArray]:
-    """By kind estimates of the means about columns, straight down."""
-    of_ball = OF_DISC if opened.point.profile["plane"] else OF_SPHERE
-    volume = _ball_means(x / distance, columns, of_ball)
-    return {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
 
 
 def _wide_gaps(x: FloatArray, estimates: dict[str, FloatArray], distance: float) -> IntArray:
@@ -320,10 +312,8 @@ def _climb(mean: Mean, x: float, step: float, accuracy: float) -> tuple[float, f
     at, of, foretold, far = [x], [mean(x)[0]], np.inf, 3.0 * step
     for _ in range(MOST_STEPS):
         k = int(np.argmax(of))
-        is_outer = (np.array(of) < (1.0 - TOLD_APART * accuracy) * of[k]) | (
-            np.abs(np.array(at) - at[k]) >= far
-        )
-        outer = np.flatnonzero(is_outer)
+        lower = np.array(of) < (1.0 - TOLD_APART * accuracy) * of[k]
+        outer = np.flatnonzero(lower | (np.abs(np.array(at) - at[k]) >= far))
         before, after = outer[outer < k], outer[outer > k]
         if before.size and after.size:
             three = [int(before[-1]), k, int(after[0])]

@@ -99,19 +99,13 @@ def few(shares: FloatArray, most: int) -> tuple[FloatArray, FloatArray]:
     equal = int(np.searchsorted(depth, EQUAL, side="right"))
     rest = depth[equal:]
     for width in WIDTHS:
-        begins = _begins(rest, width)
+        begins: list[int] = []  # of groups, by the depths below the largest SWT
+        for place, value in enumerate(rest):
+            begin = rest[begins[-1]] if begins else -np.inf
+            if value - begin > width * (LEAST_DEPTH + begin):
+                begins.append(place)
         if len(begins) < most:
             break
     groups = np.split(shares[equal:], begins[1 : most - 1]) if rest.size else []
     means = [float((group**POWER).mean() ** (1.0 / POWER)) for group in groups]
     return np.array([shares[0], *means]), np.array([equal, *map(len, groups)], float)
-
-
-def _begins(ascending: FloatArray, width: float) -> list[int]:
-    """Where groups begin, by the depths below the largest SWT."""
-    begins: list[int] = []
-    for place, value in enumerate(ascending):
-        begin = ascending[begins[-1]] if begins else -np.inf
-        if value - begin > width * (LEAST_DEPTH + begin):
-            begins.append(place)
-    return begins

@@ -146,28 +146,25 @@ class TabulatedProfile(Definition):
         return radius * found if self.plane else found
 
     def density(self, s: FloatArray) -> FloatArray:
-        """dG/ds at s, by cubics between 4,001 places."""
+        """dG/ds, or dN/ds in the plane, at s, by cubics between 4,001 places."""
         inside = np.minimum(s, self.end)
         return np.asarray(self._density(inside) * np.maximum(s / self.end, 1.0))
 
     def rise(self, s: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """G, which is ξ ∫ f′ dr/√(ξ² − r²) or N, and ∫ ξ dG, which is ∫ r² f′ dr/√(ξ² − r²) or N, at s.
+        """G = ξ ∫ f′ dr/√(ξ² − r²), and ∫ ξ dG = ∫ r² f′ dr/√(ξ² − r²), half of the normal force, at s.
 
-        N = ∫ x f′ dx/√(ξ² − x²) is over E*, in a length.
+        In the plane both are N = ∫ x f′ dx/√(ξ² − x²), a load over E*, in a length.
         """
         b, end, knots, jumps = self.flat_radius, self.end, self.fit.x[:-1], self.jumps()
         radius = np.hypot(np.minimum(s, end), b)
-        depth = _abel(knots, jumps, radius, 1) if self.plane else radius * _abel(knots, jumps, radius)
-        half_load = depth if self.plane else _abel(knots, jumps, radius, 2)
-        beyond = np.maximum(s - end, 0.0)
-        if not beyond.any():
-            return depth, half_load
-        # There the slope over the radius is constant.
+        # Beyond the end the slope over the radius is constant.
         rate = float(self._density(end)) / end
-        depth = depth + 0.5 * rate * beyond * (end + s)
+        beyond = 0.5 * rate * np.maximum(s - end, 0.0) * (end + s)
         if self.plane:
-            return depth, depth
-        return depth, half_load + rate / 3.0 * (np.hypot(s, b) ** 3 - np.hypot(np.minimum(s, end), b) ** 3)
+            load = _abel(knots, jumps, radius, 1) + beyond
+            return load, load
+        half_load = _abel(knots, jumps, radius, 2) + rate / 3.0 * (np.hypot(s, b) ** 3 - radius**3)
+        return radius * _abel(knots, jumps, radius) + beyond, half_load
 
     @cached_property
     def deepest(self) -> float:
@@ -333,30 +330,28 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         name = "profile"
     for key, values in (("radius", radius), ("height", height)):
         if values.ndim != 1:
-            yield Mistake(
-                f"{name}.{key}", "no one-dimensional array of numbers", "a list of numbers, or an array"
-            )
-            return
-        if (gaps := np.flatnonzero(~np.isfinite(values))).size:
+            found, allowed = "no one-dimensional array of numbers", "a list of numbers, or an array"
+        elif (gaps := np.flatnonzero(~np.isfinite(values))).size:
             found = f"{values[gaps[0]]:g} at point {gaps[0] + 1}{more_like_it(gaps.size)}"
-            yield Mistake(f"{name}.{key}", found, "finite numbers: leave out points without a value")
-            return
-        largest = np.abs(values).max(initial=0.0)
-        if largest > 0.0 and not SMALLEST <= largest <= LARGEST:
-            allowed = f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
-            yield Mistake(f"{name}.{key}", f"up to {largest:g}", allowed)
-            return
+            allowed = "finite numbers: leave out points without a value"
+        elif (largest := np.abs(values).max(initial=0.0)) > LARGEST or 0.0 < largest < SMALLEST:
+            found, allowed = f"up to {largest:g}", f"in magnitude from {SMALLEST:g} to {LARGEST:g}"
+        else:
+            continue
+        yield Mistake(f"{name}.{key}", found, allowed)
+        return
+    both = f"{name}.radius, {name}.height"
     if radius.size != height.size or radius.size < FEWEST:
         found = f"{radius.size} radii and {height.size} heights"
-        yield Mistake(f"{name}.radius, {name}.height", found, f"as many of each, at least {FEWEST}")
+        yield Mistake(both, found, f"as many of each, at least {FEWEST}")
         return
     if radius.size > MOST:
         allowed = f"at most {MOST}: every {-(-radius.size // MOST)}th, or the mean of so many"
-        yield Mistake(f"{name}.radius, {name}.height", f"{radius.size} points", allowed)
+        yield Mistake(both, f"{radius.size} points", allowed)
         return
     if radius[0] != 0.0 or height[0] != 0.0:
         found = f"a first point at the radius {radius[0]:g} with the height {height[0]:g}"
-        yield Mistake(f"{name}.radius, {name}.height", found, "0 and 0: the axis, and heights above it")
+        yield Mistake(both, found, "0 and 0: the axis, and heights above it")
     falls = np.flatnonzero(np.diff(radius) <= LEAST_STEP * radius.max())
     if falls.size:
         found = f"{radius[falls[0] + 1]:g} after {radius[falls[0]]:g}"

@@ -110,11 +110,8 @@ def _at_tip(opened: Opened) -> float:
     There the stresses along the surface are (½ + ν) p, and under a strip p and 2ν p. The pressure under ξⁿ is
     in the middle n/(n − 1) aⁿ⁻¹/π.
     """
-    profile, n, ν = (
-        opened.point.profile,
-        float(opened.point.profile["exponent"]),
-        float(opened.point.ask["poisson_ratio"]),
-    )
+    profile, ν = opened.point.profile, float(opened.point.ask["poisson_ratio"])
+    n = float(profile["exponent"])
     if n <= 1.0:
         return 0.0
     pressure = n / (n - 1.0) * largest_radius(opened) ** (n - 1.0)

@@ -38,8 +38,6 @@ class Family(NamedTuple):
 
 
 FAMILIES = {name: Family(name, **row) for name, row in read_table(__file__, "families").items()}
-#: The family of what the user has defined.
-TABLE = Family("table")
 
 #: The families that others of their geometry are at their plain shape.
 PLAIN, PLAIN_STRIP = "paraboloid", "cylinder"
@@ -48,7 +46,7 @@ PLAIN_OF = {AXISYMMETRIC: PLAIN, PLANE: PLAIN_STRIP}
 
 def family_of(profile: object) -> Family:
     """The family of a profile or of its name; what the user has defined has no shape parameters."""
-    return FAMILIES.get(str(profile), TABLE)
+    return FAMILIES.get(str(profile), Family("table"))
 
 
 def is_plane(profile: object) -> bool:

@@ -53,14 +53,12 @@ def read_numbers(key: str, values: object, allowed: str) -> NDArray[np.float64]:
         array: np.ma.MaskedArray = np.ma.asarray(values)
     except (TypeError, ValueError):
         raise refused(key, literal(values), allowed) from None
-    if array.dtype.kind == "O":
-        known = np.ma.filled(array, np.nan)
-        if not all(map(is_number, known.flat)):
-            raise refused(key, literal(values), allowed)
-        return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
-    if array.dtype.kind not in "iuf":
+    if array.dtype.kind in "iuf":
+        return np.asarray(np.ma.filled(array.astype(float), np.nan))
+    if array.dtype.kind != "O" or not all(map(is_number, np.ma.filled(array, np.nan).flat)):
         raise refused(key, literal(values), allowed)
-    return np.asarray(np.ma.filled(array.astype(float), np.nan))
+    known = np.ma.filled(array, np.nan)
+    return np.array([plain_number(value) for value in known.flat]).reshape(known.shape)
 
 
 #: Bytes of the check sum of a content that are its code, behind a 1 that makes it larger than built-in ones.

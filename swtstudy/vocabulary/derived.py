@@ -62,7 +62,7 @@ def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
     """The values of s and of its means, their errors, lives, and usages of a limit."""
     for of, end in _ENDS.items():
         place, words = end.removeprefix("_"), end.replace("_", " ")
-        symbol, meaning = row.sign + rf"_\mathrm{{{place}}}" * bool(place), row.values + words
+        symbol, meaning = _indexed(row.sign, place), row.values + words
         name, scale = f"{row.name}{end}", (row.unit, row.scale)
         yield Derived(name, symbol, meaning, *scale, of, criterion=criterion)
         if row.limit:
@@ -121,13 +121,8 @@ DERIVED: dict[str, Derived] = {row.name: row for row in _rows()}
 #: Names of all lives that there may be.
 LIVES = tuple(name for name, row in DERIVED.items() if row.kind == LIFE)
 #: Names without units, for variables that have units in a study with units.
-NORMALISED = {
-    name: f"normalised_{name}"
-    for name in (
-        *("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift"),
-        *STICK_ENDS,
-    )
-}
+_WITH_UNITS = ("dissipation", "dissipation_error", "stick_radius", "contact_radius", YIELD, "bulk_shift")
+NORMALISED = {name: f"normalised_{name}" for name in (*_WITH_UNITS, *STICK_ENDS)}
 #: Words for the facts of contacts that data variables need.
 _FACTS = {
     "materials": "fatigue constants ([material], swtstudy.FatigueConstants)",

@@ -85,19 +85,16 @@ def parse_toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise _toml_error(str(error), text) from None
+        reason = str(error)
     except RecursionError:
         raise TomlError("a syntax error: nested too deeply") from None
     except ValueError:  # tomllib leaves numbers to Python's int, which refuses more than 4,300 digits
         raise TomlError("an integer with too many digits") from None
-
-
-def _toml_error(reason: str, text: str) -> TomlError:
-    """The error with its line, the key that is there twice, and the way out of a decimal comma."""
     lines = text.splitlines() or [""]
     place = re.search(r"line (\d+), column (\d+)", reason)
     row, column = (int(place[1]), int(place[2])) if place else (len(lines), len(lines[-1]) + 1)
     line = lines[row - 1] if row <= len(lines) else ""
+    # A key that is there twice has its name; a decimal comma has a way out.
     key = line.partition("=")[0].strip()
     reason = reason.replace("Cannot overwrite a value", f"the key {key!r} twice")
     reason = re.sub(r"^Cannot declare \((.*?),?\) twice", r"the table \1 twice", reason)
@@ -105,9 +102,9 @@ def _toml_error(reason: str, text: str) -> TomlError:
         reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"
     start = max(0, column - 60)
     mark = " " * (min(column, len(line) + 1) - 1 - start) + "^"
-    error = TomlError(f"a syntax error: {reason}")
-    error.shown = f"{row:>4} | {line[start : start + 100]}\n     | {mark}"
-    return error
+    wrong = TomlError(f"a syntax error: {reason}")
+    wrong.shown = f"{row:>4} | {line[start : start + 100]}\n     | {mark}"
+    raise wrong
 
 
 def plain_float(cell: str) -> float:
@@ -191,13 +188,9 @@ def _target(path: str | PathLike[str]) -> Path:
     return Path(os.path.realpath(path)) if path.is_symlink() else path
 
 
-#: Ends of the names of unfinished files, as `tempfile` makes them.
-_RANDOM = r"-[a-z0-9_]{8}"
-
-
 def unfinished(folder: Path, stem: str) -> list[Path]:
     """The unfinished files that a kill of `replacing` leaves in a folder, with names that match the stem."""
-    name = re.compile(rf"\.(?:{stem}){_RANDOM}(?:\.\w+)?")
+    name = re.compile(rf"\.(?:{stem})-[a-z0-9_]{{8}}(?:\.\w+)?")  # as `tempfile` makes them
     return [path for path in folder.glob(".*") if name.fullmatch(path.name)]
 
 

@@ -6,7 +6,7 @@ import logging
 import sys
 import time
 from contextvars import ContextVar
-from typing import Any, Self, TextIO
+from typing import Any, Self
 
 _log = logging.getLogger(__name__)
 
@@ -46,7 +46,7 @@ class Progress:
 
     def __enter__(self) -> Self:
         self._token = _OUTER.set(self._outer or self)
-        if self._total and not self._delay and self._outer is None:
+        if self._total and not self._delay and self._outer is None and _is_visible():
             self._show()
         return self
 
@@ -67,29 +67,27 @@ class Progress:
         now = time.monotonic()
         if self._bar is not None:
             self._bar.update(finished)
-        elif now - self._begin >= self._delay:
-            self._show()
-        if self._bar is not None and self._bar.disable and now - self._told >= LINE_SECONDS:
+        elif not _is_visible() and now - self._told >= LINE_SECONDS:
             self._told = now
             self._tell()
+        elif _is_visible() and now - self._begin >= self._delay:
+            self._show()
 
     def _show(self) -> None:
-        """Show the bar where there is somebody to see it; importing tqdm takes a while."""
+        """Show the bar; importing tqdm takes a while."""
         from tqdm.auto import tqdm
 
-        notebook = _in_notebook()
         self._bar = tqdm(
             total=self._total,
             initial=self._done,
             desc=self._name or None,
             unit=f" {self._unit}",
-            leave=not notebook,
+            leave=not _in_notebook(),
             dynamic_ncols=True,
-            disable=not (notebook or _is_terminal(sys.stderr)),
+            disable=False,
         )
-        if not self._bar.disable:
-            # The rate counts from the beginning, not from when the bar appeared.
-            self._bar.start_t -= time.monotonic() - self._begin
+        # The rate counts from the beginning, not from when the bar appeared.
+        self._bar.start_t -= time.monotonic() - self._begin
 
     def _tell(self) -> None:
         """Write a line into the log."""
@@ -106,9 +104,9 @@ def _in_notebook() -> bool:
     return shell is not None and "IPKernelApp" in shell.config
 
 
-def _is_terminal(stream: TextIO | None) -> bool:
-    """True if a stream is a terminal; not if it is missing or closed."""
+def _is_visible() -> bool:
+    """True in a notebook and on a terminal; not if that is missing or closed."""
     try:
-        return stream is not None and stream.isatty()
+        return _in_notebook() or (sys.stderr is not None and sys.stderr.isatty())
     except ValueError:
         return False

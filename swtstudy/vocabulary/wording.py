@@ -49,10 +49,9 @@ def axis_words(name: str, attributes: Mapping[Any, Any] = _NONE) -> str:
     >>> axis_words("phase"), axis_words("friction")
     ('$\\\\psi$ (rad)', '$\\\\mu$')
     """
-    units = attributes.get("units", AXES[name].units)
-    words = (
-        f"{AXES[name].meaning}, " if AXES[name].part == "criterion" and AXES[name].kind == "number" else ""
-    )
+    row = AXES[name]
+    units = attributes.get("units", row.units)
+    words = f"{row.meaning}, " if row.part == "criterion" and row.kind == "number" else ""
     return words + parameter_words(name, attributes) + ("" if units in ("1", "") else f" ({as_text(units)})")
 
 
@@ -99,8 +98,7 @@ def value_words(name: str, value: float | str, attributes: Mapping[Any, Any] = _
     # Lengths, forces and stresses have a unit, which is empty where nobody has named it.
     if attributes.get("units", "1") not in ("1", "rad") or (row is not None and row.part == "contact"):
         return number_words(value)
-    fraction = _fraction(value, _LARGEST_DENOMINATOR)
-    if fraction is not None:
+    if (fraction := _fraction(value, _LARGEST_DENOMINATOR)) is not None:
         return str(fraction)
     square = round(value**2)
     if value > 0 and 0 < square < 1000 and math.isclose(value**2, square, rel_tol=_TOLERANCE):
@@ -265,12 +263,9 @@ def pi_words(multiple: Fraction) -> str:
     >>> [pi_words(Fraction(n, 2)) for n in range(-1, 5)]
     ['-π/2', '0', 'π/2', 'π', '3π/2', '2π']
     """
-    if multiple == 0:
-        return "0"
-    sign = "-" if multiple < 0 else ""
-    numerator = "" if abs(multiple.numerator) == 1 else str(abs(multiple.numerator))
-    denominator = "" if multiple.denominator == 1 else f"/{multiple.denominator}"
-    return f"{sign}{numerator}π{denominator}"
+    numerator, slash, denominator = str(multiple).partition("/")
+    numerator = {"1": "", "-1": "-"}.get(numerator, numerator)
+    return f"{numerator}π{slash}{denominator}" if multiple else "0"
 
 
 def _fraction(value: float, largest: int) -> Fraction | None:
@@ -288,9 +283,7 @@ def duration(seconds: float) -> str:
     """
     if seconds < 10:
         return f"{seconds:.1f} s"
-    whole = round(seconds)
-    if whole < 60:
-        return f"{whole} s"
-    if whole < 3600:
-        return f"{whole // 60} min {whole % 60} s"
-    return f"{whole // 3600} h {whole % 3600 // 60} min"
+    minutes, whole = divmod(round(seconds), 60)
+    if minutes >= 60:
+        return f"{minutes // 60} h {minutes % 60} min"
+    return f"{minutes} min {whole} s" if minutes else f"{whole} s"
