@@ -24,6 +24,8 @@ from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 #: Instants for each oscillation at which loads are seen before anything is compiled: parabolas through them
 #: are off by some 1e-6 of an amplitude. And values of a load that are held at a time.
 SAMPLES, AT_ONCE = 96, 2_000_000
+#: Places of a profile between which depths and forces are interpolated, and the last of them over √δ0.
+PLACES = 4001
 #: Rounding of the samples, relative: of a bulk stress that follows the tangential load, and of its shift.
 PROPORTIONAL, ROUNDING = 1e-9, 1e-6
 
@@ -56,12 +58,7 @@ def margins_of(points: Points) -> Margins:
 
 
 def foreseen(points: Points) -> Margins:
-    """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read.
-
-    Discs under one force and one displacement, which few studies have, are left to the compiled function.
-    """
-    if points.control.mixed and not is_plane(points.profile):
-        return margins_of(points)
+    """The same from samples of the loads, to 1e-5: without a compiler, for studies that are only read."""
     found = {name: np.full(len(points), np.nan) for name in _COMPILED} | {"unit_shift": unit_shift(points)}
     for p, q in np.unique(np.stack([points.p, points.q], axis=1), axis=0).tolist():
         alike = np.flatnonzero((points.p == p) & (points.q == q))
@@ -112,18 +109,22 @@ def _from_samples(points: Points, unit_shift: FloatArray) -> Margins:
     normal = 1.0 + points.normal_amplitude[:, None] * normal
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
     largest = _largest(normal, smooth)
+    control, plane = points.control, is_plane(points.profile)
+    shapes = np.stack([np.zeros(len(points)), *points.shape.values()], axis=1)
+    for shape in np.unique(shapes, axis=0) if control.mixed and not plane else ():
+        rows = np.flatnonzero((shapes == shape).all(axis=1))
+        scale = _other_coordinate(points[rows[:1]], float(largest[rows].max()))
+        for values in (normal, largest):
+            own = np.interp(np.maximum(values[rows], 0.0), *scale)
+            values[rows] = np.where(values[rows] > 0.0, own, values[rows])
     stick = -0.5 * (_largest(-tangential - normal, smooth) + _largest(tangential - normal, smooth))
     ends = np.maximum(np.stack([stick, largest], axis=1), 0.0)
-    at_rest = AtRest(points.profile, points.shape)
-    own = ends.reshape(1, -1) if len(at_rest.flat_radius) == 1 else ends
-    in_force = points.control.tangential_force and not at_rest.plane
-    radius = at_rest.radius_at(own * at_rest.unit()) if in_force else at_rest.radius(own)
-    radius = radius.reshape(ends.shape)
+    radius = _radii(AtRest(points.profile, points.shape), ends, control.tangential_force and not plane)
     found = {"contact_radius": radius[:, 1], "stick_radius": np.where(stick >= 0.0, radius[:, 0], np.nan)}
     width = (radius[:, 1] - found["stick_radius"]) * (1.0 + ROUNDING)
     shift = unit_shift * points.bulk_stress_amplitude * np.abs(points.bulk_strain_share)
     found["moved"] = follows & (shift <= width)
-    if not points.control.tangential_force:
+    if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
         return found | {"slide": slide}
     size, load = np.abs(tangential), np.maximum(normal, 0.0)
@@ -142,6 +143,25 @@ def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: F
     shifts = (slope != 0.0) & (off <= PROPORTIONAL * np.abs(along).max(axis=1))
     moves = points.tangential_amplitude * points.bulk_stress_amplitude * points.bulk_strain_share != 0.0
     return rests & shifts & moves & (points.profile in (PLAIN, PLAIN_STRIP))
+
+
+def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArray:
+    """Radii of n profiles, or one, at depths, or forces over that at δ0; shape (n, m)."""
+    alike = len(at_rest.flat_radius) == 1
+    own = coordinate.reshape(1, -1) if alike else coordinate
+    found = at_rest.radius_at(own * at_rest.unit()) if in_force else at_rest.radius(own)
+    return found.reshape(coordinate.shape)
+
+
+def _other_coordinate(point: Points, largest: float) -> tuple[FloatArray, FloatArray]:
+    """Normal loads as they are prescribed and in the kind of the tangential one, up to the largest."""
+    at_rest, given = AtRest(point.profile, point.shape), np.array([[max(largest, 1.0)]])
+    edge = float(_radii(at_rest, given, point.control.normal_force)[0, 0])
+    b = float(at_rest.flat_radius[0, 0])
+    s = np.sqrt((edge - b) * (edge + b)) * np.linspace(0.0, 1.0, PLACES)
+    depth, half_load = (each[0] for each in at_rest.rise(s[None]))
+    force = half_load / at_rest.unit()[0, 0]
+    return (force, depth) if point.control.normal_force else (depth, force)
 
 
 def unit_shift(points: Points) -> FloatArray:
