@@ -27,7 +27,6 @@ MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
 WITHIN = 200
 #: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
 ENCODINGS = ("cp1252", "latin-1")
-_ENCODING_WORDS = " or ".join(map(literal, ENCODINGS))
 _READABLE = "a CSV file that can be read"
 _AS_CSV = "the sheet saved as CSV UTF-8"
 #: First bytes of files that are no text, what they are, and the way to export them.
@@ -72,8 +71,8 @@ class UserTable:
         The cells of its row of units; empty without one.
     cells
         The lines of its rows, and their cells as texts.
-    form
-        How it is written, with what was found out.
+    form, decimal
+        Its form as it was given, and the decimal sign in its numbers.
     source
         The path, for messages.
     line
@@ -90,48 +89,46 @@ class UserTable:
     def __init__(
         self, path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int
     ) -> None:
-        self.path, self.source, self.names, self.known = path, str(path), names, known
+        self.source, self.names, self.known = str(path), names, known
         self.form, self.has_keys = form or FileTable(), form is not None
         self.report = Report()
         try:
-            data = read_file(self.path, LARGEST_TABLE)
+            data = read_file(path, LARGEST_TABLE)
         except OSError as error:
             raise self.refused("", reason_of(error), _READABLE) from None
-        is_workbook = data.startswith(b"PK\x03\x04")
-        content = self._sheet(data) if is_workbook else self._text(data)
+        content = self._sheet(data) if data.startswith(b"PK\x03\x04") else self._text(data)
         separator, above = self._found_header(content)
-        if separator == self.form.decimal == ",":
+        self.decimal = self.form.decimal
+        if separator == self.decimal == ",":
             self.report("separator, decimal", "both ','", "two different signs")
-            self.form = self.form.model_copy(update={"decimal": None})
+            self.decimal = None
         try:
             rows = list(islice(_rows(content, separator, self.form.skip_rows), above + most + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
         skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
-        if wrong := self._wrong_headers():
-            raise self.refused(f"line {self.line}", *wrong)
+        self._check_headers()
         notices = []
         if above:
             notices.append(f"the header is found in line {self.line}: {_skipped_words(skipped)}")
-        needed = [*map(self.column, self.names)]
+        needed, width = [*map(self.column, self.names)], len(self.headers)
         self.units = _row_of_units(rows, needed, self.form)
         if self.units and self.form.units_row is None:
             notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, self.units))}")
         self.cells = rows[bool(self.units) :]
         if len(self.cells) > most:
             raise self.refused("", f"more than {most} rows", f"at most {most}")
-        width = len(self.headers)
         for place, own in self.cells:
             if len(own) - (own[-1] == "") > width:
                 allowed = "as many as columns: a comma between cells, a point in numbers"
                 allowed += "; or say separator and decimal" * self.has_keys
                 raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
             own += [""] * (width - len(own))
-        if self.form.decimal is None:
+        if self.decimal is None:
             texts = [own[k] for _, own in self.cells[:WITHIN] for k in needed or range(width)]
-            comma = separator != "," and _has_decimal_commas(texts)
-            self.form = self.form.model_copy(update={"decimal": "," if comma else "."})
-            if comma:
+            comma, point = (any(re.match(rf"[+-]?\d*[{sign}]\d", text) for text in texts) for sign in ",.")
+            self.decimal = "," if separator != "," and comma and not point else "."
+            if self.decimal == ",":
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
             warnings.warn(f"{Path(self.source).name}: {words}", stacklevel=3)
@@ -154,7 +151,7 @@ class UserTable:
         found, hints, report = [], set(), Report(self.source)
         for name in names:
             texts = self.texts(name)
-            values = np.array([number(text, self.form.decimal) for text in texts])
+            values = np.array([number(text, self.decimal) for text in texts])
             found.append(values * self.form.scale.get(name, 1.0))
             for row in np.flatnonzero(~np.isfinite(values))[:1]:
                 text, hint = texts[row], ""  # the key that is usually missing there
@@ -162,7 +159,7 @@ class UserTable:
                     timed = "time" in type(self.form).model_fields
                     hint = "; with the header of the time, time = ..., such rows are left out" * timed
                     hint = hint or "; leave such rows out"
-                elif "," in text and self.form.decimal == ".":
+                elif "," in text and self.decimal == ".":
                     hint = COMMA_HINT
                 elif row == 0:
                     hint = "; lines above the header are skip_rows, a row of units is units_row = true"
@@ -175,7 +172,7 @@ class UserTable:
 
     def values(self, name: str) -> list[object]:
         """The cells of a column, numbers where they are, scaled, and texts."""
-        found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
+        found = ((text, number(text, self.decimal)) for text in self.texts(name))
         factor = self.form.scale.get(name, 1.0)
         return [factor * value if math.isfinite(value) else text for text, value in found]
 
@@ -207,14 +204,15 @@ class UserTable:
             if data.startswith(start):
                 raise self.refused("", kind, f"a table in a text file: {way}")
         if self.form.sheet is not None:
-            found = f"{literal(self.form.sheet)}, and {self.path.name}, a text file"
+            found = f"{literal(self.form.sheet)}, and {Path(self.source).name}, a text file"
             raise self.refused("sheet", found, "a sheet of an Excel workbook only")
         has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
         encoding = self.form.encoding or ("utf-16" if has_mark else "utf-8-sig")
         try:
             text = data.decode(encoding)
         except LookupError:
-            self.report("encoding", literal(encoding), f"the name of an encoding, such as {_ENCODING_WORDS}")
+            allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
+            self.report("encoding", literal(encoding), allowed)
             text = data.decode(ENCODINGS[0], "replace")
         except UnicodeDecodeError as error:
             # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
@@ -287,7 +285,18 @@ class UserTable:
         if headers and wanted <= {*headers}:
             return own, header[own]
         self.report.refuse()  # in another encoding headers may be right
-        found, allowed = self._missing(headers)
+        words, keys = ", ".join(self.names), ", or columns = {...} that says which these are" * self.has_keys
+        found, allowed = f"the columns {', '.join(headers)}", f"a header with {words}{keys}"
+        if not headers:
+            found = "an empty file"
+            allowed = f"a header{' with ' * bool(words)}{words}, and rows of values"
+        for name in (each for each in self.names if headers and each in self.form.columns):
+            if (column := self.form.header(name)) not in headers:
+                found, allowed = (
+                    f"no column {literal(column)}, which is to be {name}",
+                    nearest(column, headers, {}),
+                )
+                break
         others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(self.names) > len(headers)
         if likely != own and others_fit:
             found = f"cells parted by {likely!r}, while separator is {own!r}"
@@ -296,30 +305,18 @@ class UserTable:
             found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
         raise self.refused(f"line {line}", found, allowed)
 
-    def _missing(self, headers: list[str]) -> tuple[str, str]:
-        """Say which column a header lacks, and what is allowed."""
-        words = ", ".join(self.names)
-        if not headers:
-            return "an empty file", f"a header{' with ' * bool(words)}{words}, and rows of values"
-        for name in self.names:
-            own = self.form.header(name)
-            if name in self.form.columns and own not in headers:
-                return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
-        allowed = f"a header with {words}{', or columns = {...} that says which these are' * self.has_keys}"
-        return f"the columns {', '.join(headers)}", allowed
-
-    def _wrong_headers(self) -> tuple[str, str] | None:
-        """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
+    def _check_headers(self) -> None:
+        """Refuse too many columns, and a column that is there, or is used, twice."""
+        header, place, lower = self.form.header, f"line {self.line}", [each.lower() for each in self.headers]
         if len(self.headers) > MOST_COLUMNS:
-            return f"more than {MOST_COLUMNS} columns", "fewer"
-        header, lower = self.form.header, [each.lower() for each in self.headers]
+            raise self.refused(place, f"more than {MOST_COLUMNS} columns", "fewer")
         for other in map(header, self.names):
             if len(alike := [name for name in self.names if header(name) == other]) > 1:
-                return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
+                found = f"the column {literal(other)} as {' and '.join(alike)}"
+                raise self.refused(place, found, "a column of its own for each")
         for name in map(header, (*self.names, *self.known)):
             if lower.count(name.lower()) > 1:
-                return f"the column {name} twice", "each column once"
-        return None
+                raise self.refused(place, f"the column {name} twice", "each column once")
 
 
 def number(cell: str, decimal: str | None) -> float:
@@ -406,18 +403,16 @@ def unknown_names(form: FileTable, known: Collection[str]) -> Report:
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
     """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
     column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
+    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
     if own_kind != kind:
         found = f"{column} in {unit} as {name}, which is a {kind}"
         allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
-        return [Mistake("", found, allowed, table.source)]
-    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
-    if factor == 1.0:
+    elif factor == 1.0 or (own is not None and not math.isclose(abs(own) * factor, 1.0)):
         return []
-    if own is not None and not math.isclose(abs(own) * factor, 1.0):
-        return []
-    found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
-    found += "" if own is None else f", and scale has {name} = {own:g}"
-    allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+    else:
+        found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
+        found += "" if own is None else f", and scale has {name} = {own:g}"
+        allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
     return [Mistake("", found, allowed, table.source)]
 
 
@@ -458,20 +453,12 @@ def _parts(rows: Sequence[Row], line: int) -> bool:
 
 def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -> list[str]:
     """The first row, if it is one of units: it has no number, and numbers are beneath."""
-    if not rows or form.units_row is False:
-        return []
-    if form.units_row:
-        return rows[0][1]
-    first, below = ([*rows[k][1]] for k in (0, min(1, len(rows) - 1)))
-    wanted = [below[k] for k in needed if k < len(below)] or [*filter(_is_number, below)]
+    if form.units_row is not None or len(rows) < 2:
+        return rows[0][1] if form.units_row and rows else []
+    first, second = rows[0][1], rows[1][1]
+    wanted = [second[k] for k in needed if k < len(second)] or [*filter(_is_number, second)]
     has_numbers = bool(wanted) and all(map(_is_number, wanted))
-    return first if any(first) and has_numbers and not any(map(_is_number, first)) else []
-
-
-def _has_decimal_commas(texts: Sequence[str]) -> bool:
-    """Return whether numbers have commas, and none has a point."""
-    has = {sign: any(re.match(rf"[+-]?\d*{re.escape(sign)}\d", text) for text in texts) for sign in ",."}
-    return has[","] and not has["."]
+    return first if has_numbers and not any(map(_is_number, first)) else []
 
 
 def _is_number(cell: str) -> bool:

@@ -56,6 +56,8 @@ class StudyReader:
         self.raw, self.folder, self.source = raw, folder, source
         #: The tables that parameters are given in, for their keys in messages.
         self.places: dict[str, str] = {}
+        #: The names of the cycles of loads that keep them.
+        self.cycles: dict[str, list[str]] = {}
         self.report = Report(source, lambda name: f"{self.places.get(name, 'fixed')}.{name}")
         self.parts, self.of_structure = read_study(raw, source)
         self.report += self.of_structure
@@ -64,7 +66,7 @@ class StudyReader:
         """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
         parts, report = self.parts, self.report
         known = {"load": self._loads(), "profile": self._profiles()}
-        blocks = self._blocks(known["load"])
+        blocks = self._blocks()
         fixed, axes = self.fixed_and_axes(block.load for block in blocks)
         contacts, fixed = self._contacts(fixed, axes)
         self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
@@ -145,7 +147,10 @@ class StudyReader:
         if "tangential_amplitude" in given:
             columns_of["tangential"] = "length"
         signal = signal_from(self.folder / str(table.file), name, table, parts.units, columns_of)
-        kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
+        if not table.keep_cycles:
+            return {name: signal.loop}
+        kept = {each.name: each for each in signal.loops}
+        self.cycles[name] = [*kept]
         for each in (each for each in kept if each in parts.loads):
             self.report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
         return {name: signal.loop, **kept}
@@ -163,8 +168,8 @@ class StudyReader:
                 profiles[name] = profile_from(name, table, self.folder, self.parts.units)
         return profiles
 
-    def _blocks(self, names: Iterable[str]) -> list[Block]:
-        """The blocks; of a signal that keeps its cycles one for each. `names` are the names of the loops."""
+    def _blocks(self) -> list[Block]:
+        """The blocks; of a signal that keeps its cycles one for each."""
         raw, parts, report = self.raw, self.parts, self.report
         if parts.blocks and not ("units" in raw and "material" in raw):
             report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
@@ -177,9 +182,8 @@ class StudyReader:
             wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
             for mistake in wrong:
                 report(mistake.key, mistake.found, mistake.allowed)
-            table = parts.loads.get(block.load)
-            cycles = kept_cycles(block.load, names) if table and table.keep_cycles else []
-            blocks += [Block(each, 1.0 if wrong else float(block.rounds)) for each in cycles or [block.load]]
+            rounds = 1.0 if wrong else float(block.rounds)
+            blocks += [Block(each, rounds) for each in self.cycles.get(block.load, [block.load])]
         return blocks
 
     def _contacts(
@@ -249,20 +253,15 @@ def _form_of(table: Table, forms: Mapping[tuple[str, ...], Sequence[str]]) -> tu
 
 def _harmonics(rows: Any, column: str) -> Any:
     """Rows of order, amplitude and phase, which may be a text as in studies."""
-    read = list(rows) if isinstance(rows, list | tuple) else rows
-    for number, row in enumerate(read if isinstance(read, list) else ()):
-        if isinstance(row, list | tuple) and len(row) == 3 and isinstance(row[-1], str):
+    read = [*rows] if isinstance(rows, list) else rows
+    for number, row in enumerate(read if isinstance(rows, list) else ()):
+        if isinstance(row, list) and len(row) == 3 and isinstance(row[-1], str):
             try:
                 read[number] = (*row[:-1], float(read_angle(row[-1])))
             except ValueError as error:
                 key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
                 raise refused(key, found, "a phase") from None
     return read
-
-
-def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
-    """The names that stand for kept cycles of a load."""
-    return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]
 
 
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
@@ -291,10 +290,9 @@ def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
     """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
     report = Report(source)
     for parameter in ("load", "profile"):
-        used, tables = {*map(str, grid.values(parameter))}, raw.get(f"{parameter}s", {})
-        # Cycles that are kept one by one are loads of their own.
-        kept = (kept_cycles(name, used) for name, table in tables.items() if table.get("keep_cycles"))
-        for name in tables if used.isdisjoint(tables) and not any(kept) else ():
+        used, tables = [*map(str, grid.values(parameter))], raw.get(f"{parameter}s", {})
+        used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
+        for name in tables if {*used}.isdisjoint(tables) else ():
             words = f"a {parameter} that is not used"
             report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report
