@@ -43,6 +43,8 @@ COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
 
 #: Cells, in small letters, without a value: MATLAB and pandas write NaN.
 MISSING = ("", "nan")
+#: The study's label of a unit by its kind; None without units.
+Labels = Mapping[str, Any] | None
 #: Number of the line of a row, and its cells.
 Row = tuple[int, list[str]]
 
@@ -96,14 +98,14 @@ class UserTable:
             data = read_file(path, LARGEST_TABLE)
         except OSError as error:
             raise self.refused("", reason_of(error), _READABLE) from None
-        content = self._sheet(data) if data.startswith(b"PK\x03\x04") else self._text(data)
-        separator, above = self._found_header(content)
+        text = self._sheet(data) if data.startswith(b"PK\x03\x04") else self._text(data)
+        separator, above = self._found_header(text)
         self.decimal = self.form.decimal
         if separator == self.decimal == ",":
             self.report("separator, decimal", "both ','", "two different signs")
             self.decimal = None
         try:
-            rows = list(islice(_rows(content, separator, self.form.skip_rows), above + most + 3))
+            rows = list(islice(_rows(text, separator, self.form.skip_rows), above + most + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
         skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
@@ -213,7 +215,6 @@ class UserTable:
         except LookupError:
             allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
             self.report("encoding", literal(encoding), allowed)
-            text = data.decode(ENCODINGS[0], "replace")
         except UnicodeDecodeError as error:
             # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
             line = data.count(b"\n", 0, error.start) + 1
@@ -224,13 +225,14 @@ class UserTable:
             allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"; or '
             allowed = f"{allowed * self.has_keys}the file saved as UTF-8"
             self.report.append(Mistake("", found, allowed, self.source))
+        if self.report:
             text = data.decode(ENCODINGS[0], "replace")
         if "\0" in text:
             raise self.refused("", "a binary file", "a table in a text file")
         return io.StringIO(text, newline=None).read()
 
-    def _sheet(self, data: bytes) -> list[Row]:
-        """The rows of the sheet that is read; the source names all sheets if none is given."""
+    def _sheet(self, data: bytes) -> str:
+        """The text of the sheet, in tabs; the source names all sheets if none is given."""
         if b"xl/" not in data:
             raise self.refused("", "a zip archive", "a table in a text file, or an Excel workbook")
         try:
@@ -240,13 +242,14 @@ class UserTable:
                 warnings.simplefilter("ignore")  # of styles and the like that are not read
                 book = pd.ExcelFile(io.BytesIO(data), "openpyxl")
                 names, sheet = book.sheet_names, 1 if self.form.sheet is None else self.form.sheet
-                if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
+                name_of = dict(enumerate(names, 1)) | {name: name for name in names}
+                if sheet not in name_of:
                     raise refused("sheet", literal(sheet), nearest(str(sheet), map(str, names), {}))
                 if self.form.sheet is None and len(names) > 1:
                     others = ", ".join(map(literal, names[1:]))
                     self.source += f", sheet {literal(names[0])} (others: {others})"
-                name = sheet if sheet in names else names[int(sheet) - 1]
-                cells = book.parse(name, header=None, dtype=str, na_filter=False)
+                cells = book.parse(name_of[sheet], header=None, dtype=str, na_filter=False)
+            self.form = self.form.model_copy(update={"separator": "\t"})
         except ImportError:
             allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
             raise self.refused("", "an Excel workbook", allowed) from None
@@ -254,20 +257,18 @@ class UserTable:
             raise
         except Exception as error:  # a damaged workbook fails anywhere in openpyxl
             raise self.refused("", f"a workbook that cannot be read ({error})", _AS_CSV) from None
-        # An error such as #DIV/0! is the only cell that is no text.
-        rows = (
-            [cell if isinstance(cell, str) else "#ERROR" for cell in row] for row in cells.values.tolist()
-        )
-        return list(enumerate(rows, 1))
+        # Each line is a row. An error such as #DIV/0! is the only cell that is no text.
+        cells = cells.replace(r"\s+", " ", regex=True)
+        return str(cells.to_csv(sep="\t", header=False, index=False, na_rep="#ERROR"))
 
-    def _found_header(self, content: str | list[Row]) -> tuple[str, int]:
+    def _found_header(self, text: str) -> tuple[str, int]:
         """The separator, and the number of rows above the header: the row with most of the names."""
         wanted, others = ({*map(self.form.header, names)} for names in (self.names, self.known))
         rows_of, score, header = dict[str, list[Row]](), dict[str, tuple[int, ...]](), dict[str, int]()
         for separator in SEPARATORS:
             rows: list[Row] = [(self.form.skip_rows + 1, [])]
             try:
-                rows = [*islice(_rows(content, separator, self.form.skip_rows), WITHIN)] or rows
+                rows = [*islice(_rows(text, separator, self.form.skip_rows), WITHIN)] or rows
             except csv.Error as error:  # a stray quote makes the rest one cell
                 if separator == SEPARATORS[0]:
                     raise self.refused("", str(error), _READABLE) from None
@@ -287,16 +288,15 @@ class UserTable:
         self.report.refuse()  # in another encoding headers may be right
         words, keys = ", ".join(self.names), ", or columns = {...} that says which these are" * self.has_keys
         found, allowed = f"the columns {', '.join(headers)}", f"a header with {words}{keys}"
+        named = [name for name in self.names if name in self.form.columns]
+        lacking = [name for name in named if self.form.header(name) not in headers]
         if not headers:
             found = "an empty file"
             allowed = f"a header{' with ' * bool(words)}{words}, and rows of values"
-        for name in (each for each in self.names if headers and each in self.form.columns):
-            if (column := self.form.header(name)) not in headers:
-                found, allowed = (
-                    f"no column {literal(column)}, which is to be {name}",
-                    nearest(column, headers, {}),
-                )
-                break
+        elif lacking:
+            column = self.form.header(lacking[0])
+            found = f"no column {literal(column)}, which is to be {lacking[0]}"
+            allowed = nearest(column, headers, {})
         others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(self.names) > len(headers)
         if likely != own and others_fit:
             found = f"cells parted by {likely!r}, while separator is {own!r}"
@@ -335,7 +335,7 @@ def read_columns(
     optional: Sequence[str],
     form: FileTable,
     kinds: Mapping[str, str],
-    labels: Mapping[str, Any] | None = None,
+    labels: Labels = None,
     gaps: bool = False,
 ) -> tuple[FloatArray, IndexArray]:
     """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
@@ -371,8 +371,10 @@ def read_columns(
         for name in () if form.columns else (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
             if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-                allowed = f"{name}, if that is meant, or another name"
-                found = f"the column {literal(alike[0])}"
+                found, allowed = (
+                    f"the column {literal(alike[0])}",
+                    f"{name}, if that is meant, or another name",
+                )
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
         for name, kind in kinds.items():
@@ -431,18 +433,16 @@ def _skipped_words(rows: Sequence[Row]) -> str:
     return f"{lines} skipped, {literal(' '.join(filter(None, rows[0][1])), 40)}"
 
 
-def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
+def _rows(text: str, separator: str, skipped: int) -> Iterator[Row]:
     """Rows that are not empty: the number of the last line of each, and its cells in one line each."""
-    if isinstance(content, str):
-        lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
-        if separator == " ":
-            lines = (" ".join(line.split()) for line in lines)
-        reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-        rows: Iterator[Row] = ((reader.line_num + skipped, cells) for cells in reader)
-    else:
-        rows = islice(content, skipped, None)
-    stripped = ((line, [" ".join(cell.split()) for cell in cells]) for line, cells in rows)
-    return ((line, cells) for line, cells in stripped if any(cells))
+    lines: Iterator[str] = islice(io.StringIO(text), skipped, None)
+    if separator == " ":
+        lines = (" ".join(line.split()) for line in lines)
+    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
+    for cells in reader:
+        own = [" ".join(cell.split()) for cell in cells]
+        if any(own):
+            yield reader.line_num + skipped, own
 
 
 def _parts(rows: Sequence[Row], line: int) -> bool:

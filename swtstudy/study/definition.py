@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -145,16 +145,16 @@ def _text_of(file: Path, source: str) -> str:
     """The text of a study file; a StudyError with the reason if that cannot be read."""
     try:
         return read_text(file)
-    except (OSError, ValueError) as error:
+    except OSError as error:
         found, allowed = reason_of(error), _READABLE
-        if isinstance(error, ValueError):
-            found, allowed = _OTHER_FILES.get(file.suffix.lower(), (found, f"{allowed}, saved as UTF-8"))
-        elif isinstance(error, FileNotFoundError):
+        if isinstance(error, FileNotFoundError):
             allowed = "a study file (TOML)"
             if not file.suffix:
                 found = "no such file"
                 allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
-        raise refused("", found, allowed, source) from None
+    except ValueError as error:
+        found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), f"{_READABLE}, saved as UTF-8"))
+    raise refused("", found, allowed, source)
 
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
@@ -260,23 +260,19 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
 
 def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
     """The studies that are sound; every mistake is reported. See `read_studies`."""
+    files: list[str] = []
+    for path in paths:
+        is_folder = Path(path).is_dir()
+        inside = sorted(map(str, Path(path).glob("*.toml"))) if is_folder else [str(find_study(path))]
+        if not inside:
+            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
+        files += inside
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
-    for path in dict.fromkeys(_files(paths, report)):
+    for path in dict.fromkeys(files):
         with report:
             studies[path] = Study.from_toml(path)
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
     return studies
-
-
-def _files(paths: Iterable[str], report: Report) -> Iterator[str]:
-    for path in paths:
-        if not Path(path).is_dir():
-            yield str(find_study(path))
-            continue
-        inside = sorted(map(str, Path(path).glob("*.toml")))
-        if not inside:
-            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
-        yield from inside

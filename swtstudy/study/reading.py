@@ -16,14 +16,13 @@ from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.points.values import read_angle
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
-from swtstudy.study.columns import read_columns
+from swtstudy.study.columns import Labels, read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
-from swtstudy.study.sample import Design, Sampled, SampleReader
+from swtstudy.study.sample import Contacts, ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.grid import ContactDetails
-from swtstudy.study.units.life import Block, Scatter, wrong_rounds
+from swtstudy.study.units.life import Block, wrong_rounds
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, read_units, rows
@@ -69,12 +68,13 @@ class StudyReader:
         blocks = self._blocks()
         fixed, axes = self.fixed_and_axes(block.load for block in blocks)
         contacts, fixed = self._contacts(fixed, axes)
-        self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         own = rows(contacts.units) if contacts else PARAMETERS
         samples, design, scatter = self._sample(own, known, contacts)
         is_sampled = "sample" in self.raw and (bool(samples) or scatter is None)
-        self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(samples, "sample")
-        self.places |= {"load": "blocks"} if blocks else {}
+        self.places = (
+            {DISTANCE: "material"} | dict.fromkeys(parts.fixed, "fixed") | dict.fromkeys(axes, "axes")
+        )
+        self.places |= dict.fromkeys(samples, "sample") | dict.fromkeys(["load"] * bool(blocks), "blocks")
         distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
         asked = Request(read_quantities(parts.quantities, "quantities", report), *distances)
         if contacts is not None:
@@ -186,9 +186,7 @@ class StudyReader:
             blocks += [Block(each, rounds) for each in self.cycles.get(block.load, [block.load])]
         return blocks
 
-    def _contacts(
-        self, fixed: dict[str, Any], axes: Mapping[str, Any]
-    ) -> tuple[ContactDetails | None, dict[str, Any]]:
+    def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
         parts, report = self.parts, self.report
         if parts.units is None:
@@ -206,13 +204,11 @@ class StudyReader:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
-    def _sample(
-        self, own: Mapping[str, Parameter], known: Known, contacts: ContactDetails | None = None
-    ) -> tuple[Sampled, Design | None, Scatter | None]:
+    def _sample(self, own: Mapping[str, Parameter], known: Known, contacts: Contacts = None) -> ReadSample:
         """See `SampleReader.read`; nothing without a sample."""
-        table, given = self.parts.sample, self.raw.get("sample", ())
-        if table is None:
+        if self.parts.sample is None:
             return {}, None, None
+        table, given = self.parts.sample, self.raw["sample"]
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
         return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
 
@@ -272,9 +268,7 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
         return signal_from(folder / table.file, name, table) if table.file else None
 
 
-def profile_from(
-    name: str, table: ProfileTable, folder: Path, labels: Mapping[str, Any] | None = None
-) -> TabulatedProfile:
+def profile_from(name: str, table: ProfileTable, folder: Path, labels: Labels = None) -> TabulatedProfile:
     """A profile from its table."""
     if table.file is None:
         radius, height = table.radius, table.height

@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,15 +22,13 @@ from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_unit
 from swtstudy.study.keys import DesignName, SampleTable, under
+from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
 from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
-
-if TYPE_CHECKING:
-    from swtstudy.study.units.grid import ContactDetails
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")
@@ -120,6 +118,10 @@ def saltelli(a: FloatArray, b: FloatArray) -> FloatArray:
 
 #: Checked values of sampled parameters, by name; None where there are mistakes.
 Sampled = dict[str, tuple[Value, ...] | None]
+#: The sampled parameters, the design of values that are not given, and draws of constants.
+ReadSample = tuple[Sampled, Design | None, Scatter | None]
+#: None without units.
+Contacts = ContactDetails | None
 
 
 @dataclass(frozen=True)
@@ -150,9 +152,9 @@ class SampleReader:
     report: Report
     known: Known
     rows: Mapping[str, Parameter]
-    contacts: ContactDetails | None = None
+    contacts: Contacts = None
 
-    def read(self) -> tuple[Sampled, Design | None, Scatter | None]:
+    def read(self) -> ReadSample:
         """The sampled parameters, the design of values that are not given, and draws of constants."""
         table, report = self.table, self.report
         forms = [form for form in ("design", "file", "points") if form in self.given]
@@ -335,8 +337,9 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[Floa
     if not low < high:
         raise refused(key, bounds, "the lower bound first, and a higher one")
     if kind == "lognormal" and deviation > _LARGEST_DEVIATION:
+        factor = math.exp(min(deviation, 700.0))
         allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
-        raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed)
+        raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {factor:.3g}", allowed)
     for name in ("deviation", "median"):
         if numbers.get(name, 1.0) <= 0.0:
             raise refused(f"{key}.{name}", f"{numbers[name]:g}", "a number greater than 0")

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
+from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
 from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
 
@@ -36,51 +38,46 @@ def to_toml(
     frequency_ratio = ["3/2"]
     <BLANKLINE>
     """
-    fixed: dict[str, Any] = dict(grid.fixed)
-    axes: dict[str, Any] = dict(grid.axes)
-    blocks = getattr(grid, "blocks", ())
-    for table in (fixed, axes) if blocks else ():  # which have the loads
+    fixed, axes, points = (dict[str, Any](part) for part in (grid.fixed, grid.axes, grid.samples))
+    if asked.distances and asked.is_axis:
+        axes[DISTANCE] = asked.distances
+    elif asked.distances:
+        fixed[DISTANCE] = asked.distances[0]
+    layout = asdict(figure) if figure else {}
+    about, units = ContactDetails(), dict[str, str]()
+    if isinstance(grid, PhysicalGrid):
+        about, units = grid.about, vars(grid.units)
+        names = {"bodies": about.body_names} if about.body_names else {}
+        fixed |= {**about.pairs, **names, "similar": about.similar}
+    for table in (fixed, axes) if about.blocks else ():  # which have the loads
         table.pop("load", None)
-    if asked.distances:
-        (axes if asked.is_axis else fixed)[DISTANCE] = (
-            asked.distances if asked.is_axis else asked.distances[0]
-        )
-    tables, of_contacts = _of_contacts(grid)
-    tables += [("[fixed]", fixed | of_contacts), ("[axes]", axes)]
-    scatter = getattr(grid, "scatter", None)
-    draws = dict(zip(scatter.names, map(list, scatter.draws), strict=True)) if scatter else {}
-    tables += [("[sample]", {"target_life": scatter.target})] if scatter and scatter.target else []
-    tables += [("[sample.points]", grid.samples | draws)] if grid.samples or draws else []
-    tables += [(f"[{each.parameter}s.{quoted(each.name)}]", each.content()) for each in grid.given]
-    tables += [("[[blocks]]", vars(block)) for block in blocks]
-    if figure is not None:
-        tables.append(("[figure]", {k: v for k, v in asdict(figure).items() if v not in (None, False)}))
-    lines = _lines({"title": title, "rtol": rtol, **({"quantities": asked.names} if asked.names else {})})
-    for head, entries in tables:
-        lines += ["", head, *_lines(entries)]
-    return "\n".join(lines) + "\n"
-
-
-def _lines(entries: Mapping[str, Any]) -> list[str]:
-    return [f"{key} = {quoted(value)}" for key, value in entries.items()]
-
-
-def _of_contacts(grid: Grid) -> tuple[list[tuple[str, Mapping[str, Any]]], dict[str, Any]]:
-    """The tables that a study with units has besides, and its fixed values that are no parameters' values."""
-    from swtstudy.study.units.grid import PhysicalGrid
-    from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
-
-    if not isinstance(grid, PhysicalGrid):
-        return [], {}
-    material = {key: [getattr(each, key) for each in grid.materials] for key in TENSILE}
+    material = {key: [getattr(each, key) for each in about.materials] for key in TENSILE}
     for key, name in SHEAR_CONSTANTS.items():
-        material[key] = [getattr(each, name) for each in grid.shear_materials]
-    material |= {STRENGTH: [*grid.yield_strengths], LIMIT: [*grid.findley_limits]}
-    material = {key: both for key, both in material.items() if both}
-    tables: list[tuple[str, Mapping[str, Any]]] = [("[units]", vars(grid.units))]
-    tables += [("[material]", material)] if material else []
-    names = {"bodies": grid.body_names} if grid.body_names else {}
-    return tables, {**grid.pairs, **names, "similar": grid.similar}
+        material[key] = [getattr(each, name) for each in about.shear_materials]
+    material |= {STRENGTH: [*about.yield_strengths], LIMIT: [*about.findley_limits]}
+    if about.scatter:
+        points |= zip(about.scatter.names, about.scatter.draws, strict=True)
+    tables: list[tuple[str, Mapping[str, Any]]] = [
+        ("[units]", units),
+        ("[material]", {key: both for key, both in material.items() if both}),
+        ("[fixed]", fixed),
+        ("[axes]", axes),
+        ("[sample]", {"target_life": about.target_life} if about.target_life else {}),
+        ("[sample.points]", points),
+        *((f"[{each.parameter}s.{quoted(each.name)}]", each.content()) for each in grid.given),
+        *(("[[blocks]]", vars(block)) for block in about.blocks),
+        ("[figure]", {key: value for key, value in layout.items() if value not in (None, False)}),
+    ]
+    text = _lines({"title": title, "rtol": rtol, **({"quantities": asked.names} if asked.names else {})})
+    for head, entries in tables:
+        if entries or head in ("[fixed]", "[axes]"):
+            text += f"\n{head}\n{_lines(entries)}"
+    return text
+
+
+def _lines(entries: Mapping[str, Any]) -> str:
+    """The lines of a table."""
+    return "".join(f"{key} = {quoted(value)}\n" for key, value in entries.items())
 
 
 def quoted(value: object) -> str:
