@@ -202,7 +202,7 @@ def repeats(time: FloatArray, values: FloatArray) -> float | None:
             continue
         power = np.abs(np.fft.rfft(own, 2 * size)) ** 2
         products = np.fft.irfft(power)[: size // 2 + 1]
-        found.append(products / np.arange(size, size // 2 - 1 + size % 2, -1)[: len(products)] / own.var())
+        found.append(products / np.arange(size, size - len(products), -1) / own.var())
     found = [each for each in found if each[FEWEST_IN_CYCLE:].max() > NOISE]
     if not found:
         return None

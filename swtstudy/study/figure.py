@@ -138,14 +138,13 @@ def wrong_layout(layout: FigureLayout) -> Wrong:
         if name in used:
             yield f"figure.{role}", f"{literal(name)}, also used for {used[name]}", "each axis once"
         used.setdefault(name, role)
-    if layout.kind not in FIGURES:
-        yield "figure.kind", literal(layout.kind), nearest(layout.kind, FIGURES)
-    else:
+    if layout.kind in FIGURES:
         yield from _wrong_roles(layout)
+    else:
+        yield "figure.kind", literal(layout.kind), nearest(layout.kind, FIGURES)
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
-    problem = wrong_formula(layout.title or "")
-    if problem:
+    if problem := wrong_formula(layout.title or ""):
         yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
 
 
@@ -282,10 +281,9 @@ def wrong_formula(text: str) -> str | None:
     from matplotlib.cbook import is_math_text
     from matplotlib.mathtext import MathTextParser
 
-    if not is_math_text(text):
-        return None
     try:
-        MathTextParser("path").parse(text)
+        if is_math_text(text):
+            MathTextParser("path").parse(text)
     except ValueError as error:
         # Without the name of the parser's error.
         return str(error).strip().splitlines()[-1].partition(": ")[2]

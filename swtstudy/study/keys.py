@@ -50,6 +50,7 @@ class Table(BaseModel):
 
 File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
+Order = Annotated[int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)]
 Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
 Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
@@ -92,9 +93,7 @@ class SignalTable(FileTable):
     """Length of a cycle instead of their number, in the unit of the time, or in samples."""
     frequency: Positive = None
     """Cycles per unit of the time, such as Hz, instead of the period."""
-    harmonics: Annotated[
-        int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)
-    ] = None
+    harmonics: Order = None
     """Highest order of a fit of the file's columns by harmonics: a smooth loop."""
     despike: Flag = False
     """True to replace spikes by the value that the samples beside them or the other cycles suggest."""

@@ -71,10 +71,9 @@ class StudyReader:
         own = rows(contacts.units) if contacts else PARAMETERS
         samples, design, scatter = self._sample(own, known, contacts)
         is_sampled = "sample" in self.raw and (bool(samples) or scatter is None)
-        self.places = (
-            {DISTANCE: "material"} | dict.fromkeys(parts.fixed, "fixed") | dict.fromkeys(axes, "axes")
-        )
-        self.places |= dict.fromkeys(samples, "sample") | dict.fromkeys(["load"] * bool(blocks), "blocks")
+        self.places = {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
+        self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(samples, "sample")
+        self.places |= {"load": "blocks"} if blocks else {}
         distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
         asked = Request(read_quantities(parts.quantities, "quantities", report), *distances)
         if contacts is not None:
@@ -82,8 +81,8 @@ class StudyReader:
             asked = contacts.request(asked.names, *distances)
             wrong_material = any(mistake.key.startswith("material") for mistake in report)
             if blocks and not contacts.has_lives and "material" in self.raw and not wrong_material:
-                found = "blocks with a [material] without lives"
-                report("blocks", found, "constants of lives: Miner's sum needs them")
+                allowed = "constants of lives: Miner's sum needs them"
+                report("blocks", "blocks with a [material] without lives", allowed)
         grid: Grid | None = None
         if not is_sampled or samples:  # else what is sampled is unknown: nothing else is missing
             given = report.key, self.source
@@ -117,7 +116,7 @@ class StudyReader:
             # Without units a measured load is a mistake of its own.
             loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
             if table is not None:
-                part = next((each for each in ("vertices", "file") if getattr(table, each) is not None), "")
+                part = "vertices" if table.vertices is not None else "file" if table.file is not None else ""
                 with under(self.report, f"loads.{name}", part):
                     loads |= self._load(name, table)
         return loads
@@ -129,24 +128,25 @@ class StudyReader:
             columns = [_harmonics(getattr(table, each) or (), each) for each in (*COLUMNS, BULK)]
             return {name: LoadPath.harmonic_sum(name, *columns, mean_normal=table.mean_normal)}
         if form == ("vertices",):
-            if table.absolute and table.mean_normal is not None:
+            if not table.absolute:
+                return {name: LoadPath(name, table.vertices, table.mean_normal)}
+            if table.mean_normal is not None:
                 raise refused("absolute", "absolute and mean_normal", "true or false; without mean_normal")
-            if table.absolute:
-                return {name: LoadPath.absolute(name, table.vertices)}
-            return {name: LoadPath(name, table.vertices, table.mean_normal)}
+            return {name: LoadPath.absolute(name, table.vertices)}
         if table.keep_cycles and table.harmonics is not None:
             allowed = "one of the two: kept cycles are as they were recorded"
             raise refused("", "keep_cycles and harmonics", allowed)
         # A depth and a displacement are recorded beside amplitudes of these.
-        parts = self.parts
+        parts, kinds = self.parts, dict(KINDS)
         sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
-        given, columns_of = {*parts.fixed, *parts.axes, *sampled}, dict(KINDS)
+        given = {*parts.fixed, *parts.axes, *sampled}
         if "normal_amplitude" in given:
-            columns_of["normal"] = "length"
-            columns_of["tangential"] = "force" if "tangential_force_amplitude" in given else "length"
+            kinds |= dict.fromkeys(COLUMNS, "length")
+        if "tangential_force_amplitude" in given:
+            kinds["tangential"] = "force"
         if "tangential_amplitude" in given:
-            columns_of["tangential"] = "length"
-        signal = signal_from(self.folder / str(table.file), name, table, parts.units, columns_of)
+            kinds["tangential"] = "length"
+        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds)
         if not table.keep_cycles:
             return {name: signal.loop}
         kept = {each.name: each for each in signal.loops}
@@ -175,8 +175,7 @@ class StudyReader:
             report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
         for part in ("fixed", "axes"):
             if parts.blocks and "load" in getattr(parts, part):
-                found = literal(raw[part]["load"])
-                report(f"{part}.load", found, "nothing: [[blocks]] give the loads")
+                report(f"{part}.load", literal(raw[part]["load"]), "nothing: [[blocks]] give the loads")
         blocks: list[Block] = []
         for number, block in enumerate(parts.blocks):
             wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
@@ -222,12 +221,14 @@ class StudyReader:
 
     def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Fixed values and axes; the loads of blocks are the last axis if there are several."""
-        loads = list(dict.fromkeys(of_blocks))
-        given = self.parts.fixed, self.parts.axes
-        fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in given)
+        fixed, axes, loads = {**self.parts.fixed}, {**self.parts.axes}, [*dict.fromkeys(of_blocks)]
+        for table in (fixed, axes) if loads else ():
+            table.pop("load", None)
         if len(loads) > 1:
-            return fixed, {**axes, "load": loads}
-        return ({**fixed, "load": loads[0]} if loads else fixed), axes
+            axes["load"] = loads
+        elif loads:
+            fixed["load"] = loads[0]
+        return fixed, axes
 
 
 def _form_of(table: Table, forms: Mapping[tuple[str, ...], Sequence[str]]) -> tuple[str, ...]:

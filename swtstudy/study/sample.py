@@ -201,11 +201,11 @@ class SampleReader:
 
     def _designed(self, ranges: Mapping[str, Any]) -> tuple[Sampled, Design | None]:
         """Values of parameters in their ranges, at the points of a design."""
-        before, numeric = len(self.report), {n: row for n, row in self.rows.items() if row.kind == "number"}
+        numeric = {name: row for name, row in self.rows.items() if row.kind == "number"}
         sound = {name: raw for name, raw in ranges.items() if name in numeric}
         if not ranges:
             self.report("sample.ranges", "nothing", "at least one parameter with its range")
-        for name in (name for name in ranges if name not in numeric):
+        for name in (name for name in ranges if name not in sound):
             found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
             if name in KEYS:
                 found = f"{name}, a constant that cannot scatter"
@@ -214,7 +214,7 @@ class SampleReader:
                 found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
             self.report(f"sample.ranges.{name}", found, allowed)
         design, values, _ = self._at_design(sound, numeric)
-        if design is None or len(self.report) > before:
+        if design is None or len(sound) < len(ranges):
             return dict.fromkeys(sound), None
         return {name: tuple(column.tolist()) for name, column in values.items()}, design
 
@@ -406,12 +406,8 @@ def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
         raise ValueError(f"{grid.size} points are too many to sample, at most {LARGEST_SAMPLED}")
     rng = np.random.default_rng(seed)
     # More than asked for: two points of the grid can be physically the same.
-    many = 2 * points
-    if grid.size <= 2 * many:
-        index = rng.permutation(grid.size)
-    else:
-        _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
-        index = index[np.sort(first)]
+    is_small = grid.size <= 4 * points
+    index = rng.permutation(grid.size) if is_small else rng.integers(grid.size, size=2 * points)
     rows, _ = canonical_points(grid, index)
     first, _ = group_rows(rows)
     return rows[np.sort(first)[:points]]

@@ -193,8 +193,7 @@ class Fold:
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
         values = np.array([CubicSpline(*side)(radius) for side in sides])
         known = np.array([_reached(side[0], radius) for side in sides])
-        weight = np.where(known.any(axis=0), known, True).astype(float)
-        mean = (weight * values).sum(axis=0) / weight.sum(axis=0)
+        mean = np.average(values, axis=0, weights=np.where(known.any(axis=0), known, True))
         odd = 0.5 * np.diff(values, axis=0)[0, known.all(axis=0)]
         noise = float(np.sqrt(np.mean(odd**2))) if odd.size else 0.0
         inner = slice(max(LEAST, int(INNERMOST * len(radius))))

@@ -88,6 +88,7 @@ def quoted(value: object) -> str:
 
 #: How many values of an axis are listed one by one: a cell of a table in a notebook.
 _LISTED = 6
+_Row = tuple[str, str, str, str]
 
 
 def in_one_line(study: Study) -> str:
@@ -122,14 +123,8 @@ def _size(study: Study) -> str:
     return f"{points} = {axes}" if axes else points
 
 
-def _row(
-    grid: Grid, kind: str, name: str, values: tuple[Value, ...], role: str | None = None
-) -> tuple[str, str, str, str]:
+def _row(grid: Grid, kind: str, name: str, values: tuple[Value, ...], role: str | None = None) -> _Row:
     """Kind, name, values and meaning of a parameter."""
     row = grid.row(name)
-    return (
-        kind,
-        name,
-        listed([*map(plain_words, values)], _LISTED) + unit_words(row.units),
-        row.described + (f"; figure: {role}" if role else ""),
-    )
+    words = listed([*map(plain_words, values)], _LISTED) + unit_words(row.units)
+    return kind, name, words, row.described + (f"; figure: {role}" if role else "")
