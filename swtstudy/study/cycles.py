@@ -141,9 +141,8 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
     if count < FEWEST_CYCLES:
         return out, usual
     cycle = np.median(folded(time, values, period, count), axis=0)
-    phase = np.mod((time - time[0]) / period, 1.0) * len(cycle)
-    closed = np.concatenate([cycle, cycle[:1]])
-    median = np.stack([np.interp(phase, np.arange(len(closed)), column) for column in closed.T], axis=-1)
+    at, phase = np.arange(len(cycle)), np.mod((time - time[0]) / period, 1.0) * len(cycle)
+    median = np.stack([np.interp(phase, at, column, period=len(cycle)) for column in cycle.T], axis=-1)
     off = np.abs(values - median)
     # A pulse of every cycle is a load.
     out &= off > 0.5 * np.abs(values - usual)

@@ -5,13 +5,15 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from html import escape
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.rules import idle_axes
+from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.reading import StudyReader, unused
 from swtstudy.study.shipped import find_study, shipped_studies
@@ -19,15 +21,17 @@ from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.material import STRENGTH
 from swtstudy.study.units.reading import doubts_of_units
 from swtstudy.study.units.rows import ONE_OF, REST_DEPENDS_ON
-from swtstudy.study.writing import as_html, in_one_line
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
-from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, Request
+from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.sample import Design
 
+#: How many values of an axis are listed one by one: a cell of a table in a notebook.
+_LISTED = 6
 _READABLE = "a readable study file (TOML)"
 _NAMED = 'a study (TOML) that names it: file = "…" under [loads.NAME], [profiles.NAME] or [sample]'
 #: Files that are no studies, by how their names end: what they are, and what takes them.
@@ -86,7 +90,39 @@ class Study:
     text: str
     design: Design | None = None
 
-    __repr__, _repr_html_ = in_one_line, as_html
+    def __repr__(self) -> str:
+        return f"<Study {self.title!r}: {self._size}, rtol {self.rtol:g}>"
+
+    def _repr_html_(self) -> str:
+        """A table for a notebook: axes, fixed parameters, points, cost, and the places in the figure."""
+        roles = {name: role for role, name in self.figure.roles()} if self.figure else {}
+        grid, asked = self.grid, self.asked
+
+        def row_of(
+            kind: str, name: str, values: tuple[Value, ...], place: str = ""
+        ) -> tuple[str, str, str, str]:
+            row, role = grid.row(name), roles.get(place)
+            words = listed([*map(plain_words, values)], _LISTED) + unit_words(row.units)
+            return kind, name, words, row.described + (f"; figure: {role}" if role else "")
+
+        rows = [row_of("axis", name, values, name) for name, values in grid.axes.items()]
+        rows += [row_of("sampled", name, values, SAMPLE) for name, values in grid.samples.items()]
+        if asked.distances:
+            rows.append(row_of("axis" if asked.is_axis else "fixed", DISTANCE, asked.distances, DISTANCE))
+        rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
+        rows += [row_of("fixed", name, (value,)) for name, value in grid.fixed.items()]
+        rows += [row_of("of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
+        return (
+            f"<div><b>{escape(self.title)}</b><br>{escape(self._size)}, rtol {self.rtol:g}; "
+            f"swtstudy plan tells how long it takes{html_table(rows)}</div>"
+        )
+
+    @property
+    def _size(self) -> str:
+        """Number of points, and of the values of each axis."""
+        axes = " × ".join(f"{size} {name}" for name, size in self.grid.sizes.items())
+        points = number_of(self.grid.size, "point")
+        return f"{points} = {axes}" if axes else points
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Study:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from inspect import signature
-from typing import Annotated, Any, ClassVar, Literal, Self, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
@@ -236,6 +236,15 @@ class StudyTable(Table):
     """The layout of the figure; every axis needs a place."""
 
 
+#: The tables within a study file, and how many keys lead to one of them.
+_WITHIN: dict[str, tuple[Any, int]] = {
+    "axes": (RangeTable, 2),
+    "sample": (SampleTable, 1),
+    "loads": (LoadTable, 2),
+    "profiles": (ProfileTable, 2),
+    "blocks": (BlockTable, 2),
+    "figure": (FigureLayout, 1),
+}
 #: How many keys lead to what is left out of a part of a study where one of its keys is wrong.
 _LEVELS = {"axes": 2, "loads": 2, "profiles": 2, "sample": 3}
 
@@ -286,10 +295,9 @@ def _mistakes(model: type[Table], error: ValidationError, source: str) -> list[M
 def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
     """A mistake as pydantic tells it, with what the innermost table on the way to it allows."""
     path = [part for part in detail["loc"] if part not in ("list", "range")]  # pydantic's tags, not keys
-    field = model.model_fields.get(str(path[0]))
-    levels, table = _inner(field.annotation) if field else (0, None)
-    if table is None or len(path) < levels:
-        levels, table = 0, model
+    table, levels = _WITHIN.get(str(path[0]), (model, 0)) if model is StudyTable else (model, 0)
+    if len(path) < levels:
+        table, levels = model, 0
     keys = table.__pydantic_fields__
     allowed = ""
     if len(path) == levels:
@@ -304,17 +312,6 @@ def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
         return Mistake(name, f"unknown key {literal(key)}", choice(key, keys), source)
     found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
     return Mistake(name, found, allowed or detail["msg"], source)
-
-
-def _inner(kind: Any) -> tuple[int, Any]:
-    """The table within the type of a key, and how many keys lead to it."""
-    if isinstance(kind, type) and hasattr(kind, "allowed"):
-        return 1, kind
-    for each in get_args(kind):
-        levels, table = _inner(each)
-        if table is not None:
-            return levels + (get_origin(kind) in (dict, list)), table
-    return 0, None
 
 
 def with_keys(model: type[Table]) -> Callable[[Function], Function]:

@@ -337,7 +337,7 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[Floa
     if not low < high:
         raise refused(key, bounds, "the lower bound first, and a higher one")
     if kind == "lognormal" and deviation > _LARGEST_DEVIATION:
-        factor = math.exp(min(deviation, 700.0))
+        factor = math.exp(deviation) if deviation < 700.0 else math.inf
         allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
         raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {factor:.3g}", allowed)
     for name in ("deviation", "median"):

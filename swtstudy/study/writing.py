@@ -1,22 +1,17 @@
-"""A study in words: its text, if it was not read from a file, and a summary before anything is computed."""
+"""The text of a study that was not read from a file, or names other files."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.values import Value
+from swtstudy.points.grid import Grid
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, Request
-from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
-
-if TYPE_CHECKING:
-    from swtstudy.study.definition import Study
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request
 
 
 def to_toml(
@@ -84,47 +79,3 @@ def quoted(value: object) -> str:
     """A value as in TOML; fractions and what has a name are texts."""
     # JSON is TOML but for DEL, which TOML wants escaped.
     return json.dumps(value, ensure_ascii=False, default=str).replace("\x7f", "\\u007f")
-
-
-#: How many values of an axis are listed one by one: a cell of a table in a notebook.
-_LISTED = 6
-_Row = tuple[str, str, str, str]
-
-
-def in_one_line(study: Study) -> str:
-    """Title, points and accuracy."""
-    return f"<Study {study.title!r}: {_size(study)}, rtol {study.rtol:g}>"
-
-
-def as_html(study: Study) -> str:
-    """A table for a notebook: axes, fixed parameters, points, cost, and the places in the figure."""
-    from html import escape
-
-    roles = {name: role for role, name in study.figure.roles()} if study.figure else {}
-    grid, asked = study.grid, study.asked
-    along = [("axis", name, values, roles.get(name)) for name, values in grid.axes.items()]
-    along += [("sampled", name, values, roles.get(SAMPLE)) for name, values in grid.samples.items()]
-    if asked.distances:
-        kind = "axis" if asked.is_axis else "fixed"
-        along.append((kind, DISTANCE, asked.distances, roles.get(DISTANCE)))
-    rows = [_row(grid, *each) for each in along]
-    rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
-    rows += [_row(grid, "fixed", name, (value,)) for name, value in grid.fixed.items()]
-    rows += [_row(grid, "of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
-    return (
-        f"<div><b>{escape(study.title)}</b><br>{escape(_size(study))}, rtol {study.rtol:g}; "
-        f"swtstudy plan tells how long it takes{html_table(rows)}</div>"
-    )
-
-
-def _size(study: Study) -> str:
-    axes = " × ".join(f"{size} {name}" for name, size in zip(study.grid.dims, study.grid.shape, strict=True))
-    points = number_of(study.grid.size, "point")
-    return f"{points} = {axes}" if axes else points
-
-
-def _row(grid: Grid, kind: str, name: str, values: tuple[Value, ...], role: str | None = None) -> _Row:
-    """Kind, name, values and meaning of a parameter."""
-    row = grid.row(name)
-    words = listed([*map(plain_words, values)], _LISTED) + unit_words(row.units)
-    return kind, name, words, row.described + (f"; figure: {role}" if role else "")
