@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import SAMPLE, Grid
@@ -16,6 +16,7 @@ from swtstudy.points.rules import idle_axes
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.reading import StudyReader, unused
+from swtstudy.study.sample import Design
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.material import STRENGTH
@@ -26,9 +27,6 @@ from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_o
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
 from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, Request
 from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
-
-if TYPE_CHECKING:
-    from swtstudy.study.sample import Design
 
 #: How many values of an axis are listed one by one: a cell of a table in a notebook.
 _LISTED = 6

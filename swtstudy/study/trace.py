@@ -250,22 +250,22 @@ def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[floa
     return best.middle, best.tilt
 
 
-def _best(x: FloatArray, z: FloatArray, centre: float, reach: float, window: float, level: bool) -> _Folded:
+def _best(x: FloatArray, z: FloatArray, centre: float, reach: float, window: float, level: bool) -> _Trial:
     """A trace folded at the best middle within reach of a centre."""
     from scipy.optimize import minimize_scalar
 
     def cost(middle: float) -> float:
-        return _Folded.at(x, z, middle, window, level).cost
+        return _Trial.at(x, z, middle, window, level).cost
 
     middles = np.linspace(centre - reach, centre + reach, MIDDLES)
     best = int(np.argmin([*map(cost, middles)]))
     bounds = middles[max(best - 1, 0)], middles[min(best + 1, MIDDLES - 1)]
     options = {"xatol": 1e-6 * (middles[1] - middles[0])}
     found = minimize_scalar(cost, bounds=bounds, method="bounded", options=options)
-    return _Folded.at(x, z, float(found.x), window, level)
+    return _Trial.at(x, z, float(found.x), window, level)
 
 
-class _Folded(NamedTuple):
+class _Trial(NamedTuple):
     """Ascending samples folded at a middle: their radii, their lowest region, and the tilt.
 
     ``cost`` is the logarithm of the mean difference of both sides over the rise, and what the tilt adds. Dust
@@ -279,7 +279,7 @@ class _Folded(NamedTuple):
     cost: float
 
     @classmethod
-    def at(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Folded:
+    def at(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Trial:
         """Fold within a window; where a side has a gap, nothing is known."""
         end, step = min(middle - x[0], x[-1] - middle, window), float(np.median(np.diff(x)))
         # Between samples noise is lower: radii have all places between them, whatever the middle.
