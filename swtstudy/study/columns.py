@@ -381,13 +381,14 @@ def read_columns(
             if labels and name in names:
                 report += wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [*map(table.column, names)] if gaps else []
-        empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
-        if empty and len(empty) < len(table.cells):
+        cells = table.cells
+        empty = {line: row for line, row in cells if any(row[k].lower() in MISSING for k in columns)}
+        if 0 < len(empty) < len(cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
-                words = f"line {empty[0]}{more} left out: a value is missing"
+                words = f"line {min(empty)}{more} left out: a value is missing"
                 warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=4)
-            table.cells = [row for row in table.cells if row[0] not in {*empty}]
+            table.cells = [(line, row) for line, row in cells if line not in empty]
         values = table.numbers(names)
     report.refuse()
     return values, np.array([line for line, _ in table.cells])
