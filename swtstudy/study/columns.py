@@ -371,10 +371,8 @@ def read_columns(
         for name in () if form.columns else (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
             if alike := [each for each in table.headers if name in each.lower() or meant(each, [name], {})]:
-                found, allowed = (
-                    f"the column {literal(alike[0])}",
-                    f"{name}, if that is meant, or another name",
-                )
+                allowed = f"{name}, if that is meant, or another name"
+                found = f"the column {literal(alike[0])}"
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
         for name, kind in kinds.items():
