@@ -269,8 +269,8 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[StudyTable, list[Mi
             elif place == ("blocks",) and isinstance(left["blocks"], list):  # their loads are still known
                 loads = [each.get("load") for each in left["blocks"] if isinstance(each, dict)]
                 left["blocks"] = [{"load": each, "rounds": 1} for each in loads if isinstance(each, str)]
-            else:
-                _drop(left, *place)
+            elif not _drop(left, *place):  # pydantic names keys that are no Unicode otherwise
+                left.pop(place[0], None)
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
     parts = [part for part in ("axes", "loads", "profiles") if isinstance(raw.get(part), dict)]
@@ -278,12 +278,12 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[StudyTable, list[Mi
     return table.model_copy(update=sound), mistakes
 
 
-def _drop(tables: dict[Any, Any], first: Any, *others: Any) -> None:
-    """Take the entry at a place out of tables."""
-    if others and isinstance(tables.get(first), dict):
-        _drop(tables[first], *others)
-    else:
-        tables.pop(first, None)
+def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
+    """Take the entry at a place out of tables; False if there is none."""
+    inner = left.get(first)
+    if others and isinstance(inner, dict):
+        return _drop(inner, *others)
+    return left.pop(first, left) is not left
 
 
 def _mistakes(model: type[Table], error: ValidationError, source: str) -> list[Mistake]:
