@@ -27,7 +27,6 @@ MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
 WITHIN = 200
 #: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
 ENCODINGS = ("cp1252", "latin-1")
-_ENCODING_WORDS = " or ".join(map(literal, ENCODINGS))
 _READABLE = "a CSV file that can be read"
 _AS_CSV = "the sheet saved as CSV UTF-8"
 #: First bytes of files that are no text, what they are, and the way to export them.
@@ -44,6 +43,8 @@ COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
 
 #: Cells, in small letters, without a value: MATLAB and pandas write NaN.
 MISSING = ("", "nan")
+#: The study's label of a unit by its kind; None without units.
+Labels = Mapping[str, Any] | None
 #: Number of the line of a row, and its cells.
 Row = tuple[int, list[str]]
 
@@ -72,8 +73,8 @@ class UserTable:
         The cells of its row of units; empty without one.
     cells
         The lines of its rows, and their cells as texts.
-    form
-        How it is written, with what was found out.
+    form, decimal
+        Its form as it was given, and the decimal sign in its numbers.
     source
         The path, for messages.
     line
@@ -90,48 +91,46 @@ class UserTable:
     def __init__(
         self, path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int
     ) -> None:
-        self.path, self.source, self.names, self.known = path, str(path), names, known
+        self.source, self.names, self.known = str(path), names, known
         self.form, self.has_keys = form or FileTable(), form is not None
         self.report = Report()
         try:
-            data = read_file(self.path, LARGEST_TABLE)
+            data = read_file(path, LARGEST_TABLE)
         except OSError as error:
             raise self.refused("", reason_of(error), _READABLE) from None
-        is_workbook = data.startswith(b"PK\x03\x04")
-        content = self._sheet(data) if is_workbook else self._text(data)
-        separator, above = self._found_header(content)
-        if separator == self.form.decimal == ",":
+        text = self._sheet(data) if data.startswith(b"PK\x03\x04") else self._text(data)
+        separator, above = self._found_header(text)
+        self.decimal = self.form.decimal
+        if separator == self.decimal == ",":
             self.report("separator, decimal", "both ','", "two different signs")
-            self.form = self.form.model_copy(update={"decimal": None})
+            self.decimal = None
         try:
-            rows = list(islice(_rows(content, separator, self.form.skip_rows), above + most + 3))
+            rows = list(islice(_rows(text, separator, self.form.skip_rows), above + most + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
         skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
-        if wrong := self._wrong_headers():
-            raise self.refused(f"line {self.line}", *wrong)
+        self._check_headers()
         notices = []
         if above:
             notices.append(f"the header is found in line {self.line}: {_skipped_words(skipped)}")
-        needed = [*map(self.column, self.names)]
+        needed, width = [*map(self.column, self.names)], len(self.headers)
         self.units = _row_of_units(rows, needed, self.form)
         if self.units and self.form.units_row is None:
             notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, self.units))}")
         self.cells = rows[bool(self.units) :]
         if len(self.cells) > most:
             raise self.refused("", f"more than {most} rows", f"at most {most}")
-        width = len(self.headers)
         for place, own in self.cells:
             if len(own) - (own[-1] == "") > width:
                 allowed = "as many as columns: a comma between cells, a point in numbers"
                 allowed += "; or say separator and decimal" * self.has_keys
                 raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
             own += [""] * (width - len(own))
-        if self.form.decimal is None:
+        if self.decimal is None:
             texts = [own[k] for _, own in self.cells[:WITHIN] for k in needed or range(width)]
-            comma = separator != "," and _has_decimal_commas(texts)
-            self.form = self.form.model_copy(update={"decimal": "," if comma else "."})
-            if comma:
+            comma, point = (any(re.match(rf"[+-]?\d*[{sign}]\d", text) for text in texts) for sign in ",.")
+            self.decimal = "," if separator != "," and comma and not point else "."
+            if self.decimal == ",":
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
             warnings.warn(f"{Path(self.source).name}: {words}", stacklevel=3)
@@ -154,7 +153,7 @@ class UserTable:
         found, hints, report = [], set(), Report(self.source)
         for name in names:
             texts = self.texts(name)
-            values = np.array([number(text, self.form.decimal) for text in texts])
+            values = np.array([number(text, self.decimal) for text in texts])
             found.append(values * self.form.scale.get(name, 1.0))
             for row in np.flatnonzero(~np.isfinite(values))[:1]:
                 text, hint = texts[row], ""  # the key that is usually missing there
@@ -162,7 +161,7 @@ class UserTable:
                     timed = "time" in type(self.form).model_fields
                     hint = "; with the header of the time, time = ..., such rows are left out" * timed
                     hint = hint or "; leave such rows out"
-                elif "," in text and self.form.decimal == ".":
+                elif "," in text and self.decimal == ".":
                     hint = COMMA_HINT
                 elif row == 0:
                     hint = "; lines above the header are skip_rows, a row of units is units_row = true"
@@ -175,7 +174,7 @@ class UserTable:
 
     def values(self, name: str) -> list[object]:
         """The cells of a column, numbers where they are, scaled, and texts."""
-        found = ((text, number(text, self.form.decimal)) for text in self.texts(name))
+        found = ((text, number(text, self.decimal)) for text in self.texts(name))
         factor = self.form.scale.get(name, 1.0)
         return [factor * value if math.isfinite(value) else text for text, value in found]
 
@@ -207,15 +206,15 @@ class UserTable:
             if data.startswith(start):
                 raise self.refused("", kind, f"a table in a text file: {way}")
         if self.form.sheet is not None:
-            found = f"{literal(self.form.sheet)}, and {self.path.name}, a text file"
+            found = f"{literal(self.form.sheet)}, and {Path(self.source).name}, a text file"
             raise self.refused("sheet", found, "a sheet of an Excel workbook only")
         has_mark = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))  # Excel's "Unicode text"
         encoding = self.form.encoding or ("utf-16" if has_mark else "utf-8-sig")
         try:
             text = data.decode(encoding)
         except LookupError:
-            self.report("encoding", literal(encoding), f"the name of an encoding, such as {_ENCODING_WORDS}")
-            text = data.decode(ENCODINGS[0], "replace")
+            allowed = f"the name of an encoding, such as {' or '.join(map(literal, ENCODINGS))}"
+            self.report("encoding", literal(encoding), allowed)
         except UnicodeDecodeError as error:
             # Name the line with bytes that cannot be decoded, and what they would be in another encoding.
             line = data.count(b"\n", 0, error.start) + 1
@@ -226,13 +225,14 @@ class UserTable:
             allowed = f'encoding = "{ENCODINGS[0]}", which reads {read} there, or "{ENCODINGS[1]}"; or '
             allowed = f"{allowed * self.has_keys}the file saved as UTF-8"
             self.report.append(Mistake("", found, allowed, self.source))
+        if self.report:
             text = data.decode(ENCODINGS[0], "replace")
         if "\0" in text:
             raise self.refused("", "a binary file", "a table in a text file")
         return io.StringIO(text, newline=None).read()
 
-    def _sheet(self, data: bytes) -> list[Row]:
-        """The rows of the sheet that is read; the source names all sheets if none is given."""
+    def _sheet(self, data: bytes) -> str:
+        """The text of the sheet, in tabs; the source names all sheets if none is given."""
         if b"xl/" not in data:
             raise self.refused("", "a zip archive", "a table in a text file, or an Excel workbook")
         try:
@@ -242,13 +242,14 @@ class UserTable:
                 warnings.simplefilter("ignore")  # of styles and the like that are not read
                 book = pd.ExcelFile(io.BytesIO(data), "openpyxl")
                 names, sheet = book.sheet_names, 1 if self.form.sheet is None else self.form.sheet
-                if sheet not in names and not (isinstance(sheet, int) and 1 <= sheet <= len(names)):
+                name_of = dict(enumerate(names, 1)) | {name: name for name in names}
+                if sheet not in name_of:
                     raise refused("sheet", literal(sheet), nearest(str(sheet), map(str, names), {}))
                 if self.form.sheet is None and len(names) > 1:
                     others = ", ".join(map(literal, names[1:]))
                     self.source += f", sheet {literal(names[0])} (others: {others})"
-                name = sheet if sheet in names else names[int(sheet) - 1]
-                cells = book.parse(name, header=None, dtype=str, na_filter=False)
+                cells = book.parse(name_of[sheet], header=None, dtype=str, na_filter=False)
+            self.form = self.form.model_copy(update={"separator": "\t"})
         except ImportError:
             allowed = f"pip install openpyxl, which reads it; or {_AS_CSV}"
             raise self.refused("", "an Excel workbook", allowed) from None
@@ -256,20 +257,18 @@ class UserTable:
             raise
         except Exception as error:  # a damaged workbook fails anywhere in openpyxl
             raise self.refused("", f"a workbook that cannot be read ({error})", _AS_CSV) from None
-        # An error such as #DIV/0! is the only cell that is no text.
-        rows = (
-            [cell if isinstance(cell, str) else "#ERROR" for cell in row] for row in cells.values.tolist()
-        )
-        return list(enumerate(rows, 1))
+        # Each line is a row. An error such as #DIV/0! is the only cell that is no text.
+        cells = cells.replace(r"\s+", " ", regex=True)
+        return str(cells.to_csv(sep="\t", header=False, index=False, na_rep="#ERROR"))
 
-    def _found_header(self, content: str | list[Row]) -> tuple[str, int]:
+    def _found_header(self, text: str) -> tuple[str, int]:
         """The separator, and the number of rows above the header: the row with most of the names."""
         wanted, others = ({*map(self.form.header, names)} for names in (self.names, self.known))
         rows_of, score, header = dict[str, list[Row]](), dict[str, tuple[int, ...]](), dict[str, int]()
         for separator in SEPARATORS:
             rows: list[Row] = [(self.form.skip_rows + 1, [])]
             try:
-                rows = [*islice(_rows(content, separator, self.form.skip_rows), WITHIN)] or rows
+                rows = [*islice(_rows(text, separator, self.form.skip_rows), WITHIN)] or rows
             except csv.Error as error:  # a stray quote makes the rest one cell
                 if separator == SEPARATORS[0]:
                     raise self.refused("", str(error), _READABLE) from None
@@ -287,7 +286,17 @@ class UserTable:
         if headers and wanted <= {*headers}:
             return own, header[own]
         self.report.refuse()  # in another encoding headers may be right
-        found, allowed = self._missing(headers)
+        words, keys = ", ".join(self.names), ", or columns = {...} that says which these are" * self.has_keys
+        found, allowed = f"the columns {', '.join(headers)}", f"a header with {words}{keys}"
+        named = [name for name in self.names if name in self.form.columns]
+        lacking = [name for name in named if self.form.header(name) not in headers]
+        if not headers:
+            found = "an empty file"
+            allowed = f"a header{' with ' * bool(words)}{words}, and rows of values"
+        elif lacking:
+            column = self.form.header(lacking[0])
+            found = f"no column {literal(column)}, which is to be {lacking[0]}"
+            allowed = nearest(column, headers, {})
         others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(self.names) > len(headers)
         if likely != own and others_fit:
             found = f"cells parted by {likely!r}, while separator is {own!r}"
@@ -296,30 +305,18 @@ class UserTable:
             found += f" in line {line}, which is most like the header; {_skipped_words(above)}"
         raise self.refused(f"line {line}", found, allowed)
 
-    def _missing(self, headers: list[str]) -> tuple[str, str]:
-        """Say which column a header lacks, and what is allowed."""
-        words = ", ".join(self.names)
-        if not headers:
-            return "an empty file", f"a header{' with ' * bool(words)}{words}, and rows of values"
-        for name in self.names:
-            own = self.form.header(name)
-            if name in self.form.columns and own not in headers:
-                return f"no column {literal(own)}, which is to be {name}", nearest(own, headers, {})
-        allowed = f"a header with {words}{', or columns = {...} that says which these are' * self.has_keys}"
-        return f"the columns {', '.join(headers)}", allowed
-
-    def _wrong_headers(self) -> tuple[str, str] | None:
-        """Found and allowed of too many columns, or of a column that is there, or is used, twice."""
+    def _check_headers(self) -> None:
+        """Refuse too many columns, and a column that is there, or is used, twice."""
+        header, place, lower = self.form.header, f"line {self.line}", [each.lower() for each in self.headers]
         if len(self.headers) > MOST_COLUMNS:
-            return f"more than {MOST_COLUMNS} columns", "fewer"
-        header, lower = self.form.header, [each.lower() for each in self.headers]
+            raise self.refused(place, f"more than {MOST_COLUMNS} columns", "fewer")
         for other in map(header, self.names):
             if len(alike := [name for name in self.names if header(name) == other]) > 1:
-                return f"the column {literal(other)} as {' and '.join(alike)}", "a column of its own for each"
+                found = f"the column {literal(other)} as {' and '.join(alike)}"
+                raise self.refused(place, found, "a column of its own for each")
         for name in map(header, (*self.names, *self.known)):
             if lower.count(name.lower()) > 1:
-                return f"the column {name} twice", "each column once"
-        return None
+                raise self.refused(place, f"the column {name} twice", "each column once")
 
 
 def number(cell: str, decimal: str | None) -> float:
@@ -338,7 +335,7 @@ def read_columns(
     optional: Sequence[str],
     form: FileTable,
     kinds: Mapping[str, str],
-    labels: Mapping[str, Any] | None = None,
+    labels: Labels = None,
     gaps: bool = False,
 ) -> tuple[FloatArray, IndexArray]:
     """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
@@ -382,13 +379,14 @@ def read_columns(
             if labels and name in names:
                 report += wrong_unit(table, name, kind, str(labels.get(kind)))
         columns = [*map(table.column, names)] if gaps else []
-        empty = [line for line, cells in table.cells if any(cells[k].lower() in MISSING for k in columns)]
-        if empty and len(empty) < len(table.cells):
+        cells = table.cells
+        empty = {line: row for line, row in cells if any(row[k].lower() in MISSING for k in columns)}
+        if 0 < len(empty) < len(cells):
             more = f" and {len(empty) - 1} more" if len(empty) > 1 else ""
             if not report:
-                words = f"line {empty[0]}{more} left out: a value is missing"
+                words = f"line {min(empty)}{more} left out: a value is missing"
                 warnings.warn(f"{Path(table.source).name}: {words}", stacklevel=4)
-            table.cells = [row for row in table.cells if row[0] not in {*empty}]
+            table.cells = [(line, row) for line, row in cells if line not in empty]
         values = table.numbers(names)
     report.refuse()
     return values, np.array([line for line, _ in table.cells])
@@ -406,18 +404,16 @@ def unknown_names(form: FileTable, known: Collection[str]) -> Report:
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
     """The mistake of a column of another kind, in another unit than the study's, or scaled the wrong way."""
     column, (unit, own_kind) = literal(table.form.header(name)), table.unit(name, kind)
+    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
     if own_kind != kind:
         found = f"{column} in {unit} as {name}, which is a {kind}"
         allowed = f"a column with a {kind}, not a {own_kind}, whatever its scale"
-        return [Mistake("", found, allowed, table.source)]
-    factor, own = unit_factor(kind, unit, label), table.form.scale.get(name)
-    if factor == 1.0:
+    elif factor == 1.0 or (own is not None and not math.isclose(abs(own) * factor, 1.0)):
         return []
-    if own is not None and not math.isclose(abs(own) * factor, 1.0):
-        return []
-    found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
-    found += "" if own is None else f", and scale has {name} = {own:g}"
-    allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+    else:
+        found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
+        found += "" if own is None else f", and scale has {name} = {own:g}"
+        allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
     return [Mistake("", found, allowed, table.source)]
 
 
@@ -436,18 +432,16 @@ def _skipped_words(rows: Sequence[Row]) -> str:
     return f"{lines} skipped, {literal(' '.join(filter(None, rows[0][1])), 40)}"
 
 
-def _rows(content: str | list[Row], separator: str, skipped: int) -> Iterator[Row]:
+def _rows(text: str, separator: str, skipped: int) -> Iterator[Row]:
     """Rows that are not empty: the number of the last line of each, and its cells in one line each."""
-    if isinstance(content, str):
-        lines: Iterator[str] = islice(io.StringIO(content), skipped, None)
-        if separator == " ":
-            lines = (" ".join(line.split()) for line in lines)
-        reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-        rows: Iterator[Row] = ((reader.line_num + skipped, cells) for cells in reader)
-    else:
-        rows = islice(content, skipped, None)
-    stripped = ((line, [" ".join(cell.split()) for cell in cells]) for line, cells in rows)
-    return ((line, cells) for line, cells in stripped if any(cells))
+    lines: Iterator[str] = islice(io.StringIO(text), skipped, None)
+    if separator == " ":
+        lines = (" ".join(line.split()) for line in lines)
+    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
+    for cells in reader:
+        own = [" ".join(cell.split()) for cell in cells]
+        if any(own):
+            yield reader.line_num + skipped, own
 
 
 def _parts(rows: Sequence[Row], line: int) -> bool:
@@ -458,20 +452,12 @@ def _parts(rows: Sequence[Row], line: int) -> bool:
 
 def _row_of_units(rows: Sequence[Row], needed: Sequence[int], form: FileTable) -> list[str]:
     """The first row, if it is one of units: it has no number, and numbers are beneath."""
-    if not rows or form.units_row is False:
-        return []
-    if form.units_row:
-        return rows[0][1]
-    first, below = ([*rows[k][1]] for k in (0, min(1, len(rows) - 1)))
-    wanted = [below[k] for k in needed if k < len(below)] or [*filter(_is_number, below)]
+    if form.units_row is not None or len(rows) < 2:
+        return rows[0][1] if form.units_row and rows else []
+    first, second = rows[0][1], rows[1][1]
+    wanted = [second[k] for k in needed if k < len(second)] or [*filter(_is_number, second)]
     has_numbers = bool(wanted) and all(map(_is_number, wanted))
-    return first if any(first) and has_numbers and not any(map(_is_number, first)) else []
-
-
-def _has_decimal_commas(texts: Sequence[str]) -> bool:
-    """Return whether numbers have commas, and none has a point."""
-    has = {sign: any(re.match(rf"[+-]?\d*{re.escape(sign)}\d", text) for text in texts) for sign in ",."}
-    return has[","] and not has["."]
+    return first if has_numbers and not any(map(_is_number, first)) else []
 
 
 def _is_number(cell: str) -> bool:

@@ -141,28 +141,21 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
     if count < FEWEST_CYCLES:
         return out, usual
     cycle = np.median(folded(time, values, period, count), axis=0)
-    phase = np.mod((time - time[0]) / period, 1.0) * len(cycle)
-    closed = np.concatenate([cycle, cycle[:1]])
-    median = np.stack([np.interp(phase, np.arange(len(closed)), column) for column in closed.T], axis=-1)
+    at, phase = np.arange(len(cycle)), np.mod((time - time[0]) / period, 1.0) * len(cycle)
+    median = np.stack([np.interp(phase, at, column, period=len(cycle)) for column in cycle.T], axis=-1)
     off = np.abs(values - median)
     # A pulse of every cycle is a load.
     out &= off > 0.5 * np.abs(values - usual)
-    apart = _apart_from_cycles(values, off, cycle) & ~out
-    return out | apart, np.where(out, usual, median)
-
-
-def _apart_from_cycles(values: FloatArray, off: FloatArray, cycle: FloatArray) -> BoolArray:
-    """Samples far from the median cycle, and outside of its range or of both samples beside them.
-
-    The second condition spares the steep side of a cycle that comes a little late.
-    """
+    # Far from the median cycle, and outside of its range or of both samples beside: the steep side of a cycle
+    # that comes a little late is no spike.
     least = _least_spike(off, SPIKE_SHARE * np.ptp(cycle, axis=0))
-    beside = np.stack([np.roll(values, 1, axis=0), np.roll(values, -1, axis=0)])
-    beside[0, 0], beside[1, -1] = beside[1, 0], beside[0, -1]
-    outside = np.zeros_like(values, bool)
-    for low, high in ((cycle.min(axis=0), cycle.max(axis=0)), (beside.min(axis=0), beside.max(axis=0))):
-        outside |= (values > high + least) | (values < low - least)
-    return outside & (off > least)
+    padded = np.pad(values, ((1, 1), (0, 0)), "reflect")
+    beside = np.stack([padded[:-2], padded[2:]])
+    outside = np.zeros_like(out)
+    for others in (cycle, beside):
+        outside |= (values > others.max(axis=0) + least) | (values < others.min(axis=0) - least)
+    apart = outside & (off > least) & ~out
+    return out | apart, np.where(out, usual, median)
 
 
 def _single_spikes(time: FloatArray, values: FloatArray) -> tuple[BoolArray, FloatArray]:
@@ -208,7 +201,7 @@ def repeats(time: FloatArray, values: FloatArray) -> float | None:
             continue
         power = np.abs(np.fft.rfft(own, 2 * size)) ** 2
         products = np.fft.irfft(power)[: size // 2 + 1]
-        found.append(products / np.arange(size, size // 2 - 1 + size % 2, -1)[: len(products)] / own.var())
+        found.append(products / np.arange(size, size - len(products), -1) / own.var())
     found = [each for each in found if each[FEWEST_IN_CYCLE:].max() > NOISE]
     if not found:
         return None
@@ -221,12 +214,6 @@ def repeats(time: FloatArray, values: FloatArray) -> float | None:
     # The last top is so many cycles from the first sample: it tells the length of one best.
     cycles = round(tops[-1] / tops[0])
     return float(size / (tops[-1] / cycles))
-
-
-def mean_over(time: FloatArray, values: FloatArray, period: float) -> float:
-    """Mean of one closed cycle over the time, by straight lines; the samples need not be even."""
-    at, closed = np.append(time, time[0] + period), np.append(values, values[0])
-    return float(np.sum(np.diff(at) * 0.5 * (closed[1:] + closed[:-1])) / period)
 
 
 def harmonics(phase: FloatArray, values: FloatArray, highest: int) -> tuple[FloatArray, FloatArray]:

@@ -3,31 +3,33 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from html import escape
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.rules import idle_axes
+from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.reading import StudyReader, unused
+from swtstudy.study.sample import Design
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.material import STRENGTH
 from swtstudy.study.units.reading import doubts_of_units
 from swtstudy.study.units.rows import ONE_OF, REST_DEPENDS_ON
-from swtstudy.study.writing import as_html, in_one_line
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
-from swtstudy.vocabulary.quantities import DISTANCE, Request
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, Request
+from swtstudy.vocabulary.wording import html_table, listed, number_of, plain_words, unit_words
 
-if TYPE_CHECKING:
-    from swtstudy.study.sample import Design
-
+#: How many values of an axis are listed one by one: a cell of a table in a notebook.
+_LISTED = 6
 _READABLE = "a readable study file (TOML)"
 _NAMED = 'a study (TOML) that names it: file = "…" under [loads.NAME], [profiles.NAME] or [sample]'
 #: Files that are no studies, by how their names end: what they are, and what takes them.
@@ -86,7 +88,39 @@ class Study:
     text: str
     design: Design | None = None
 
-    __repr__, _repr_html_ = in_one_line, as_html
+    def __repr__(self) -> str:
+        return f"<Study {self.title!r}: {self._size}, rtol {self.rtol:g}>"
+
+    def _repr_html_(self) -> str:
+        """A table for a notebook: axes, fixed parameters, points, cost, and the places in the figure."""
+        roles = {name: role for role, name in self.figure.roles()} if self.figure else {}
+        grid, asked = self.grid, self.asked
+
+        def row_of(
+            kind: str, name: str, values: tuple[Value, ...], place: str = ""
+        ) -> tuple[str, str, str, str]:
+            row, role = grid.row(name), roles.get(place)
+            words = listed([*map(plain_words, values)], _LISTED) + unit_words(row.units)
+            return kind, name, words, row.described + (f"; figure: {role}" if role else "")
+
+        rows = [row_of("axis", name, values, name) for name, values in grid.axes.items()]
+        rows += [row_of("sampled", name, values, SAMPLE) for name, values in grid.samples.items()]
+        if asked.distances:
+            rows.append(row_of("axis" if asked.is_axis else "fixed", DISTANCE, asked.distances, DISTANCE))
+        rows += [("quantity", name, "", QUANTITIES[name].meaning) for name in asked.names]
+        rows += [row_of("fixed", name, (value,)) for name, value in grid.fixed.items()]
+        rows += [row_of("of each body", name, two) for name, two in getattr(grid, "pairs", {}).items()]
+        return (
+            f"<div><b>{escape(self.title)}</b><br>{escape(self._size)}, rtol {self.rtol:g}; "
+            f"swtstudy plan tells how long it takes{html_table(rows)}</div>"
+        )
+
+    @property
+    def _size(self) -> str:
+        """Number of points, and of the values of each axis."""
+        axes = " × ".join(f"{size} {name}" for name, size in self.grid.sizes.items())
+        points = number_of(self.grid.size, "point")
+        return f"{points} = {axes}" if axes else points
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> Study:
@@ -145,16 +179,16 @@ def _text_of(file: Path, source: str) -> str:
     """The text of a study file; a StudyError with the reason if that cannot be read."""
     try:
         return read_text(file)
-    except (OSError, ValueError) as error:
+    except OSError as error:
         found, allowed = reason_of(error), _READABLE
-        if isinstance(error, ValueError):
-            found, allowed = _OTHER_FILES.get(file.suffix.lower(), (found, f"{allowed}, saved as UTF-8"))
-        elif isinstance(error, FileNotFoundError):
+        if isinstance(error, FileNotFoundError):
             allowed = "a study file (TOML)"
             if not file.suffix:
                 found = "no such file"
                 allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
-        raise refused("", found, allowed, source) from None
+    except ValueError as error:
+        found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), f"{_READABLE}, saved as UTF-8"))
+    raise refused("", found, allowed, source)
 
 
 def _parsed(text: str, source: str) -> dict[str, Any]:
@@ -260,23 +294,19 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
 
 def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
     """The studies that are sound; every mistake is reported. See `read_studies`."""
+    files: list[str] = []
+    for path in paths:
+        is_folder = Path(path).is_dir()
+        inside = sorted(map(str, Path(path).glob("*.toml"))) if is_folder else [str(find_study(path))]
+        if not inside:
+            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
+        files += inside
     studies: dict[str, Study] = {}
     names: dict[str, str] = {}
-    for path in dict.fromkeys(_files(paths, report)):
+    for path in dict.fromkeys(files):
         with report:
             studies[path] = Study.from_toml(path)
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
     return studies
-
-
-def _files(paths: Iterable[str], report: Report) -> Iterator[str]:
-    for path in paths:
-        if not Path(path).is_dir():
-            yield str(find_study(path))
-            continue
-        inside = sorted(map(str, Path(path).glob("*.toml")))
-        if not inside:
-            report.append(Mistake("", "a folder without studies", "studies (*.toml) in it", path))
-        yield from inside

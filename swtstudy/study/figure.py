@@ -27,12 +27,14 @@ VARIABLES = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surfac
 
 #: Key, found and allowed of mistakes.
 Wrong = Iterator[tuple[str, str, str]]
-#: Further parts of a figure.
+#: The further quantity of a figure, in words.
 QUANTITY = '"s/s(name=value)"'
 
 
 Axis = Annotated[str, "the name of an axis"]
 OtherAxis = Annotated[str | None, "the name of an axis"]
+Text = Annotated[str | None, "a text"]
+Flag = Annotated[StrictBool, "true or false"]
 _EITHER = [{"type": "string"}, {"type": "array", "items": {"type": "string"}}]
 Quantities = Annotated[
     tuple[str, ...],
@@ -61,20 +63,20 @@ class FigureLayout:
     panels: OtherAxis = None
     """Axis whose values are the panels side by side."""
     y: Quantities = ("s",)
-    title: str | None = None
+    title: Text = None
     """Title over the figure."""
-    kind: Annotated[str, Field(json_schema_extra={"enum": [*FIGURES]})] = "lines"
+    kind: Annotated[str, "a text", Field(json_schema_extra={"enum": [*FIGURES]})] = "lines"
     """Lines over x, or x upright over life; contours or a heat map over x and vertical; scatter or histogram
     of a sample."""
     vertical: OtherAxis = None
     """Axis along the vertical axis of contours or a heat map."""
-    regimes: StrictBool = False
+    regimes: Flag = False
     """True to mark where a regime of the contact begins along a line."""
-    validity: StrictBool = False
+    validity: Flag = False
     """True to mark points outside of what the model holds for, such as beyond first yield."""
-    caption: str | None = None
+    caption: Text = None
     """Text beneath the figure, in reports."""
-    message: str | None = None
+    message: Text = None
     """Headline of reports, instead of what the results say first."""
 
     def to_json(self) -> str:
@@ -136,14 +138,13 @@ def wrong_layout(layout: FigureLayout) -> Wrong:
         if name in used:
             yield f"figure.{role}", f"{literal(name)}, also used for {used[name]}", "each axis once"
         used.setdefault(name, role)
-    if layout.kind not in FIGURES:
-        yield "figure.kind", literal(layout.kind), nearest(layout.kind, FIGURES)
-    else:
+    if layout.kind in FIGURES:
         yield from _wrong_roles(layout)
+    else:
+        yield "figure.kind", literal(layout.kind), nearest(layout.kind, FIGURES)
     if not layout.y:
         yield "figure.y", "an empty list", f"at least one of {', '.join(VARIABLES)}, or {QUANTITY}"
-    problem = wrong_formula(layout.title or "")
-    if problem:
+    if problem := wrong_formula(layout.title or ""):
         yield "figure.title", f"{literal(layout.title)} ({problem})", "a text; formulae between $ as in LaTeX"
 
 
@@ -280,10 +281,9 @@ def wrong_formula(text: str) -> str | None:
     from matplotlib.cbook import is_math_text
     from matplotlib.mathtext import MathTextParser
 
-    if not is_math_text(text):
-        return None
     try:
-        MathTextParser("path").parse(text)
+        if is_math_text(text):
+            MathTextParser("path").parse(text)
     except ValueError as error:
         # Without the name of the parser's error.
         return str(error).strip().splitlines()[-1].partition(": ")[2]

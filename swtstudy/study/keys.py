@@ -11,15 +11,14 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from copy import deepcopy
 from inspect import signature
-from typing import Annotated, Any, ClassVar, Literal, Self, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from swtstudy.points.reading import LONGEST_AXIS, Range
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
-from swtstudy.study.figure import FigureLayout
+from swtstudy.study.figure import FigureLayout, Flag
 from swtstudy.study.units.rows import right_place
-from swtstudy.study.writing import quoted
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, plain
@@ -31,14 +30,6 @@ DESIGNS: tuple[DesignName, ...] = get_args(DesignName)
 #: Separators between cells; a blank stands for any number of them.
 Separator = Literal[",", ";", "\t", "|", " "]
 SEPARATORS: tuple[Separator, ...] = get_args(Separator)
-
-
-def _words_of(kind: Any) -> str:
-    """Words for what a key of a type may hold; none for most types."""
-    if get_origin(kind) is Literal:
-        *others, last = map(quoted, get_args(kind))
-        return f"{', '.join(others)} or {last}"
-    return {bool: "true or false", str: "a text", int: "a whole number"}.get(kind, "")
 
 
 class Table(BaseModel):
@@ -59,6 +50,7 @@ class Table(BaseModel):
 
 File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
+Order = Annotated[int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)]
 Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
 Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
@@ -78,7 +70,7 @@ class FileTable(Table):
     """Factors of columns, such as { normal = 1000 } for kN, or -1 for the other sign."""
     skip_rows: Annotated[int, "a whole number of lines, 0 or more", Field(ge=0)] = 0
     """Lines above the header. Found unless given, and told."""
-    units_row: bool | None = None
+    units_row: Annotated[bool | None, "true or false"] = None
     """True if a row of units follows the header. Found unless given, and told."""
     sheet: Annotated[str | int | None, "the name of a sheet, or its number from 1 on"] = None
     """Sheet of a workbook; the first one unless given."""
@@ -91,7 +83,7 @@ class FileTable(Table):
 class SignalTable(FileTable):
     """The form of a signal in a file, and its cycles."""
 
-    absolute: bool = False
+    absolute: Flag = False
     """True if the normal column is the load itself: its mean is the mean load of the study."""
     time: Annotated[str | None, "the header of the column of the time", Field(min_length=1)] = None
     """Header of the file's column of the time; without it samples are even."""
@@ -101,18 +93,16 @@ class SignalTable(FileTable):
     """Length of a cycle instead of their number, in the unit of the time, or in samples."""
     frequency: Positive = None
     """Cycles per unit of the time, such as Hz, instead of the period."""
-    harmonics: Annotated[
-        int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)
-    ] = None
+    harmonics: Order = None
     """Highest order of a fit of the file's columns by harmonics: a smooth loop."""
-    despike: bool = False
+    despike: Flag = False
     """True to replace spikes by the value that the samples beside them or the other cycles suggest."""
 
 
 class TraceTable(FileTable):
     """A trace in a file, and the profile that is made of it."""
 
-    level: bool = True
+    level: Flag = True
     """True to take off the tilt of a trace; smoothing is by its noise unless given."""
     smoothing: Any = None
     """Root mean square of what the fit may miss of the heights; 0 to miss none."""
@@ -129,9 +119,9 @@ class RangeTable(Table):
     """First value; a number, or a text such as "2*pi"."""
     stop: Any
     """Last value, included."""
-    num: int
+    num: Annotated[int, "a whole number"]
     """Number of values."""
-    spacing: Literal["linear", "log"] = "linear"
+    spacing: Annotated[Literal["linear", "log"], '"linear" or "log"'] = "linear"
     """Equal steps ("linear") or equal ratios ("log")."""
     also: Annotated[list[Any], "a list of values"] = []
     """Further values, put in among the others: where curves bend, for example."""
@@ -149,7 +139,7 @@ class SampleTable(FileTable):
 
     allowed = "a table with design, size and ranges, with points, or with file"
 
-    design: DesignName | None = None
+    design: Annotated[DesignName | None, '"sobol", "latin_hypercube", "random" or "saltelli"'] = None
     """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
     size: Size = None
     """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""
@@ -186,7 +176,7 @@ class LoadTable(SignalTable):
     """Harmonics of c_b, beside the two others: rows of order, amplitude and phase."""
     mean_normal: Any = None
     """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
-    keep_cycles: bool = False
+    keep_cycles: Flag = False
     """True if blocks of the load run all recorded cycles in turn, not their mean."""
 
 
@@ -212,7 +202,7 @@ class ProfileTable(TraceTable):
     """Heights f at these radii, in a depth δ0: 0 at the axis."""
     file: File = None
     """Path of a CSV file, relative to the study, with a header and the columns radius and height."""
-    two_sided: bool = False
+    two_sided: Flag = False
     """True if the file is a trace across the body, with the columns position and height."""
 
 
@@ -246,20 +236,24 @@ class StudyTable(Table):
     """The layout of the figure; every axis needs a place."""
 
 
-class Parts(StudyTable):
-    """The sound parts of a study file; None for an axis, a load or a profile that is wrong."""
-
-    axes: dict[str, Any] = {}
-    loads: dict[str, Any] = {}
-    profiles: dict[str, Any] = {}
-
-
+#: The tables within a study file, and how many keys lead to one of them.
+_WITHIN: dict[str, tuple[Any, int]] = {
+    "axes": (RangeTable, 2),
+    "sample": (SampleTable, 1),
+    "loads": (LoadTable, 2),
+    "profiles": (ProfileTable, 2),
+    "blocks": (BlockTable, 2),
+    "figure": (FigureLayout, 1),
+}
 #: How many keys lead to what is left out of a part of a study where one of its keys is wrong.
 _LEVELS = {"axes": 2, "loads": 2, "profiles": 2, "sample": 3}
 
 
-def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake]]:
-    """The sound parts of the tables of a study, and all mistakes in their structure."""
+def read_study(raw: Mapping[str, Any], source: str) -> tuple[StudyTable, list[Mistake]]:
+    """The tables of a study without what is wrong in them, and all mistakes in their structure.
+
+    A wrong axis, load or profile is None.
+    """
     left: dict[Any, Any] = {name: plain(value) for name, value in deepcopy(dict(raw)).items()}
     mistakes: list[Mistake] = []
     while True:
@@ -275,15 +269,13 @@ def read_study(raw: Mapping[str, Any], source: str) -> tuple[Parts, list[Mistake
             elif place == ("blocks",) and isinstance(left["blocks"], list):  # their loads are still known
                 loads = [each.get("load") for each in left["blocks"] if isinstance(each, dict)]
                 left["blocks"] = [{"load": each, "rounds": 1} for each in loads if isinstance(each, str)]
-            elif not _drop(left, *place):
+            elif not _drop(left, *place):  # pydantic names keys that are no Unicode otherwise
                 left.pop(place[0], None)
     if not rules.storable(str(raw.get("title", ""))):
         mistakes = [*mistakes, Mistake("title", literal(raw["title"]), rules.STORABLE, source)]
-    found = {name: getattr(table, name) for name in StudyTable.model_fields}
-    for part in ("axes", "loads", "profiles"):
-        names = raw.get(part)
-        found[part] = {name: found[part].get(name) for name in (names if isinstance(names, dict) else ())}
-    return Parts.model_construct(**found), mistakes
+    parts = [part for part in ("axes", "loads", "profiles") if isinstance(raw.get(part), dict)]
+    sound = {part: {name: getattr(table, part).get(name) for name in raw[part]} for part in parts}
+    return table.model_copy(update=sound), mistakes
 
 
 def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
@@ -295,48 +287,31 @@ def _drop(left: dict[Any, Any], first: Any, *others: Any) -> bool:
 
 
 def _mistakes(model: type[Table], error: ValidationError, source: str) -> list[Mistake]:
+    """The mistakes in a table, each at the key that is wrong."""
     found = {_mistake(model, detail, source) for detail in error.errors(include_url=False)}
     return sorted(found, key=lambda mistake: mistake.key)
 
 
 def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
+    """A mistake as pydantic tells it, with what the innermost table on the way to it allows."""
     path = [part for part in detail["loc"] if part not in ("list", "range")]  # pydantic's tags, not keys
-    field = model.model_fields.get(str(path[0]))
-    levels, inner = _inner(field.annotation) if field else (0, None)
+    table, levels = _WITHIN.get(str(path[0]), (model, 0)) if model is StudyTable else (model, 0)
+    if len(path) < levels:
+        table, levels = model, 0
+    keys = table.__pydantic_fields__
     allowed = ""
-    if inner is not None and len(path) == levels:
-        allowed = inner.allowed
-    elif inner is None or len(path) < levels:
-        levels, inner = 0, model
-    keys = _keys(inner)
-    if not allowed and (row := keys.get(str(path[levels]))):
-        kinds = (row.annotation, *get_args(row.annotation))
+    if len(path) == levels:
+        allowed = table.allowed
+    elif row := keys.get(str(path[levels])):
         if row.annotation != dict[str, list[Any]]:
             path = path[: levels + 1]  # what follows are kinds of values, or places in a list
-        words = [*(each for each in row.metadata if isinstance(each, str)), *map(_words_of, kinds)]
-        allowed = next(filter(None, words), "")
+        allowed = next((each for each in row.metadata if isinstance(each, str)), "")
     name = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         key, choice = str(path[-1]), right_place if len(path) == 1 else nearest
         return Mistake(name, f"unknown key {literal(key)}", choice(key, keys), source)
     found = "nothing" if detail["type"] == "missing" else literal(detail["input"])
     return Mistake(name, found, allowed or detail["msg"], source)
-
-
-def _keys(table: Any) -> dict[str, Any]:
-    """The keys of a table, which may be a dataclass."""
-    return dict(getattr(table, "model_fields", None) or table.__pydantic_fields__)
-
-
-def _inner(kind: Any) -> tuple[int, Any]:
-    """The table within the type of a key, and how many keys lead to it."""
-    if isinstance(kind, type) and hasattr(kind, "allowed"):
-        return 1, kind
-    for each in get_args(kind):
-        levels, table = _inner(each)
-        if table is not None:
-            return levels + (get_origin(kind) in (dict, list)), table
-    return 0, None
 
 
 def with_keys(model: type[Table]) -> Callable[[Function], Function]:
@@ -351,10 +326,9 @@ def under(report: Report, key: str, part: str = "") -> Iterator[None]:
         yield
     except StudyError as error:
         for each in error.mistakes:
-            place = ": ".join(filter(None, (each.source, each.key)))
+            own, found, place = key, each.found, ": ".join(filter(None, (each.source, each.key)))
             if not each.source and re.split(r"[,.]", each.key)[0] in SignalTable.model_fields:
-                report(f"{key}.{each.key}", each.found, each.allowed)
+                own = f"{key}.{each.key}"
             elif place:
-                report(f"{key}.{part}" if part else key, f"{each.found} ({place})", each.allowed)
-            else:
-                report(key, each.found, each.allowed)
+                own, found = f"{key}.{part}" if part else key, f"{found} ({place})"
+            report(own, found, each.allowed)

@@ -16,14 +16,13 @@ from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.points.values import read_angle
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
-from swtstudy.study.columns import read_columns
+from swtstudy.study.columns import Labels, read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
-from swtstudy.study.sample import Design, Sampled, SampleReader
+from swtstudy.study.sample import Contacts, ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.grid import ContactDetails
-from swtstudy.study.units.life import Block, Scatter, wrong_rounds
+from swtstudy.study.units.life import Block, wrong_rounds
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, read_units, rows
@@ -56,6 +55,8 @@ class StudyReader:
         self.raw, self.folder, self.source = raw, folder, source
         #: The tables that parameters are given in, for their keys in messages.
         self.places: dict[str, str] = {}
+        #: The names of the cycles of loads that keep them.
+        self.cycles: dict[str, list[str]] = {}
         self.report = Report(source, lambda name: f"{self.places.get(name, 'fixed')}.{name}")
         self.parts, self.of_structure = read_study(raw, source)
         self.report += self.of_structure
@@ -64,13 +65,13 @@ class StudyReader:
         """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
         parts, report = self.parts, self.report
         known = {"load": self._loads(), "profile": self._profiles()}
-        blocks = self._blocks(known["load"])
+        blocks = self._blocks()
         fixed, axes = self.fixed_and_axes(block.load for block in blocks)
         contacts, fixed = self._contacts(fixed, axes)
-        self.places |= {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         own = rows(contacts.units) if contacts else PARAMETERS
         samples, design, scatter = self._sample(own, known, contacts)
         is_sampled = "sample" in self.raw and (bool(samples) or scatter is None)
+        self.places = {DISTANCE: "material"} if DISTANCE not in parts.fixed else {}
         self.places |= dict.fromkeys(axes, "axes") | dict.fromkeys(samples, "sample")
         self.places |= {"load": "blocks"} if blocks else {}
         distances = read_distances(fixed, axes, report, {**AXES, **own}[DISTANCE])
@@ -80,8 +81,8 @@ class StudyReader:
             asked = contacts.request(asked.names, *distances)
             wrong_material = any(mistake.key.startswith("material") for mistake in report)
             if blocks and not contacts.has_lives and "material" in self.raw and not wrong_material:
-                found = "blocks with a [material] without lives"
-                report("blocks", found, "constants of lives: Miner's sum needs them")
+                allowed = "constants of lives: Miner's sum needs them"
+                report("blocks", "blocks with a [material] without lives", allowed)
         grid: Grid | None = None
         if not is_sampled or samples:  # else what is sampled is unknown: nothing else is missing
             given = report.key, self.source
@@ -115,7 +116,7 @@ class StudyReader:
             # Without units a measured load is a mistake of its own.
             loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
             if table is not None:
-                part = next((each for each in ("vertices", "file") if getattr(table, each) is not None), "")
+                part = "vertices" if table.vertices is not None else "file" if table.file is not None else ""
                 with under(self.report, f"loads.{name}", part):
                     loads |= self._load(name, table)
         return loads
@@ -127,25 +128,29 @@ class StudyReader:
             columns = [_harmonics(getattr(table, each) or (), each) for each in (*COLUMNS, BULK)]
             return {name: LoadPath.harmonic_sum(name, *columns, mean_normal=table.mean_normal)}
         if form == ("vertices",):
-            if table.absolute and table.mean_normal is not None:
+            if not table.absolute:
+                return {name: LoadPath(name, table.vertices, table.mean_normal)}
+            if table.mean_normal is not None:
                 raise refused("absolute", "absolute and mean_normal", "true or false; without mean_normal")
-            if table.absolute:
-                return {name: LoadPath.absolute(name, table.vertices)}
-            return {name: LoadPath(name, table.vertices, table.mean_normal)}
+            return {name: LoadPath.absolute(name, table.vertices)}
         if table.keep_cycles and table.harmonics is not None:
             allowed = "one of the two: kept cycles are as they were recorded"
             raise refused("", "keep_cycles and harmonics", allowed)
         # A depth and a displacement are recorded beside amplitudes of these.
-        parts = self.parts
+        parts, kinds = self.parts, dict(KINDS)
         sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
-        given, columns_of = {*parts.fixed, *parts.axes, *sampled}, dict(KINDS)
+        given = {*parts.fixed, *parts.axes, *sampled}
         if "normal_amplitude" in given:
-            columns_of["normal"] = "length"
-            columns_of["tangential"] = "force" if "tangential_force_amplitude" in given else "length"
+            kinds |= dict.fromkeys(COLUMNS, "length")
+        if "tangential_force_amplitude" in given:
+            kinds["tangential"] = "force"
         if "tangential_amplitude" in given:
-            columns_of["tangential"] = "length"
-        signal = signal_from(self.folder / str(table.file), name, table, parts.units, columns_of)
-        kept = {each.name: each for each in signal.loops} if table.keep_cycles else {}
+            kinds["tangential"] = "length"
+        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds)
+        if not table.keep_cycles:
+            return {name: signal.loop}
+        kept = {each.name: each for each in signal.loops}
+        self.cycles[name] = [*kept]
         for each in (each for each in kept if each in parts.loads):
             self.report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
         return {name: signal.loop, **kept}
@@ -163,28 +168,24 @@ class StudyReader:
                 profiles[name] = profile_from(name, table, self.folder, self.parts.units)
         return profiles
 
-    def _blocks(self, names: Iterable[str]) -> list[Block]:
-        """The blocks; of a signal that keeps its cycles one for each. `names` are the names of the loops."""
+    def _blocks(self) -> list[Block]:
+        """The blocks; of a signal that keeps its cycles one for each."""
         raw, parts, report = self.raw, self.parts, self.report
         if parts.blocks and not ("units" in raw and "material" in raw):
             report("blocks", "blocks without [units] and [material]", "with both: Miner's sum needs lives")
         for part in ("fixed", "axes"):
             if parts.blocks and "load" in getattr(parts, part):
-                found = literal(raw[part]["load"])
-                report(f"{part}.load", found, "nothing: [[blocks]] give the loads")
+                report(f"{part}.load", literal(raw[part]["load"]), "nothing: [[blocks]] give the loads")
         blocks: list[Block] = []
         for number, block in enumerate(parts.blocks):
             wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
             for mistake in wrong:
                 report(mistake.key, mistake.found, mistake.allowed)
-            table = parts.loads.get(block.load)
-            cycles = kept_cycles(block.load, names) if table and table.keep_cycles else []
-            blocks += [Block(each, 1.0 if wrong else float(block.rounds)) for each in cycles or [block.load]]
+            rounds = 1.0 if wrong else float(block.rounds)
+            blocks += [Block(each, rounds) for each in self.cycles.get(block.load, [block.load])]
         return blocks
 
-    def _contacts(
-        self, fixed: dict[str, Any], axes: Mapping[str, Any]
-    ) -> tuple[ContactDetails | None, dict[str, Any]]:
+    def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
         parts, report = self.parts, self.report
         if parts.units is None:
@@ -202,13 +203,11 @@ class StudyReader:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
-    def _sample(
-        self, own: Mapping[str, Parameter], known: Known, contacts: ContactDetails | None = None
-    ) -> tuple[Sampled, Design | None, Scatter | None]:
+    def _sample(self, own: Mapping[str, Parameter], known: Known, contacts: Contacts = None) -> ReadSample:
         """See `SampleReader.read`; nothing without a sample."""
-        table, given = self.parts.sample, self.raw.get("sample", ())
-        if table is None:
+        if self.parts.sample is None:
             return {}, None, None
+        table, given = self.parts.sample, self.raw["sample"]
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
         return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
 
@@ -222,12 +221,14 @@ class StudyReader:
 
     def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
         """Fixed values and axes; the loads of blocks are the last axis if there are several."""
-        loads = list(dict.fromkeys(of_blocks))
-        given = self.parts.fixed, self.parts.axes
-        fixed, axes = ({n: v for n, v in part.items() if n != "load" or not loads} for part in given)
+        fixed, axes, loads = {**self.parts.fixed}, {**self.parts.axes}, [*dict.fromkeys(of_blocks)]
+        for table in (fixed, axes) if loads else ():
+            table.pop("load", None)
         if len(loads) > 1:
-            return fixed, {**axes, "load": loads}
-        return ({**fixed, "load": loads[0]} if loads else fixed), axes
+            axes["load"] = loads
+        elif loads:
+            fixed["load"] = loads[0]
+        return fixed, axes
 
 
 def _form_of(table: Table, forms: Mapping[tuple[str, ...], Sequence[str]]) -> tuple[str, ...]:
@@ -249,20 +250,15 @@ def _form_of(table: Table, forms: Mapping[tuple[str, ...], Sequence[str]]) -> tu
 
 def _harmonics(rows: Any, column: str) -> Any:
     """Rows of order, amplitude and phase, which may be a text as in studies."""
-    read = list(rows) if isinstance(rows, list | tuple) else rows
-    for number, row in enumerate(read if isinstance(read, list) else ()):
-        if isinstance(row, list | tuple) and len(row) == 3 and isinstance(row[-1], str):
+    read = [*rows] if isinstance(rows, list) else rows
+    for number, row in enumerate(read if isinstance(rows, list) else ()):
+        if isinstance(row, list) and len(row) == 3 and isinstance(row[-1], str):
             try:
                 read[number] = (*row[:-1], float(read_angle(row[-1])))
             except ValueError as error:
                 key, found = f"{column}[{number}]", f"{literal(row[-1])} ({error})"
                 raise refused(key, found, "a phase") from None
     return read
-
-
-def kept_cycles(load: str, names: Iterable[str]) -> list[str]:
-    """The names that stand for kept cycles of a load."""
-    return [each for each in names if re.fullmatch(rf"{re.escape(load)} \d+", each)]
 
 
 def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
@@ -273,9 +269,7 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
         return signal_from(folder / table.file, name, table) if table.file else None
 
 
-def profile_from(
-    name: str, table: ProfileTable, folder: Path, labels: Mapping[str, Any] | None = None
-) -> TabulatedProfile:
+def profile_from(name: str, table: ProfileTable, folder: Path, labels: Labels = None) -> TabulatedProfile:
     """A profile from its table."""
     if table.file is None:
         radius, height = table.radius, table.height
@@ -291,10 +285,9 @@ def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
     """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
     report = Report(source)
     for parameter in ("load", "profile"):
-        used, tables = {*map(str, grid.values(parameter))}, raw.get(f"{parameter}s", {})
-        # Cycles that are kept one by one are loads of their own.
-        kept = (kept_cycles(name, used) for name, table in tables.items() if table.get("keep_cycles"))
-        for name in tables if used.isdisjoint(tables) and not any(kept) else ():
+        used, tables = [*map(str, grid.values(parameter))], raw.get(f"{parameter}s", {})
+        used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
+        for name in tables if {*used}.isdisjoint(tables) else ():
             words = f"a {parameter} that is not used"
             report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
     return report

@@ -8,10 +8,10 @@ further points: each draw of theirs has a life at every point.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,15 +22,13 @@ from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_unit
 from swtstudy.study.keys import DesignName, SampleTable, under
+from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
 from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameter import Parameter
-
-if TYPE_CHECKING:
-    from swtstudy.study.units.grid import ContactDetails
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")
@@ -118,53 +116,12 @@ def saltelli(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.concatenate([a, b, mixed.reshape(-1, d)])
 
 
-@dataclass(frozen=True)
-class Distribution:
-    """The distribution of one parameter, cut off at its bounds.
-
-    Attributes
-    ----------
-    kind
-        One of `DISTRIBUTIONS`; the deviation of "lognormal" is a deviation of the natural logarithm.
-    given
-        Its parameters.
-    low, high
-        Bounds.
-    """
-
-    kind: str
-    given: dict[str, float]
-    low: float
-    high: float
-
-    def values(self, unit: FloatArray) -> FloatArray:
-        """The values at points of the unit interval."""
-        if self.kind == "uniform":
-            return self.low * (1.0 - unit) + self.high * unit
-        whole = self.unbounded()
-        below, share = whole.cdf(self.low), self.share()
-        return np.clip(whole.ppf(below + unit * share), self.low, self.high)
-
-    def share(self) -> float:
-        """The share of the distribution that is within the bounds."""
-        whole = self.unbounded()
-        return float(whole.cdf(self.high) - whole.cdf(self.low))
-
-    def unbounded(self) -> Any:
-        """The distribution without bounds, of scipy's."""
-        from scipy import stats
-
-        given = self.given
-        if self.kind == "normal":
-            return stats.norm(given["mean"], given["deviation"])
-        if self.kind == "lognormal":
-            return stats.lognorm(given["deviation"], scale=given["median"])
-        width = self.high - self.low
-        return stats.triang((given.get("mode", self.low) - self.low) / width, self.low, width)
-
-
 #: Checked values of sampled parameters, by name; None where there are mistakes.
 Sampled = dict[str, tuple[Value, ...] | None]
+#: The sampled parameters, the design of values that are not given, and draws of constants.
+ReadSample = tuple[Sampled, Design | None, Scatter | None]
+#: None without units.
+Contacts = ContactDetails | None
 
 
 @dataclass(frozen=True)
@@ -195,39 +152,38 @@ class SampleReader:
     report: Report
     known: Known
     rows: Mapping[str, Parameter]
-    contacts: ContactDetails | None = None
+    contacts: Contacts = None
 
-    def read(self) -> tuple[Sampled, Design | None, Scatter | None]:
+    def read(self) -> ReadSample:
         """The sampled parameters, the design of values that are not given, and draws of constants."""
-        table, given = self.table, self.given
-        forms = [form for form in ("design", "file", "points") if form in given]
+        table, report = self.table, self.report
+        forms = [form for form in ("design", "file", "points") if form in self.given]
         if len(forms) != 1:
             allowed = "one of: design, size and ranges; or file; or points"
-            self.report("sample", " and ".join(forms) or "nothing", allowed)
+            report("sample", " and ".join(forms) or "nothing", allowed)
             return {}, None, None
-        if forms[0] != "design":
-            for name in (each for each in ("size", "seed", "ranges") if each in given):
-                found = f"{literal(getattr(table, name))} beside {forms[0]}"
-                self.report(f"sample.{name}", found, "only with a design")
-        scatter = self._scatter()
-        points: Mapping[str, Any] | None = table.points
+        is_design = forms == ["design"]
+        for name in () if is_design else (each for each in ("size", "seed", "ranges") if each in self.given):
+            found = f"{literal(getattr(table, name))} beside {forms[0]}"
+            report(f"sample.{name}", found, "only with a design")
+        every: Mapping[str, Any] = table.ranges if is_design else table.points
+        scatter = self._scatter({name: every[name] for name in SCATTERED if name in every})
         if table.file is not None:
-            points = self._points_of_file(self.folder / table.file)
-            if points is None:
+            every = self._points_of_file(self.folder / table.file)
+            if not every:
                 return {}, None, scatter
-            for name in SCATTERED.keys() & points:
-                self.report("sample.file", f"the column {name}, a constant", _PARAMETERS_ALONE)
-        every = table.ranges if forms[0] == "design" else points or {}
+            for name in (each for each in every if each in SCATTERED):
+                report("sample.file", f"the column {name}, a constant", _PARAMETERS_ALONE)
         own = {name: each for name, each in every.items() if name not in SCATTERED}
         if not own and (table.covariance or every):
             return {}, None, scatter  # constants alone
-        if forms[0] == "design":
+        if is_design:
             return *self._designed(own), scatter
-        key = f"sample.{forms[0]}"
-        return read_points(own, self.report, self.rows, self.known, key, COMMA_HINT), None, scatter
+        sampled = read_points(own, report, self.rows, self.known, f"sample.{forms[0]}", COMMA_HINT)
+        return sampled, None, scatter
 
-    def _points_of_file(self, path: Path) -> dict[str, list[object]] | None:
-        """The columns of a file by name: numbers, and other texts as they are. None if there are mistakes."""
+    def _points_of_file(self, path: Path) -> dict[str, list[object]]:
+        """The columns of a file by name: numbers, and other texts as they are. None of them with mistakes."""
         form = self.table
         with under(self.report, "sample", "file"):
             table = read_table(path, (), self.rows, form, LONGEST_AXIS)
@@ -241,15 +197,15 @@ class SampleReader:
             if table.cells:
                 return {name: table.values(name) for name in own}
             self.report("sample.file", f"{path} without points", _POINTS)
-        return None
+        return {}
 
     def _designed(self, ranges: Mapping[str, Any]) -> tuple[Sampled, Design | None]:
         """Values of parameters in their ranges, at the points of a design."""
-        before, numeric = len(self.report), {n: row for n, row in self.rows.items() if row.kind == "number"}
+        numeric = {name: row for name, row in self.rows.items() if row.kind == "number"}
         sound = {name: raw for name, raw in ranges.items() if name in numeric}
         if not ranges:
             self.report("sample.ranges", "nothing", "at least one parameter with its range")
-        for name in (name for name in ranges if name not in numeric):
+        for name in (name for name in ranges if name not in sound):
             found, allowed = f"unknown parameter {literal(name)}", nearest(name, numeric)
             if name in KEYS:
                 found = f"{name}, a constant that cannot scatter"
@@ -258,7 +214,7 @@ class SampleReader:
                 found, allowed = f"{name}, which is not a number", "an axis, or points from a file"
             self.report(f"sample.ranges.{name}", found, allowed)
         design, values, _ = self._at_design(sound, numeric)
-        if design is None or len(self.report) > before:
+        if design is None or len(sound) < len(ranges):
             return dict.fromkeys(sound), None
         return {name: tuple(column.tolist()) for name, column in values.items()}, design
 
@@ -266,36 +222,28 @@ class SampleReader:
         self, ranges: Mapping[str, Any], rows: Mapping[str, Parameter], more: int = 0
     ) -> tuple[Design | None, dict[str, FloatArray], FloatArray]:
         """The design, values in ranges at its points, and more of its columns; no design if one is wrong."""
-        before, dimensions, read = len(self.report), len(ranges) + more, {}
-        design = self._design(dimensions)
+        table, report, size, dimensions = self.table, self.report, self.table.size, len(ranges) + more
+        before, read, is_balanced = len(report), {}, table.design in BALANCED
+        if table.design is None:  # reported with the structure
+            pass
+        elif size is None or (is_balanced and size & (size - 1)):
+            allowed = f"a {'power of 2' if is_balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
+            report("sample.size", "nothing" if size is None else literal(size), allowed)
+        elif table.design == "saltelli" and (count := size * (dimensions + 2)) > LONGEST_AXIS:
+            report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
         for name, raw in ranges.items():
-            with self.report:
+            with report:
                 read[name] = _distribution(rows[name], raw, f"sample.ranges.{name}")
-        if design is None or not dimensions or len(self.report) > before:
+        if table.design is None or size is None or not dimensions or len(report) > before:
             return None, {}, np.empty((0, more))
+        design = Design(table.design, size, table.seed)
         unit = design.points(dimensions)
-        values = {name: read[name].values(column) for name, column in zip(ranges, unit.T, strict=False)}
+        values = {name: read[name](column) for name, column in zip(ranges, unit.T, strict=False)}
         return design, values, unit[:, len(ranges) :]
 
-    def _design(self, dimensions: int) -> Design | None:
-        """The design of the table; a wrong size is reported."""
-        table, size = self.table, self.table.size
-        if table.design is None:
-            return None  # reported with the structure
-        balanced = table.design in BALANCED
-        if size is None or (balanced and size & (size - 1)):
-            allowed = f"a {'power of 2' if balanced else 'whole number'} from 1 to {LONGEST_AXIS}"
-            self.report("sample.size", "nothing" if size is None else literal(size), allowed)
-            return None
-        count = size * (dimensions + 2) if table.design == "saltelli" else size
-        if count > LONGEST_AXIS:
-            self.report("sample.size", f"{count} points", f"at most {LONGEST_AXIS} points")
-        return Design(table.design, size, table.seed)
-
-    def _scatter(self) -> Scatter | None:
+    def _scatter(self, given: Mapping[str, Any]) -> Scatter | None:
         """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
         table, contacts, report = self.table, self.contacts, self.report
-        given = {name for part in (table.ranges, table.points) for name in part if name in SCATTERED}
         if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
             return None
         if contacts is None or not contacts.has_lives:
@@ -305,7 +253,7 @@ class SampleReader:
         before, target = len(report), table.target_life or 0.0
         if table.target_life is not None and not 0.0 < target < math.inf:
             report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
-        found = {name: np.array(column) for name, column in self._drawn(contacts).items()}
+        found = {name: np.array(column) for name, column in self._drawn(given, contacts).items()}
         for name, column in found.items():
             own, row = _own_values(name, contacts), SCATTERED[name]
             base = f"{TORSION * row.torsion}{row.constant}"
@@ -326,19 +274,17 @@ class SampleReader:
         draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
         return Scatter(names, draws, target)
 
-    def _drawn(self, contacts: ContactDetails) -> Mapping[str, Any]:
+    def _drawn(self, given: Mapping[str, Any], contacts: ContactDetails) -> Mapping[str, Any]:
         """Draws of constants: given ones, or from ranges and from a covariance about the constants."""
         table, report, before = self.table, self.report, len(self.report)
-        given = {name: table.points[name] for name in SCATTERED if name in table.points}
-        if given:
+        if given and "points" in self.given:
             listed = read_points(given, report, _CONSTANTS, {}, "sample.points", COMMA_HINT)
             return {name: column for name, column in listed.items() if column is not None}
-        ranges = {name: entry for name, entry in table.ranges.items() if name in SCATTERED}
-        correlated, root = _root(table.covariance, ranges, report)
+        correlated, root = _root(table.covariance, given, report)
         if table.design == "saltelli":
             allowed = "a design other than saltelli, for draws of constants"
             report("sample.design", literal(table.design), allowed)
-        design, draws, unit = self._at_design(ranges, _CONSTANTS, len(correlated))
+        design, draws, unit = self._at_design(given, _CONSTANTS, len(correlated))
         if design is None or len(report) > before:
             return {}
         from scipy.special import ndtri
@@ -348,8 +294,16 @@ class SampleReader:
         return draws | dict(zip(correlated, (about + normal @ root.T).T, strict=False))
 
 
-def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
-    """The distribution of a parameter that a user wrote; a StudyError with the mistakes in it."""
+def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[FloatArray], FloatArray]:
+    """The values of a distribution that a user wrote, at points of the unit interval.
+
+    It is cut off at its bounds. The deviation of "lognormal" is a deviation of the natural logarithm.
+
+    Raises
+    ------
+    StudyError
+        A ValueError with the mistakes in it.
+    """
     if isinstance(raw, list) and len(raw) == 2:
         raw = {"distribution": "uniform", "low": raw[0], "high": raw[1]}
     if not isinstance(raw, Mapping):
@@ -378,22 +332,33 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Distribution:
             found = "nothing" if own is None else f"{literal(own)} ({error})"
             report(f"{key}.{name}", found, parameter.allowed if name in ends else "a number")
     report.refuse()
-    of = Distribution(kind, numbers, low := numbers.pop("low"), high := numbers.pop("high"))
+    low, high, deviation = numbers["low"], numbers["high"], numbers.get("deviation", 1.0)
     bounds, mode = f"the bounds {low:g} and {high:g}", numbers.get("mode", low)
-    deviation = numbers.get("deviation", 1.0)
     if not low < high:
         raise refused(key, bounds, "the lower bound first, and a higher one")
     if kind == "lognormal" and deviation > _LARGEST_DEVIATION:
+        factor = math.exp(deviation) if deviation < 700.0 else math.inf
         allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
-        raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {math.exp(deviation):.3g}", allowed)
+        raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {factor:.3g}", allowed)
     for name in ("deviation", "median"):
         if numbers.get(name, 1.0) <= 0.0:
             raise refused(f"{key}.{name}", f"{numbers[name]:g}", "a number greater than 0")
     if not low <= mode <= high:
         raise refused(f"{key}.mode", f"{mode:g}", f"a number in [{low:g}, {high:g}]")
-    if of.share() < _LEAST_SHARE:
+    if kind == "uniform":
+        return lambda unit: low * (1.0 - unit) + high * unit
+    from scipy import stats
+
+    whole: Any = stats.triang((mode - low) / (high - low), low, high - low)
+    if kind == "normal":
+        whole = stats.norm(numbers["mean"], deviation)
+    elif kind == "lognormal":
+        whole = stats.lognorm(deviation, scale=numbers["median"])
+    below = whole.cdf(low)
+    share = float(whole.cdf(high) - below)
+    if share < _LEAST_SHARE:
         raise refused(key, f"{bounds}, which hold none of the distribution", "bounds that hold some of it")
-    return of
+    return lambda unit: np.clip(whole.ppf(below + unit * share), low, high)
 
 
 def _own_values(name: str, contacts: ContactDetails) -> list[float]:
@@ -441,12 +406,8 @@ def drawn_rows(grid: Grid, points: int, seed: int) -> Table:
         raise ValueError(f"{grid.size} points are too many to sample, at most {LARGEST_SAMPLED}")
     rng = np.random.default_rng(seed)
     # More than asked for: two points of the grid can be physically the same.
-    many = 2 * points
-    if grid.size <= 2 * many:
-        index = rng.permutation(grid.size)
-    else:
-        _, first = np.unique(index := rng.integers(grid.size, size=many), return_index=True)
-        index = index[np.sort(first)]
+    is_small = grid.size <= 4 * points
+    index = rng.permutation(grid.size) if is_small else rng.integers(grid.size, size=2 * points)
     rows, _ = canonical_points(grid, index)
     first, _ = group_rows(rows)
     return rows[np.sort(first)[:points]]

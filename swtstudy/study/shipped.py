@@ -15,8 +15,6 @@ _PLACES = (_PACKAGE / "studies", _PACKAGE.parent / "studies")
 
 #: The studies by what they are about, in the order in which they are listed.
 GROUPS: dict[str, list[str]] = parse_toml(read_text(Path(__file__).with_name("groups.toml")))
-#: The group of a study that none of these is.
-OTHERS = "Others"
 
 
 def in_groups(names: Iterable[str]) -> dict[str, list[str]]:
@@ -24,7 +22,7 @@ def in_groups(names: Iterable[str]) -> dict[str, list[str]]:
     names = list(names)
     known = [name for group in GROUPS.values() for name in group]
     found = {group: [name for name in own if name in names] for group, own in GROUPS.items()}
-    found[OTHERS] = [name for name in names if name not in known]
+    found["Others"] = [name for name in names if name not in known]
     return {group: own for group, own in found.items() if own}
 
 

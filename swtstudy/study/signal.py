@@ -15,7 +15,7 @@ import numpy as np
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop, checked_name
 from swtstudy.study import cycles
-from swtstudy.study.columns import read_columns
+from swtstudy.study.columns import Labels, read_columns
 from swtstudy.study.keys import SignalTable, with_keys
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
@@ -97,7 +97,10 @@ class Signal:
         if self.highest:
             mean = float(self._fits[0][0][0, 1])
         elif self._is_one_cycle:
-            mean = cycles.mean_over(self.time, self.values[:, 0], self.period)
+            # Over the time, by straight lines: the samples need not be even.
+            at = np.append(self.time, self.time[0] + self.period)
+            sums = self.values[:, 0] + np.roll(self.values[:, 0], -1)
+            mean = float(np.sum(np.diff(at) * 0.5 * sums) / self.period)
         else:
             mean = float(self.cycles[..., 0].mean())
         if not mean > 0.0:
@@ -224,11 +227,7 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
 
 
 def signal_from(
-    path: Path,
-    name: str,
-    given: SignalTable,
-    labels: Mapping[str, Any] | None = None,
-    kinds: Mapping[str, str] = KINDS,
+    path: Path, name: str, given: SignalTable, labels: Labels = None, kinds: Mapping[str, str] = KINDS
 ) -> Signal:
     """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units."""
     keys = ("recorded_cycles", "period", "frequency")

@@ -32,10 +32,18 @@ def template_with_units(title: str) -> str:
 
 
 def _filled(name: str, title: str, known: Mapping[str, Parameter]) -> str:
-    """A template with the parameters that it does not use, as comments."""
+    """A template with the profiles, and the parameters that it does not use with defaults, as comments."""
     text = Path(__file__).with_name(name).read_text(encoding="utf-8")
     used = re.findall(r"^(\w+) =", text, re.MULTILINE)
-    unused = (row for key, row in known.items() if key not in (*used, "profile"))
+    lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
+    for family in FAMILIES.values():
+        needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
+        plane = " (plane: forces alone)" if family.geometry == PLANE else ""
+        lines.append(f"#   {quoted(family.name)}{plane}{needs}")
+    for row in (row for key, row in known.items() if key not in (*used, "profile")):
+        note = f"; {row.note}" if row.note else ""
+        value = "…" if row.default is None else quoted(str(row.default)) if row.names else short(row.default)
+        lines += [f"# {row.described}: {row.allowed}{note}", f"# {row.name} = {value}"]
     return Template(text).substitute(
         schema=SCHEMA_LINE,
         title=quoted(title),
@@ -43,22 +51,5 @@ def _filled(name: str, title: str, known: Mapping[str, Parameter]) -> str:
         allowed_rtol=ALLOWED_RTOL,
         quantities=", ".join(map(quoted, NAMED)),
         designs=" or ".join(quoted(design) for design in DESIGNS if design != "sobol"),
-        parameters="\n".join([*_profiles(), *map(_commented, unused)]),
+        parameters="\n".join(lines),
     )
-
-
-def _commented(row: Parameter) -> str:
-    """A parameter with its default, and what it may be."""
-    note = f"; {row.note}" if row.note else ""
-    value = "…" if row.default is None else quoted(str(row.default)) if row.names else short(row.default)
-    return f"# {row.described}: {row.allowed}{note}\n# {row.name} = {value}"
-
-
-def _profiles() -> list[str]:
-    """The key of the profile, and the families that it may name."""
-    lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
-    for family in FAMILIES.values():
-        needs = f", needs {' and '.join(family.shape)}" if family.shape else ""
-        plane = " (plane: forces alone)" if family.geometry == PLANE else ""
-        lines.append(f"#   {quoted(family.name)}{plane}{needs}")
-    return lines

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -12,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from swtstudy.solver.table import FEWEST, TabulatedProfile
-from swtstudy.study.columns import read_columns
+from swtstudy.study.columns import Labels, read_columns
 from swtstudy.study.keys import TraceTable, with_keys
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import refused
@@ -93,9 +92,7 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     return trace_from(Path(path), Path(path).stem if name is None else name, TraceTable.of(given))
 
 
-def trace_from(
-    own: Path, name: str, form: TraceTable, labels: Mapping[str, Any] | None = None
-) -> TabulatedProfile:
+def trace_from(own: Path, name: str, form: TraceTable, labels: Labels = None) -> TabulatedProfile:
     """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
     kinds = dict.fromkeys(COLUMNS, "length")
     values, rows = read_columns(own, COLUMNS, (), form, kinds, labels, gaps=True)
@@ -124,9 +121,8 @@ def trace_from(
     given = fold.noise if form.smoothing is None else form.smoothing
     profile = TabulatedProfile(name, fold.radius, fold.height, given, form.geometry)
     compact = COMPACT * fold.radius[-1]
-    if form.smoothing is not None or profile.compact_radius >= compact:
-        return profile
-    if (least := profile.least_smoothing(compact)) is None:
+    is_fine = form.smoothing is not None or profile.compact_radius >= compact
+    if is_fine or (least := profile.least_smoothing(compact)) is None:
         return profile
     found = f"smoothing = {least:.3g}, {least / given:.2g} times the r.m.s. difference of both sides"
     warnings.warn(f"{name}: {found}: with less it touches in several places", stacklevel=2)
@@ -197,8 +193,7 @@ class Fold:
         radius = np.linspace(0.0, min(side[0][-1] for side in sides), len(position) // 2)
         values = np.array([CubicSpline(*side)(radius) for side in sides])
         known = np.array([_reached(side[0], radius) for side in sides])
-        weight = np.where(known.any(axis=0), known, True).astype(float)
-        mean = (weight * values).sum(axis=0) / weight.sum(axis=0)
+        mean = np.average(values, axis=0, weights=np.where(known.any(axis=0), known, True))
         odd = 0.5 * np.diff(values, axis=0)[0, known.all(axis=0)]
         noise = float(np.sqrt(np.mean(odd**2))) if odd.size else 0.0
         inner = slice(max(LEAST, int(INNERMOST * len(radius))))
@@ -244,36 +239,34 @@ def _middle(position: FloatArray, height: FloatArray, level: bool) -> tuple[floa
     """The middle, and the tilt about it."""
     x, z = _merged(position, height)
     centre, reach = 0.5 * float(x[0] + x[-1]), 0.25 * float(np.ptp(x))
-    best = _best(x, z, (centre - reach, centre + reach), np.inf, False)
+    best = _best(x, z, centre, reach, np.inf, False)
     reach *= NEAR
-    best = _best(x, z, (best.middle - reach, best.middle + reach), np.inf, level)
-    lowest = best.even - best.low <= LOWEST * best.rise
-    if lowest.sum() >= 2 * FEWEST:
+    best = _best(x, z, best.middle, reach, np.inf, level)
+    if best.lowest.sum() >= 2 * FEWEST:
         # All middles with one window: with a smaller one each would have less to differ in.
         reach *= STEPS_AROUND * 2.0 / (MIDDLES - 1)
-        window = float(lowest.mean() * best.radius[-1]) - reach
-        best = _best(x, z, (best.middle - reach, best.middle + reach), window, level)
+        window = float(best.lowest.mean() * best.radius[-1]) - reach
+        best = _best(x, z, best.middle, reach, window, level)
     return best.middle, best.tilt
 
 
-def _best(x: FloatArray, z: FloatArray, ends: tuple[float, float], window: float, level: bool) -> _Folded:
-    """A trace folded at the best middle between two ends."""
+def _best(x: FloatArray, z: FloatArray, centre: float, reach: float, window: float, level: bool) -> _Trial:
+    """A trace folded at the best middle within reach of a centre."""
     from scipy.optimize import minimize_scalar
 
-    middles = np.linspace(*ends, MIDDLES)
-    best = int(np.argmin([_Folded.at(x, z, middle, window, level).cost for middle in middles]))
+    def cost(middle: float) -> float:
+        return _Trial.at(x, z, middle, window, level).cost
+
+    middles = np.linspace(centre - reach, centre + reach, MIDDLES)
+    best = int(np.argmin([*map(cost, middles)]))
     bounds = middles[max(best - 1, 0)], middles[min(best + 1, MIDDLES - 1)]
-    found = minimize_scalar(
-        lambda middle: _Folded.at(x, z, middle, window, level).cost,
-        bounds=bounds,
-        method="bounded",
-        options={"xatol": 1e-6 * (middles[1] - middles[0])},
-    )
-    return _Folded.at(x, z, float(found.x), window, level)
+    options = {"xatol": 1e-6 * (middles[1] - middles[0])}
+    found = minimize_scalar(cost, bounds=bounds, method="bounded", options=options)
+    return _Trial.at(x, z, float(found.x), window, level)
 
 
-class _Folded(NamedTuple):
-    """Ascending samples folded at a middle: the mean of both sides over the radius, its rise, and the tilt.
+class _Trial(NamedTuple):
+    """Ascending samples folded at a middle: their radii, their lowest region, and the tilt.
 
     ``cost`` is the logarithm of the mean difference of both sides over the rise, and what the tilt adds. Dust
     is the same in it at all middles, and so the edges of a flat face tell its middle, however few they are.
@@ -282,13 +275,11 @@ class _Folded(NamedTuple):
     middle: float
     tilt: float
     radius: FloatArray
-    even: FloatArray
-    low: float
-    rise: float
+    lowest: BoolArray
     cost: float
 
     @classmethod
-    def at(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Folded:
+    def at(cls, x: FloatArray, z: FloatArray, middle: float, window: float, level: bool) -> _Trial:
         """Fold within a window; where a side has a gap, nothing is known."""
         end, step = min(middle - x[0], x[-1] - middle, window), float(np.median(np.diff(x)))
         # Between samples noise is lower: radii have all places between them, whatever the middle.
@@ -306,11 +297,12 @@ class _Folded(NamedTuple):
         span, rise = float(np.ptp(z)) or 1.0, float(high - low)
         loss = float(np.abs(odd - tilt * radius).mean())
         cost = np.log(np.hypot(loss, FINEST * span) / max(rise, FINEST * span))
-        return cls(middle, tilt, radius, even, float(low), rise, cost + TILT_PENALTY * abs(tilt) * end / span)
+        cost += TILT_PENALTY * abs(tilt) * end / span
+        return cls(middle, tilt, radius, even - low <= LOWEST * rise, cost)
 
 
-def _even_spline(x: FloatArray, z: FloatArray, middle: float) -> Callable[[FloatArray], FloatArray]:
-    """An even cubic spline about a middle, fitted by Tukey's biweight to what has another side."""
+def _even_spline(x: FloatArray, z: FloatArray, middle: float) -> FloatArray:
+    """Heights at x of an even cubic spline about a middle, by Tukey's biweight, where there are two sides."""
     end = float(min(middle - x.min(), x.max() - middle))
     some = np.abs(x - middle) <= end
     base, z, span = _basis(x[some] - middle, end), z[some], float(np.ptp(z[some])) or 1.0
@@ -324,7 +316,7 @@ def _even_spline(x: FloatArray, z: FloatArray, middle: float) -> Callable[[Float
         # Absolute deviations first: squares would follow the outliers.
         share = np.minimum(size / (TUKEY * scale), 1.0)
         weight = scale / np.maximum(size, scale) if step < STEPS // 2 else (1.0 - share**2) ** 2
-    return lambda at: np.asarray(_basis(np.clip(at - middle, -end, end), end) @ found)
+    return np.asarray(_basis(np.clip(x - middle, -end, end), end) @ found)
 
 
 def _basis(x: FloatArray, end: float) -> FloatArray:
@@ -347,7 +339,7 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolAr
         r, z = _merged(radius[~side], height[~side])
         inside = side & (radius <= r[-1]) & (radius >= r[0]) & _reached(r, radius)
         differs[inside] = height[inside] - np.interp(radius[inside], r, z)
-    residual = height - _even_spline(position, height, middle)(position)
+    residual = height - _even_spline(position, height, middle)
     known = np.isfinite(differs)
     if not known.any():
         return np.zeros(len(position), bool)

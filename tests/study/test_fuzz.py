@@ -57,6 +57,7 @@ studies = st.fixed_dictionaries(
 
 @given(studies | tables)
 @example({"title": "t", "axes": {"title": "wrong", "friction": [0.3]}})
+@example({"title": "t", "axes": {"\ud800": 3}})
 @settings(max_examples=100, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 def test_any_tables_are_a_study_or_a_study_error(raw):
     try:
