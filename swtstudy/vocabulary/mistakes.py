@@ -6,7 +6,7 @@ import difflib
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from numbers import Integral, Real
 from typing import TypeGuard
@@ -110,12 +110,15 @@ class Report(list[Mistake]):
             self("seed", literal(value), ALLOWED_SEED)
 
     def __enter__(self) -> Report:
-        """Within a with block, the mistakes of a StudyError are added, and what is left of it is not done."""
+        """Within a with block, the mistakes of a StudyError are added, and what is left of it is not done.
+
+        Mistakes without a source get the report's.
+        """
         return self
 
     def __exit__(self, kind: object, error: BaseException | None, *_: object) -> bool:
         if isinstance(error, StudyError):
-            self += error.mistakes
+            self += [replace(each, source=each.source or self._source) for each in error.mistakes]
         return isinstance(error, StudyError)
 
     def refuse(self) -> None:

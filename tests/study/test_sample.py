@@ -370,7 +370,7 @@ NORMAL = "friction = {distribution='normal', mean=1"
 )
 def test_wrong_ranges_are_named(entry, words):
     text = f"{HEAD}[sample]\ndesign = 'random'\nsize = 2\n[sample.ranges]\n{entry}\n"
-    refused(words, Study.from_text, text)
+    refused(f"a.toml: .*{words}", Study.from_text, text, "a.toml")
 
 
 @pytest.mark.parametrize(
