@@ -125,6 +125,9 @@ def test_a_probability_is_told_of_the_life_that_is_named(tmp_path: Path) -> None
     words = "probability of a crack before 200000 load cycles, by the life of a volume"
     assert float(mean.max()) == 0.0
     assert f"{words}: 0 in all draws." in repr(found.swt)
+    # Percentiles, which are as far out, go with their life.
+    assert "cycles_volume extrapolated" in repr(found.swt)
+    assert not re.search(r"cycles_volume_\d+ extrapolated", repr(found.swt))
     assert mean.attrs["long_name"] == words
 
 
