@@ -174,6 +174,13 @@ def test_a_study_with_a_byte_order_mark(tmp_path: Path) -> None:
     assert (study.title, study.text) == ("t", 'title = "t"\n')
 
 
+@pytest.mark.slow
+def test_more_rows_than_there_is_room_for_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "points.csv").write_text("phase\n" + 1_000_001 * "0\n")
+    (line,) = mistakes_of(POINTS, tmp_path)
+    assert re.search(r"found more than 1000000 rows \(.*\); allowed: at most 1000000", line)
+
+
 def test_what_would_take_minutes_to_read_is_refused_at_once(tmp_path: Path) -> None:
     axes = "\n".join(
         f"{name} = {{start = 0.1, stop = 0.9, num = 1_000_000}}" for name in ("friction", "phase")
