@@ -277,6 +277,17 @@ def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
         read_signal(tmp_path / "rig.xlsx", sheet="run 3", **given)
 
 
+def test_texts_with_decimal_commas_in_a_workbook_are_numbers(tmp_path: Path) -> None:
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    for row in (["normal", "tangential"], ["200,5", 0], ["210,5", 60], ["200,5", -60]):
+        book.active.append(row)
+    book.save(tmp_path / "rig.xlsx")
+    with pytest.warns(UserWarning, match="numbers with a comma are read with decimal = ','"):
+        found = read_signal(tmp_path / "rig.xlsx", absolute=True)
+    assert found.values.tolist() == [[200.5, 0.0], [210.5, 60.0], [200.5, -60.0]]
+
+
 def test_messages_name_the_sheets_of_a_workbook(tmp_path: Path) -> None:
     openpyxl = pytest.importorskip("openpyxl")
     book = openpyxl.Workbook()

@@ -444,10 +444,11 @@ def test_a_sample_in_words(tmp_path):
     assert "sampled friction: from 0.1 to 0.3" in lines
 
 
-def test_the_deviation_of_a_logarithm_is_no_length():
-    ranges = "phase = [0, 1]\nfriction = {distribution='lognormal', median=0.3, deviation=5}\n"
-    text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{ranges}'
-    words = "friction.deviation: found 5, as a factor 148; allowed: that of the nat"
+@pytest.mark.parametrize(("deviation", "factor"), [(5, "148"), (800, "inf")])
+def test_the_deviation_of_a_logarithm_is_no_length(deviation, factor):
+    entry = f"friction = {{distribution='lognormal', median=0.3, deviation={deviation}}}\n"
+    text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\nphase = [0, 1]\n{entry}'
+    words = f"friction.deviation: found {deviation}, as a factor {factor}; allowed: that of the nat"
     refused(words, Study.from_text, text)
 
 
