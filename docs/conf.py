@@ -35,8 +35,9 @@ nitpicky = True
 nitpick_ignore = [
     ("py:class", name)
     for name in (
-        *("Grid", "FigureLayout", "Request", "Design"),
-        *("swtstudy.vocabulary.definition.Definition", "swtstudy.study.units.grid.PhysicalGrid"),
+        *("swtstudy.points.grid.Grid", "swtstudy.study.figure.FigureLayout", "swtstudy.study.sample.Design"),
+        *("swtstudy.vocabulary.definition.Definition", "swtstudy.vocabulary.quantities.Request"),
+        "swtstudy.study.units.grid.PhysicalGrid",
     )
 ]
 autodoc_member_order = "bysource"
