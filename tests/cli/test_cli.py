@@ -265,6 +265,13 @@ def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
     assert drawn[1]["profile"].name == "worn"
     assert call("show", "--profile", "rounded_punch", "--flat-radius", "0.5", "--phase", "1").exit_code == 0
     assert len(drawn) == 2
+    # Of a study its shape alone, whatever else is fixed there.
+    Path("own.toml").write_text('title = "t"\n[fixed]\nfriction = 0.4\n[axes]\nphase = [0, 1]\n')
+    words = ("own.toml", "--profile", "rounded_punch", "--flat-radius", "0.5", "-o", "profile.svg")
+    result = call("show", *words)
+    assert result.exit_code == 0, result.output
+    assert drawn[2]["flat_radius"] == 0.5
+    assert "friction" not in drawn[2]
     assert "flat_radius: found nothing" in call("show", "--profile", "rounded_punch").stderr
 
 

@@ -62,6 +62,8 @@ def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
         assert found.id.values.tolist() == ["P0", "P1"]
         findley, _ = swtstudy.criterion_of_history(stress, "findley", 0.3)
         np.testing.assert_allclose(found.findley_stress, findley, rtol=1e-9)
+        shear, _ = swtstudy.criterion_of_history(stress, "fatemi_socie", 0.3 / (young * 1e-2))
+        np.testing.assert_allclose(found.FS, shear * 2.0 * (1.0 + NU) / young, rtol=1e-9)
     done = call("history", rig, tmp_path / "theirs.csv", "-o", tmp_path / "lives.csv")
     assert done.exit_code == 0, done.output
     assert f"largest SWT = {solved.s.item():.4g} MPa at id = P0, x = 0, y = 0, z = 0.5" in done.stdout

@@ -334,6 +334,7 @@ DRAWN = "\nsample.ranges.phase=[0,1]"
         ("sample.design = 'random'\nsample.size=2", "sample.ranges: found nothing"),
         ("sample.design = 'random'\nsample.size=2\nsample.seed=-1" + DRAWN, "sample.seed: found -1"),
         ("sample.file = 'a.csv'\nsample.size=2", "size: found 2 beside file; allowed: only with a design"),
+        ("sample.file = 'a.csv'" + DRAWN, "sample.ranges: found .* beside file; allowed: only with a design"),
         ("sample.file = 'none.csv'", "sample.file: found .*no such file"),
         ("sample.points = {}", "sample.points: found no points"),
         ("sample.points = {phase=[1,2], friction=[0.1]}", "sample.points: found 2 of phase, 1 of friction"),
