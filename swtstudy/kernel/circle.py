@@ -10,8 +10,8 @@ by one harmonic: with C = cos φ, S = sin φ, t = (σ_xx + σ_yy)/(1+ν) of the 
 The value is a maximum over planes and instants of smooth functions of φ, so that only downward curvature can
 hide a higher one between two angles. As on the line (`swtstudy.kernel.line`) the curvature follows from the
 values around, and the arc with the highest bound is halved until no bound exceeds the best value by more than
-the tolerance. Where there is no tension its curvature gives a bound. From the best place
-of all circles a climb over angle and radius goes on to a maximum.
+the tolerance. Where there is no tension, the curvature of the tension gives a bound. From the best place of
+all circles a climb over angle and radius goes on to a maximum.
 
 If a bulk stress shifts the stick zone (`swtstudy.kernel.shift`), each piece of the diagram has a centre of
 its own and the stress is no harmonic of the angle. Then places of the circle are solved as places of the
@@ -31,7 +31,7 @@ from swtstudy.kernel.contact import solve_cycle
 from swtstudy.kernel.criterion import SWT, lift, lifted, value_of
 from swtstudy.kernel.growth import lay_out
 from swtstudy.kernel.history import sample_cycle
-from swtstudy.kernel.line import MEMORY, TRUST
+from swtstudy.kernel.line import drop_of_half
 from swtstudy.kernel.load import has_bulk
 from swtstudy.kernel.parts import COARSEST
 from swtstudy.kernel.planes import above
@@ -222,10 +222,8 @@ def halve_arc(circle, body, k, m):
     value = value_at(circle, body, angle, floor, 0.5 * ask.line)
     set_end(circle, planes, k, 1, angle, value)
     set_end(circle, planes, m, 0, angle, value)
-    near, far = (f1, f2) if circle.upper[k] else (f2, f1)
-    expected = 0.125 * (3.0 * far + 6.0 * near - circle.beyond[k])
-    drop = max(2.0 * value - f1 - f2, 0.0) + TRUST * abs(value - expected)
-    circle.drop[k] = circle.drop[m] = max(drop, MEMORY * before)
+    drop = drop_of_half(f1, f2, value, circle.upper[k], circle.beyond[k], before)
+    circle.drop[k] = circle.drop[m] = drop
     circle.upper[k], circle.upper[m], circle.beyond[k], circle.beyond[m] = 0, 1, f2, f1
 
 

@@ -389,12 +389,32 @@ def cut(search, point, k, limit):
 
 
 @jit
-def halve(search, point, k, limit):
-    """Halve interval k. Its upper half becomes the last interval.
+def drop_of_half(f1, f2, f, upper, beyond, before):
+    """K w² of the halves of an interval, from its values and its own K w².
 
     Curvature follows from the second difference, and from how far the new value is off the parabola through
     the three values before: four times that distance is what a third derivative changes in the drop.
+
+    Parameters
+    ----------
+    f1, f2, f
+        Values at the ends and in the middle.
+    upper
+        1 if the interval is the upper half of what was halved.
+    beyond
+        Value at the other end of its other half.
+    before
+        K w² of the interval.
     """
+    near, far = (f1, f2) if upper else (f2, f1)
+    expected = 0.125 * (3.0 * far + 6.0 * near - beyond)
+    drop = max(2.0 * f - f1 - f2, 0.0) + TRUST * abs(f - expected)
+    return max(drop, MEMORY * before)
+
+
+@jit
+def halve(search, point, k, limit):
+    """Halve interval k. Its upper half becomes the last interval."""
     middle, m = 0.5 * (search.ends[k, 0] + search.ends[k, 1]), search.intervals
     whole = search.ends[k, 1] - search.ends[k, 0] > 3.0
     plus, minus = bound_of(search, k, 0) > limit, bound_of(search, k, 1) > limit
@@ -410,14 +430,10 @@ def halve(search, point, k, limit):
     for side in range(2):
         f1, f2, f = search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.value[side]
         if (side == 0 and plus) or (side == 1 and minus):
-            drop = 2.0 * f - f1 - f2
             if whole:
-                drop = max(drop, TRUST * (max(f1, f2, f) - min(f1, f2, f)))
+                drop = max(2.0 * f - f1 - f2, TRUST * (max(f1, f2, f) - min(f1, f2, f)))
             else:
-                near, far = (f1, f2) if upper else (f2, f1)
-                expected = 0.125 * (3.0 * far + 6.0 * near - search.beyond[k, side])
-                drop = max(drop, 0.0) + TRUST * abs(f - expected)
-                drop = max(drop, MEMORY * search.drop[k, side])
+                drop = drop_of_half(f1, f2, f, upper, search.beyond[k, side], search.drop[k, side])
         else:
             f1, f2, drop = RULED_OUT, RULED_OUT, 0.0
         search.at_ends[k, 0, side], search.at_ends[k, 1, side], search.beyond[k, side] = f1, f, f2
