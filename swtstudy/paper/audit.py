@@ -250,4 +250,4 @@ def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = Fa
         found["s_all_planes"], found["s_body"] = at_line.swt, body.swt
         for axis, position, normal in zip("xyz", body.position, body.normal, strict=True):
             found[f"body_{axis}"], found[f"normal_{axis}"] = position, normal
-    return np.array([tuple(found.values())], AUDITED)[0]
+    return np.array([tuple(found[name] for name in AUDITED.names or ())], AUDITED)[0]

@@ -166,6 +166,7 @@ def _off_ring(opened: field.Opened, ring: float, places: FloatArray) -> FloatArr
     """Places moved out of half a ring about the edge of a flat face."""
     b, r = float(opened.point.profile["flat_radius"]), places[..., 0]
     if b > 0.0:
+        places = places.copy()
         places[..., 0] = np.where(np.abs(r - b) < ring, np.where(r < b, b - ring, b + ring), r)
     return places
 

@@ -104,11 +104,11 @@ def raises_and_lowers(
 ) -> Measured:
     """Extreme s over s without a normal oscillation."""
     without = at(tangential_amplitude, normal_amplitude=0).s.interp(tangential_amplitude=_TANGENTIAL)
-    values = {"without": without}
-    for name, figure in (("one", figure3), ("several", figure4)):
-        high, low = figure.s.max() / without - 1, figure.s.min() / without - 1
-        values[name] = f"{high:+.0%} to {low:+.0%}"
-    return high >= by and low <= -by, values
+    figures = {"one": figure3, "several": figure4}
+    found = {name: (each.s.max() / without - 1, each.s.min() / without - 1) for name, each in figures.items()}
+    words = {name: f"{high:+.0%} to {low:+.0%}" for name, (high, low) in found.items()}
+    high, low = found["several"]
+    return high >= by and low <= -by, {"without": without, **words}
 
 
 def _by_phase(archive: xr.Dataset) -> xr.DataArray:
