@@ -30,6 +30,13 @@ DESIGNS: tuple[DesignName, ...] = get_args(DesignName)
 #: Separators between cells; a blank stands for any number of them.
 Separator = Literal[",", ";", "\t", "|", " "]
 SEPARATORS: tuple[Separator, ...] = get_args(Separator)
+Spacing = Literal["linear", "log"]
+
+
+def _one_of(choice: Any) -> str:
+    """The texts of a choice in words."""
+    *others, last = (f'"{text}"' for text in get_args(choice))
+    return f"{', '.join(others)} or {last}"
 
 
 class Table(BaseModel):
@@ -121,7 +128,7 @@ class RangeTable(Table):
     """Last value, included."""
     num: Annotated[int, "a whole number"]
     """Number of values."""
-    spacing: Annotated[Literal["linear", "log"], '"linear" or "log"'] = "linear"
+    spacing: Annotated[Spacing, _one_of(Spacing)] = "linear"
     """Equal steps ("linear") or equal ratios ("log")."""
     also: Annotated[list[Any], "a list of values"] = []
     """Further values, put in among the others: where curves bend, for example."""
@@ -139,7 +146,7 @@ class SampleTable(FileTable):
 
     allowed = "a table with design, size and ranges, with points, or with file"
 
-    design: Annotated[DesignName | None, '"sobol", "latin_hypercube", "random" or "saltelli"'] = None
+    design: Annotated[DesignName | None, _one_of(DesignName)] = None
     """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
     size: Size = None
     """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""

@@ -183,7 +183,7 @@ class SampleReader:
         return sampled, None, scatter
 
     def _points_of_file(self, path: Path) -> dict[str, list[object]]:
-        """The columns of a file by name: numbers, and other texts as they are. None of them with mistakes."""
+        """The columns of a file by name: numbers, and other texts as they are; empty with mistakes."""
         form = self.table
         with under(self.report, "sample", "file"):
             table = read_table(path, (), self.rows, form, LONGEST_AXIS)
@@ -349,11 +349,12 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[Floa
         return lambda unit: low * (1.0 - unit) + high * unit
     from scipy import stats
 
-    whole: Any = stats.triang((mode - low) / (high - low), low, high - low)
     if kind == "normal":
-        whole = stats.norm(numbers["mean"], deviation)
+        whole: Any = stats.norm(numbers["mean"], deviation)
     elif kind == "lognormal":
         whole = stats.lognorm(deviation, scale=numbers["median"])
+    else:
+        whole = stats.triang((mode - low) / (high - low), low, high - low)
     below = whole.cdf(low)
     share = float(whole.cdf(high) - below)
     if share < _LEAST_SHARE:
