@@ -16,7 +16,8 @@ from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.events import force_ratio, slide
 from swtstudy.kernel.load import bulk_at, load_at, rates_at
-from swtstudy.kernel.loads import bimodal, polygon
+from swtstudy.kernel.loads import bimodal, harmonic_sum, polygon
+from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
 pytestmark = pytest.mark.xdist_group("kernel")
 DISPLACEMENTS = {"normal_amplitude": 0.6, "tangential_amplitude": 0.4}
@@ -202,3 +203,32 @@ def test_sides_of_the_line_that_cannot_matter_stay_out() -> None:
     found = solve_batch("paraboloid", [0.3], [0.5], [0.3], [0.05], loops=[loop])[0]
     assert found["positions"] < 2000
     assert found["s_error"] <= 1.2e-4 * found["s"]
+
+
+def test_harmonics_of_a_negative_amplitude_and_of_order_0() -> None:
+    """A negative amplitude is half a turn of the phase; a harmonic of order 0 is at rest."""
+    found = harmonic_sum([(2, -0.3, 0.4), (0, 0.5, 1.2)], [(3, 0.2, 0.1), (6, -0.1, 2.0)], [(0, -0.4, 0.3)])
+    for t in np.linspace(0.0, 6.0, 5):
+        n, v = load_at(found, t)
+        assert n == pytest.approx(-0.3 * np.sin(2 * t + 0.4) + 0.5 * np.sin(1.2), abs=1e-14)
+        assert v == pytest.approx(0.2 * np.sin(3 * t + 0.1) - 0.1 * np.sin(6 * t + 2.0), abs=1e-14)
+        assert bulk_at(found, t) == pytest.approx(-0.4 * np.sin(0.3), abs=1e-14)
+    assert (found["terms"], found["rounds"], found["fastest"]) == (3, 1, 6)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_ends_of_a_sum_of_harmonics(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rows = [(int(k), rng.normal(), rng.uniform(0.0, 7.0)) for k in rng.integers(0, 9, 1 + seed)]
+    t = np.linspace(0.0, 2.0 * np.pi, 100_001)
+    values = sum((size * np.sin(order * t + phase) for order, size, phase in rows), np.zeros_like(t))
+    assert ends_of_sum(rows) == pytest.approx((values.min(), values.max()), abs=1e-7)
+
+
+def test_loops_without_vertices_that_tell_nothing() -> None:
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+    more = np.insert(square, 1, [[0.0, 0.0], [0.25, 0.0], [0.5, 0.0]], axis=0)
+    assert without_collinear(more).tolist() == square.tolist()
+    back = np.array([[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]])  # a line there and back: both of its ends
+    assert without_collinear(back).tolist() == [[0.0, 0.0], [1.0, 0.0]]
+    assert without_collinear(np.ones((3, 2))).tolist() == [[1.0, 1.0]]
