@@ -1,0 +1,91 @@
+"""Searches of random points: all tolerances find one maximum, by no more positions than were needed."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from swtstudy import LoadPath
+from swtstudy.kernel.batch import solve_batch
+
+pytestmark = pytest.mark.xdist_group("kernel")
+POINTS = 8
+TOLERANCES = 1e-2, 1e-3, 1e-5
+#: A search may take so many times the positions that were recorded.
+MORE = 1.02
+
+
+def harmonic(rng, **more):
+    """Points of two oscillations."""
+    return {
+        "poisson_ratio": rng.uniform(0.0, 0.5, POINTS),
+        "friction": 10.0 ** rng.uniform(-1.5, 0.0, POINTS),
+        "normal_amplitude": 10.0 ** rng.uniform(-2.0, -0.05, POINTS),
+        "tangential_amplitude": 10.0 ** rng.uniform(-1.5, 0.2, POINTS),
+        "frequency_ratio": [Fraction(*map(int, pair)) for pair in rng.integers(1, 5, (POINTS, 2))],
+        "phase": rng.uniform(0.0, 2.0 * np.pi, POINTS),
+    } | more
+
+
+def polygons(rng, vertices):
+    """Points of loops of vertices."""
+    loops = [
+        LoadPath("loop", np.column_stack([rng.uniform(0.3, 1.6, vertices), rng.uniform(-0.6, 0.6, vertices)]))
+        for _ in range(POINTS)
+    ]
+    return harmonic(rng, loops=loops)
+
+
+def bulk(rng, mean):
+    """A bulk stress beside the load."""
+    return {
+        "bulk_amplitude": 10.0 ** rng.uniform(-3.0, -0.5, POINTS),
+        "bulk_mean": mean * 10.0 ** rng.uniform(-2.0, 0.0, POINTS),
+        "bulk_phase": rng.uniform(0.0, 2.0 * np.pi, POINTS),
+    }
+
+
+def shape(rng, name, low, high):
+    return {"shape": {name: 10.0 ** rng.uniform(low, high, POINTS)}}
+
+
+def scenes():
+    """Name, profile, points, and the positions that each tolerance takes for all points."""
+    rng = np.random.default_rng(3)
+    small = {name: rng.uniform(0.02, 0.49, POINTS) for name in ("normal_amplitude", "tangential_amplitude")}
+    forces = {"control": (True, True), **small}
+    yield "spheres", "paraboloid", harmonic(rng), (627, 672, 780)
+    yield "spheres under forces", "paraboloid", harmonic(rng, **forces), (808, 853, 976)
+    constant = {**forces, "normal_amplitude": np.zeros(POINTS), "frequency_ratio": None}
+    shifted = {"tangential_amplitude": rng.uniform(0.1, 0.95, POINTS), **bulk(rng, 0.0)}
+    yield "shifted stick zones", "paraboloid", harmonic(rng, **constant | shifted), (142, 147, 148)
+    yield "powers", "power_law", harmonic(rng, **shape(rng, "exponent", 0.05, 1.0)), (655, 697, 819)
+    faces = shape(rng, "flat_radius", -2.0, 1.0)
+    yield "rounded punches", "rounded_punch", harmonic(rng, **faces), (729, 775, 881)
+    yield "edges", "truncated_paraboloid", harmonic(rng, **faces), (622, 663, 772)
+    waves = {"waviness_amplitude": np.full(POINTS, 0.02), "wavelength": rng.uniform(5.0, 9.0, POINTS)}
+    yield "waves", "wavy_paraboloid", harmonic(rng, shape=waves), (897, 961, 1101)
+    yield "cylinders", "cylinder", harmonic(rng, **small, **bulk(rng, 0.0)), (979, 1018, 1130)
+    yield "short loops", "paraboloid", polygons(rng, 5), (245, 272, 317)
+    yield "long loops", "paraboloid", polygons(rng, 60), (1180, 1222, 1256)
+    yield "tension", "paraboloid", harmonic(rng, **bulk(rng, 1.0)), (891, 929, 1006)
+    yield "compression", "paraboloid", harmonic(rng, **bulk(rng, -1.0)), (634, 680, 803)
+    walker = {"walker_exponent": rng.uniform(0.1, 0.9, POINTS)}
+    yield "Walker", "paraboloid", harmonic(rng, **walker), (505, 542, 645)
+    for criterion, most in (("fatemi_socie", (663, 697, 764)), ("findley", (585, 620, 705))):
+        own = {"criterion": criterion, "normal_sensitivity": rng.uniform(0.0, 1.0, POINTS)}
+        yield criterion, "paraboloid", harmonic(rng, **own), most
+
+
+SCENES = {name: rest for name, *rest in scenes()}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_all_tolerances_find_one_maximum(name):
+    profile, points, most = SCENES[name]
+    found = [solve_batch(profile, **points, rtol=rtol) for rtol in TOLERANCES]
+    best = found[-1]
+    for one, rtol, positions in zip(found, TOLERANCES, most, strict=True):
+        assert np.all(np.abs(one["s"] - best["s"]) <= one["s_error"] + best["s_error"])
+        assert np.all(one["s_error"] <= rtol * one["s"] + 1e-8)
+        assert one["positions"].sum() <= MORE * positions
