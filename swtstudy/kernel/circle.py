@@ -45,8 +45,8 @@ SAFE_POISSON_RATIO = 0.35
 HIGHER = 1e-4
 #: Circles between the least and the largest contact radius, and climbs, each with a circle after it.
 BETWEEN, CLIMBS = 4, 3
-#: First step of a climb, in rad and in the largest contact, and the last one over the root of the tolerance.
-STEP, NARROWEST = 0.05, 0.02
+#: First step of a climb, in rad and in the largest contact, and the narrowest one.
+STEP, NARROWEST = 0.05, 1e-7
 #: No plane is higher by more than this share, while a climb goes on.
 ROUGHLY = 1.0
 MAX_ARCS = 400
@@ -291,11 +291,15 @@ def glance(circle, body, place):
 
 @jit
 def look_near(circle, body, place, angle, proof):
-    """Look at an angle of the circle at a place s, from the best plane on; no place next to the axis."""
+    """Look at an angle of the circle at a place s, from the best plane on; no place next to the axis.
+
+    Returns h there, FAR times the best value at least.
+    """
     if abs(place) >= INNERMOST * circle.largest and open_circle(circle, body, place):
         for c in range(3):
             body.planes.normal[c] = circle.plane[c]
-        value_at(circle, body, angle, FAR * circle.best, proof)
+        return value_at(circle, body, angle, FAR * circle.best, proof)
+    return FAR * circle.best
 
 
 @jit
@@ -303,12 +307,12 @@ def climb_surface(circle, body):
     """From the place of the best value to a maximum over angle and radius, by the method of Hooke and Jeeves.
 
     Where no step along or around leads to a higher value, steps are halved; the way of a round that did is
-    tried once more. A maximum changes by the square of a distance from it, so the last step follows from
-    the tolerance.
+    tried once more. Where steps to both sides lower the value, by D at most, a parabola has its maximum at
+    most D/8 higher: so the last step follows from the tolerance.
     """
     line, largest, step, along, around = body.point.ask.line, circle.largest, STEP, 0.0, 0.0
-    while step > NARROWEST * sqrt(line):
-        place, angle, before = circle.summit, circle.angle, circle.best
+    while step > NARROWEST:
+        place, angle, before, drop = circle.summit, circle.angle, circle.best, 0.0
         if along != 0.0 or around != 0.0:
             look_near(circle, body, place + along, angle + around, ROUGHLY)
         for axis in range(2):
@@ -317,10 +321,13 @@ def climb_surface(circle, body):
                 if circle.best == top:
                     moved = circle.summit + (side * step * largest if axis == 0 else 0.0)
                     turned = circle.angle + (side * step if axis == 1 else 0.0)
-                    look_near(circle, body, moved, turned, ROUGHLY)
+                    drop = max(drop, top - look_near(circle, body, moved, turned, ROUGHLY))
         along, around = circle.summit - place, circle.angle - angle
-        if circle.best <= before * (1.0 + 0.1 * line):
-            step *= 0.5
+        if circle.best > before * (1.0 + 0.1 * line):
+            continue
+        if drop <= 0.1 * line * circle.best:
+            break
+        step *= 0.5
     look_near(circle, body, circle.summit, circle.angle, 0.5 * line)
 
 

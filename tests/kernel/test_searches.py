@@ -51,28 +51,28 @@ def shape(rng, name, low, high):
 
 def scenes():
     """Name, profile, points, and the positions that each tolerance takes for all points."""
-    rng = np.random.default_rng(3)
+    rng = np.random.default_rng(5)
     small = {name: rng.uniform(0.02, 0.49, POINTS) for name in ("normal_amplitude", "tangential_amplitude")}
     forces = {"control": (True, True), **small}
-    yield "spheres", "paraboloid", harmonic(rng), (627, 672, 780)
-    yield "spheres under forces", "paraboloid", harmonic(rng, **forces), (808, 853, 976)
+    yield "spheres", "paraboloid", harmonic(rng), (611, 681, 816)
+    yield "spheres under forces", "paraboloid", harmonic(rng, **forces), (623, 674, 774)
     constant = {**forces, "normal_amplitude": np.zeros(POINTS), "frequency_ratio": None}
     shifted = {"tangential_amplitude": rng.uniform(0.1, 0.95, POINTS), **bulk(rng, 0.0)}
-    yield "shifted stick zones", "paraboloid", harmonic(rng, **constant | shifted), (142, 147, 148)
-    yield "powers", "power_law", harmonic(rng, **shape(rng, "exponent", 0.05, 1.0)), (655, 697, 819)
+    yield "shifted stick zones", "paraboloid", harmonic(rng, **constant | shifted), (143, 151, 158)
+    yield "powers", "power_law", harmonic(rng, **shape(rng, "exponent", 0.05, 1.0)), (943, 986, 1081)
     faces = shape(rng, "flat_radius", -2.0, 1.0)
-    yield "rounded punches", "rounded_punch", harmonic(rng, **faces), (729, 775, 881)
-    yield "edges", "truncated_paraboloid", harmonic(rng, **faces), (622, 663, 772)
+    yield "rounded punches", "rounded_punch", harmonic(rng, **faces), (619, 665, 761)
+    yield "edges", "truncated_paraboloid", harmonic(rng, **faces), (626, 670, 778)
     waves = {"waviness_amplitude": np.full(POINTS, 0.02), "wavelength": rng.uniform(5.0, 9.0, POINTS)}
-    yield "waves", "wavy_paraboloid", harmonic(rng, shape=waves), (897, 961, 1101)
-    yield "cylinders", "cylinder", harmonic(rng, **small, **bulk(rng, 0.0)), (979, 1018, 1130)
-    yield "short loops", "paraboloid", polygons(rng, 5), (245, 272, 317)
-    yield "long loops", "paraboloid", polygons(rng, 60), (1180, 1222, 1256)
-    yield "tension", "paraboloid", harmonic(rng, **bulk(rng, 1.0)), (891, 929, 1006)
-    yield "compression", "paraboloid", harmonic(rng, **bulk(rng, -1.0)), (634, 680, 803)
+    yield "waves", "wavy_paraboloid", harmonic(rng, shape=waves), (809, 849, 938)
+    yield "cylinders", "cylinder", harmonic(rng, **small, **bulk(rng, 0.0)), (974, 1017, 1101)
+    yield "short loops", "paraboloid", polygons(rng, 5), (239, 262, 297)
+    yield "long loops", "paraboloid", polygons(rng, 60), (1127, 1167, 1201)
+    yield "tension", "paraboloid", harmonic(rng, **bulk(rng, 1.0)), (838, 889, 983)
+    yield "compression", "paraboloid", harmonic(rng, **bulk(rng, -1.0)), (695, 720, 773)
     walker = {"walker_exponent": rng.uniform(0.1, 0.9, POINTS)}
-    yield "Walker", "paraboloid", harmonic(rng, **walker), (505, 542, 645)
-    for criterion, most in (("fatemi_socie", (663, 697, 764)), ("findley", (585, 620, 705))):
+    yield "Walker", "paraboloid", harmonic(rng, **walker), (583, 628, 750)
+    for criterion, most in (("fatemi_socie", (711, 741, 807)), ("findley", (594, 636, 745))):
         own = {"criterion": criterion, "normal_sensitivity": rng.uniform(0.0, 1.0, POINTS)}
         yield criterion, "paraboloid", harmonic(rng, **own), most
 
@@ -88,4 +88,5 @@ def test_all_tolerances_find_one_maximum(name):
     for one, rtol, positions in zip(found, TOLERANCES, most, strict=True):
         assert np.all(np.abs(one["s"] - best["s"]) <= one["s_error"] + best["s_error"])
         assert np.all(one["s_error"] <= rtol * one["s"] + 1e-8)
+        np.testing.assert_allclose(one["s_surface"], best["s_surface"], rtol=rtol)
         assert one["positions"].sum() <= MORE * positions
