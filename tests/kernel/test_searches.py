@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from swtstudy import LoadPath
-from swtstudy.kernel.batch import solve_batch
+from swtstudy.kernel.batch import memory, solve_batch
+from swtstudy.kernel.field import mean_about, open_cycle
+from swtstudy.kernel.mean import LINE, MEAN, POINT, SPHERE
 
 pytestmark = pytest.mark.xdist_group("kernel")
 POINTS = 8
@@ -90,3 +92,39 @@ def test_all_tolerances_find_one_maximum(name):
         assert np.all(one["s_error"] <= rtol * one["s"] + 1e-8)
         np.testing.assert_allclose(one["s_surface"], best["s_surface"], rtol=rtol)
         assert one["positions"].sum() <= MORE * positions
+
+
+#: Values of the criterion for means of some scenes at both tolerances.
+MEANS = {
+    "spheres": (240, 540),
+    "shifted stick zones": (240, 500),
+    "edges": (820, 2370),
+    "cylinders": (240, 290),
+    "findley": (240, 290),
+}
+
+
+def only(points, k):
+    """Point k alone."""
+    one = {name: value[k : k + 1] for name, value in points.items() if isinstance(value, list | np.ndarray)}
+    one |= {name: value for name, value in points.items() if isinstance(value, str | tuple)}
+    return one | {"shape": {name: values[k : k + 1] for name, values in points.get("shape", {}).items()}}
+
+
+@pytest.mark.parametrize("name", MEANS)
+def test_all_tolerances_find_one_mean(name):
+    profile, points, _ = SCENES[name]
+    taken = [0, 0]
+    for k in range(2):
+        one = only(points, k)
+        opened, x = open_cycle(profile=profile, **one), solve_batch(profile, **one)["critical_x"][0]
+        for kind, direction in ((SPHERE, (0.0, 1.0)), (POINT, (0.6, 0.8)), (LINE, (0.0, 1.0))):
+            found = []
+            for i, rtol in enumerate((3e-2, 3e-3)):
+                value, error = mean_about(opened, kind, x, direction, 0.1, 0.0, rtol)
+                assert 0.0 <= error <= (4e-4 if kind == LINE else 2.5 * rtol * value)
+                found.append((value, error))
+                taken[i] += int(memory(MEAN)[0]["evaluated"])
+            assert abs(found[0][0] - found[1][0]) <= found[0][1] + found[1][1]
+    assert taken[0] <= MEANS[name][0]
+    assert taken[1] <= MEANS[name][1]
