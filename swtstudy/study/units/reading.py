@@ -352,8 +352,8 @@ def _check_range(grid: PhysicalGrid, column: str, report: Report) -> None:
     words, more, scale = _words(grid, here, source), more_like_it(int(wrong.sum())), AXES[source].scale
     most, bound = ("at most", row.upper) if high[first] else ("at least", row.lower)
     if not np.isfinite(number):
-        found = f"{own:g}{unit} at {words}, friction = {as_number(here['friction']):g}{more}"
-        report.of(source, found, "0: without friction the contact slides at once")
+        words += f", friction = {as_number(here['friction']):g}" * (grid.dimension("friction") is None)
+        report.of(source, f"{own:g}{unit} at {words}{more}", "0: without friction the contact slides at once")
     elif not scale:  # a ratio, to which the number is not in proportion
         allowed = f"a mean of {most} {bound:g} {row.scale}"
         report.of(source, f"{own:g} at {words}, a mean of {number:.4g} {row.scale}{more}", allowed)
