@@ -42,7 +42,7 @@ def _one_of(choice: Any) -> str:
 class Table(BaseModel):
     """A table of a study file: a text among the annotations of a key says what messages allow for it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
     #: Words for the table as a whole, in messages.
     allowed: ClassVar[str]
 
