@@ -1,7 +1,7 @@
 """All that is said of studies with tables in files, word by word: warnings, which begin with !, and mistakes.
 
-In the file of the texts ==== parts the cases, and --- the keys of a table, the file that it names, and what is
-said of it. What is said begins with ! or », and may go on in lines that are set in.
+In the file of the texts ==== parts the cases, and --- the keys of a table, the file that it names, and what
+is said of it. What is said begins with ! or », and may go on in lines that are set in.
 """
 
 from __future__ import annotations
