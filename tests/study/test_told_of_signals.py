@@ -241,6 +241,7 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
         3199.99821,
         ["each cycle repeats 2 times: recorded_cycles = 8?"],
     ),
+    (both(NORMAL[:2], [60.0, -60.0], 8), {"recorded_cycles": 4}, "4 cycles of 2 samples", 410.0, []),
     (
         wave(32, 4, 1e-3),
         {"recorded_cycles": 4},
