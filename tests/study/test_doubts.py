@@ -116,8 +116,8 @@ def cap(factor: float, power: float, depth: float) -> str:
         (
             cap(0.1, 1.5, 0.06),
             [
-                "s: profile cap: a contact radius of 0.4812 mm over R is 0.125, p0 over E* is 0.107: are heights "
-                "and positions in one unit?"
+                "s: profile cap: a contact radius of 0.4812 mm over R is 0.125, p0 over E* is 0.107: are "
+                "heights and positions in one unit?"
             ],
         ),
     ],
