@@ -1,4 +1,4 @@
-"""The studies that `swtstudy new` begins with, line by line: every parameter, what it is and what is allowed."""
+"""The studies that `swtstudy new` begins with: every parameter, what it is and what is allowed."""
 
 from __future__ import annotations
 
