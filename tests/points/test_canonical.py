@@ -140,6 +140,20 @@ POINTS = [
              0.3, ", bulk_stress_amplitude=0.1"),
         )
     ),
+    # The bulk stress reaches the other body by the stick zone alone.
+    (
+        f"fixed = {{{PULL}, bulk_strain_share = -0.8, bulk_stress_mean = 0.5}}",
+        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0.5, phase=0, {BODIES}, "
+        "bulk_stress_amplitude=0.1, bulk_strain_share=-0.8",
+        0,
+        -0.8,
+    ),
+    (
+        "fixed = {bulk_stress_amplitude = 0.2, bulk_stress_phase = 1, bulk_strain_share = -0.8}",
+        f"{PLAIN}, {TABLE_1}, phase=0, {BODIES}",
+        0,
+        0.0,
+    ),
     # A loop has a course of its own: an amplitude that does not scale it does not matter.
     (
         'fixed = {load = "mine", normal_amplitude = 0.5, bulk_stress_amplitude = 0.4, phase = 3}\n'
