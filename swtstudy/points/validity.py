@@ -180,7 +180,7 @@ def _lacking(dataset: xr.Dataset, lost: BoolArray) -> str:
     place = _place(dataset, ratio, besides=(name, "body"))
     if not np.isfinite(worst):
         return f": there is a tangential force while the normal force is 0 or pulls{place}"
-    harmonic = "load" not in dataset.coords or bool(np.all(dataset.load == "harmonic"))
+    harmonic = "load" not in dataset.coords or bool((dataset["load"] == "harmonic").all())
     still = all(not np.any(dataset[each].values) for each in NORMAL_AMPLITUDES if each in dataset.coords)
     if not (harmonic and still and name in dataset.coords):
         return f": the tangential force is up to {_number(worst)} times μ F_N{place}"

@@ -49,7 +49,7 @@ def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> F
         Shape (count, m, d); straight lines between the samples.
     """
     step = (time[-1] - time[0]) / (len(time) - 1)
-    phases = max(2, round(period / step))
+    phases = round(period / step)
     at = time[0] + period * (np.arange(count)[:, None] + np.arange(phases) / phases)
     return np.stack([np.interp(at, time, column) for column in values.T], axis=-1)
 

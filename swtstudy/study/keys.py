@@ -42,7 +42,7 @@ def _one_of(choice: Any) -> str:
 class Table(BaseModel):
     """A table of a study file: a text among the annotations of a key says what messages allow for it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True, use_attribute_docstrings=True)
+    model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
     #: Words for the table as a whole, in messages.
     allowed: ClassVar[str]
 
@@ -59,6 +59,7 @@ File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
 Order = Annotated[int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)]
 Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
+End = Annotated[Any, 'a number, or text such as "2*pi"']
 Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
 
@@ -122,9 +123,9 @@ class RangeTable(Table):
 
     allowed = "a list of values or {start, stop, num}"
 
-    start: Any
+    start: End
     """First value; a number, or a text such as "2*pi"."""
-    stop: Any
+    stop: End
     """Last value, included."""
     num: Annotated[int, "a whole number"]
     """Number of values."""

@@ -189,13 +189,19 @@ class SampleReader:
             table = read_table(path, (), self.rows, form, LONGEST_AXIS)
             names = {form.header(name): name for name in self.rows}
             own = [names.get(header, header) for header in table.headers if header]
-            self.report.extend(unknown_names(form, own))
+            lost = [n for n in form.columns if n in self.rows and form.header(n) not in table.headers]
+            found = unknown_names(form, (*own, *lost))
+            for name in lost:
+                header = form.columns[name]
+                found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
             units = self.contacts.units if self.contacts else Units()
-            for name in (each for each in own if each in self.rows):
+            for name in (each for each in own if each in self.rows and each not in lost):
                 if kind := kind_of(name):
-                    self.report.extend(wrong_unit(table, name, kind, units.label(kind)))
+                    found += wrong_unit(table, name, kind, units.label(kind))
+            with under(self.report, "sample", "file"):  # and the values are told, too
+                found.refuse()
             if table.cells:
-                return {name: table.values(name) for name in own}
+                return {} if lost else {name: table.values(name) for name in own}
             self.report("sample.file", f"{path} without points", _POINTS)
         return {}
 

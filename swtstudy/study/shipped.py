@@ -9,10 +9,6 @@ from swtstudy.vocabulary.files import parse_toml, read_text
 
 _PACKAGE = Path(__file__).parent.parent
 
-#: Where they are in an installed package, and in the source tree.
-_PLACES = (_PACKAGE / "studies", _PACKAGE.parent / "studies")
-
-
 #: The studies by what they are about, in the order in which they are listed.
 GROUPS: dict[str, list[str]] = parse_toml(read_text(Path(__file__).with_name("groups.toml")))
 
@@ -27,8 +23,9 @@ def in_groups(names: Iterable[str]) -> dict[str, list[str]]:
 
 
 def shipped_folder() -> Path:
-    """The folder of the studies of the paper."""
-    return next((place for place in _PLACES if (place / "figure3.toml").is_file()), _PLACES[0])
+    """The folder of the studies of the paper: in an installed package, or in the source tree."""
+    installed = _PACKAGE / "studies"
+    return installed if installed.is_dir() else _PACKAGE.parent / "studies"
 
 
 def shipped_studies() -> dict[str, Path]:

@@ -303,3 +303,60 @@ def test_a_flat_face_with_noise_is_the_flat_face(
     assert found.contact_radius == pytest.approx(exact.contact_radius, rel=0.003)
     one, two = (float(each.solve(rtol=1e-3).SWT[0]) for each in (found, exact))
     assert one == pytest.approx(two, rel=0.15 if noise else 0.01)
+
+
+def recorded(name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Traces with a tilt, sentinels above and below, grit, a gap, samples twice, and few heights."""
+    if name == "worn":
+        x, z = np.loadtxt(DATA / "trace_of_worn_pad.csv", delimiter=",", skiprows=1).T
+        z += 4e-4 * x
+        z[40:46], z[120] = 9999.0, -9999.0
+        z[200:203] += 3e-3
+    elif name == "gap":
+        x, z = pad()
+        z += 2e-5 * np.sin(37.0 * x) * np.cos(11.0 * x**2) - 1e-3 * x
+        x, z = (np.delete(each, slice(90, 130)) for each in (x, z))
+    elif name == "twice":
+        x = np.concatenate([np.linspace(-1.5, 2.2, 301), np.linspace(-0.4, 0.6, 60)])
+        z = 5.0 + (x - 0.1) ** 2 / 80.0
+    elif name == "face":
+        x = np.linspace(-2.0, 2.6, 161)
+        z = np.maximum(np.abs(x - 0.2) - 0.7, 0.0) ** 2 / 30.0 + 1e-5 * np.cos(97.0 * x**2)
+    else:
+        x = np.linspace(-2.0, 2.0, 81)
+        z = np.round(x**2 / 8.0, 1)
+    return x, z
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "expected"),
+    [
+        (
+            "worn",
+            {},
+            [125, 1.45448083, 3.58214303e-5, 9.95654447e-4, 0.0144904287, 0.56373508, 6.14344113e-5],
+        ),
+        ("gap", {}, [180, 1.98632787, 0.0, 1.33761903e-3, 0.0284364636, 1.45473799, 9.55707801e-6]),
+        (
+            "twice",
+            {"level": False},
+            [180, 1.59999988, 0.000483381313, 0.00359539244, 0.0319999948, 1.92536278, 2.79154262e-09],
+        ),
+        (
+            "face",
+            {"geometry": "plane"},
+            [80, 2.20005143, 0.0, 1.21919509e-5, 0.0750067044, 1.38440675, 4.63944e-6],
+        ),
+        ("coarse", {"smoothing": 1e-3}, [40, 2.0, 0.0, 0.1106532118, 0.500001962, 6.740553896, 1e-3]),
+    ],
+)
+def test_a_trace_that_is_read_again_is_the_same_profile(
+    tmp_path: Path, name: str, given: dict[str, Any], expected: list[float]
+) -> None:
+    """Else what an archive has of it would be computed again: the numbers are those of this version."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        found = read_trace(write(tmp_path / "pad.csv", *recorded(name)), **given)
+    count, height = len(found.radius), found.height
+    told = [count, found.radius[-1], height[count // 8], height[count // 3], height[-1], height.sum()]
+    assert [*told, found.smoothing] == pytest.approx(expected, rel=1e-7, abs=1e-11)

@@ -112,7 +112,7 @@ def _read_material(
     for group, there in groups.items():
         for key in group if there else ():
             if key not in silent and key not in moduli and key != LOAD_RATIO:
-                why = f", beside {there[0]}" * (key != there[0])
+                why = f", beside {there[0]}" * (there[0] in silent)
                 if key in (_YOUNG, _MODULUS):
                     why = ", since that of the bodies is no single value"
                 report(f"material.{key}", "nothing", _allowed(key, units) + why)

@@ -40,9 +40,8 @@ ANY_MEASURED = LoadPath("any", ANY.vertices, 1.0)
 MOST_CONTACTS = 300_000
 #: Words for a contact in every message.
 _SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
-#: Largest pressure over E* that no metal sustains, and contact radius over R of a table, far above the limit
-#: of half-spaces.
-LARGEST_PRESSURE, LARGEST_RATIO = 0.1, 0.2
+#: Pressure over E* that no metal sustains.
+LARGEST_PRESSURE = 0.1
 
 
 def read_contacts(
@@ -308,7 +307,7 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
         radius, edge, profile = contact.radius, contact.contact_radius, contact.profile
         if not isinstance(profile, str):
             ratio, pressure = contact.depth / edge, contact.peak_pressure / contact.moduli.normal
-            if ratio > LARGEST_RATIO or (np.isfinite(pressure) and pressure > LARGEST_PRESSURE):
+            if pressure > LARGEST_PRESSURE:
                 sizes = f"a contact radius of {edge:.4g}{unit} over R is {ratio:.3g}"
                 found = f"profile {profile.name}: {sizes}, p0 over E* is {pressure:.3g}"
                 lines.setdefault("table", f"{found}: are heights and positions in one unit?")
@@ -352,8 +351,8 @@ def _check_range(grid: PhysicalGrid, column: str, report: Report) -> None:
     words, more, scale = _words(grid, here, source), more_like_it(int(wrong.sum())), AXES[source].scale
     most, bound = ("at most", row.upper) if high[first] else ("at least", row.lower)
     if not np.isfinite(number):
-        found = f"{own:g}{unit} at {words}, friction = {as_number(here['friction']):g}{more}"
-        report.of(source, found, "0: without friction the contact slides at once")
+        words += f", friction = {as_number(here['friction']):g}" * (grid.dimension("friction") is None)
+        report.of(source, f"{own:g}{unit} at {words}{more}", "0: without friction the contact slides at once")
     elif not scale:  # a ratio, to which the number is not in proportion
         allowed = f"a mean of {most} {bound:g} {row.scale}"
         report.of(source, f"{own:g} at {words}, a mean of {number:.4g} {row.scale}{more}", allowed)

@@ -77,11 +77,6 @@ def dims_of(grid: PhysicalGrid, asked: Request) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def is_uncounted(dataset: xr.Dataset, name: str) -> bool:
-    """Return whether a data variable is a life for which no strain cycles have been counted."""
-    return has_units(dataset) and name in LIVES and "counted" not in dataset
-
-
 def measures(dataset: xr.Dataset) -> list[str]:
     """The values of the criteria of results with units, in their order; none without units."""
     criteria = np.atleast_1d(dataset["criterion"]) if "criterion" in dataset.coords else [SWT]

@@ -1,0 +1,145 @@
+"""What is said of studies that are sound, and in which a unit is probably another one."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+
+import pytest
+import real
+
+from swtstudy import Study
+
+LOADS = "normal_force = 200\ntangential_force_amplitude = 60\n"
+CONTACT = f"[fixed]\nyoung_modulus = 73.1e3\npoisson_ratio = 0.33\nradius = 50\nfriction = 0.5\n{LOADS}"
+MATERIAL = f"[material]\n{real.CONSTANTS}"
+SHEAR = "shear_strength = 50000\nshear_strength_exponent = -0.1\nshear_ductility = 0.5\n"
+SHEAR += "shear_ductility_exponent = -0.6\nyield_strength = 300\n"
+THRESHOLD = "[material]\nthreshold_stress_intensity_range = {}\nfatigue_limit_range = 200\n"
+DISTANCE = "(ΔK_th/Δσ_0)²/π of ranges at {}: {} MPa√mm and 200 MPa"
+UNSAID = "one load ratio, which load_ratio would name"
+METALS = "; metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm"
+OF_METALS = "of metals 0.0002 to 0.05: are both in MPa?"
+WRONG = "is the radius in another unit, such as metres?"
+UNLIKE = "are both of one material, and in MPa?"
+SPHERE = CONTACT.replace("radius = 50", "radius = 0.02")
+
+
+def told(text: str) -> list[str]:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        Study.from_text(f'title = "t"\n{text}', "s")
+    return [str(each.message) for each in caught]
+
+
+def cap(factor: float, power: float, depth: float) -> str:
+    """A contact of a table at a depth."""
+    radius = [k / 10 for k in range(51)]
+    fixed = CONTACT.replace("radius = 50\n", "").replace(
+        LOADS, f"depth = {depth}\ntangential_amplitude = 0\n"
+    )
+    table = f"[profiles.cap]\nradius = {radius}\nheight = {[factor * r**power for r in radius]}\n"
+    return f'{fixed}profile = "cap"\n{table}'
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        (CONTACT, []),
+        (MATERIAL + CONTACT, []),
+        (
+            MATERIAL.replace("927", "[9, 92700]") + CONTACT,
+            [
+                f"material.strength 9 over young_modulus 73100 is 0.000123, {OF_METALS}",
+                f"material.strength 92700 over young_modulus 73100 is 1.27, {OF_METALS}",
+            ],
+        ),
+        (
+            MATERIAL.replace("0.409", "40.9").replace("-0.113", "-1.13").replace("-0.713", "-7.13") + CONTACT,
+            [
+                "material.strength_exponent -1.13, of metals -0.5 to 0",
+                "material.ductility 40.9, of metals 0.001 to 5",
+                "material.ductility_exponent -7.13, of metals -2 to 0",
+            ],
+        ),
+        (
+            f"{MATERIAL}young_modulus = [30e3, 73.1e3]\n{CONTACT}",
+            [f"material.young_modulus 30000 is 0.41 times the body's 73100: {UNLIKE}"],
+        ),
+        # An odd modulus of the body has been told by the strength.
+        (
+            f"{MATERIAL}young_modulus = 73.1e3\n" + CONTACT.replace("73.1e3", "7e3"),
+            [f"material.strength 927 over young_modulus 7000 is 0.132, {OF_METALS}"],
+        ),
+        (
+            f"{MATERIAL}yield_strength = 35000\nfindley_limit = [0.2, 200]\n{CONTACT}",
+            [
+                f"material.yield_strength 35000 over young_modulus 73100 is 0.479, {OF_METALS}",
+                f"material.findley_limit 0.2 over young_modulus 73100 is 2.74e-06, {OF_METALS}",
+            ],
+        ),
+        (
+            f'[material]\n{SHEAR}{CONTACT}criterion = "fatemi_socie"\nnormal_sensitivity = 0.3\n',
+            [f"material.shear_strength 50000 over young_modulus 73100 is 0.684, {OF_METALS}"],
+        ),
+        (
+            THRESHOLD.format(3) + CONTACT,
+            [f"critical_distance = 7.162e-05 mm, {DISTANCE.format(UNSAID, 3)}{METALS}"],
+        ),
+        (
+            f"{THRESHOLD.format(1e3)}load_ratio = 0.1\n"
+            + CONTACT.replace("= 200\n", "= 2e5\n").replace("= 50\n", "= 5e3\n"),
+            [f"critical_distance = 7.958 mm, {DISTANCE.format('the load ratio 0.1', 1000)}{METALS}"],
+        ),
+        (SPHERE, [f"s: radius 0.02 mm is smaller than the contact (0.0418 mm): {WRONG}"]),
+        (
+            f'{SPHERE}profile = "rounded_punch"\nflat_radius = 0.02\n',
+            ["s: radius 0.02 mm is smaller than the contact beside its flat face (0.0313 mm): " + WRONG],
+        ),
+        (
+            f"{CONTACT}[axes]\nphase = [0, 1]\nfrequency_ratio = [1, 2]\n",
+            [
+                f"s: axes.{name} has no effect: what it is of does not oscillate"
+                for name in ("phase", "frequency_ratio")
+            ],
+        ),
+        (
+            CONTACT.replace("73.1e3", "[73.1e3, 65e3]").replace("0.33", "[0.33, 0.30]"),
+            [
+                "Dundurs' β = -0.0346 is 0.069 times the friction 0.5: pressure p drags tangential tractions "
+                "of about β p along, which s leaves out"
+            ],
+        ),
+        (CONTACT.replace("73.1e3", "[73.1e3, 67e3]"), []),
+        (CONTACT.replace("73.1e3", "[73.1e3, 7e3]").replace("= 0.5", "= 0").replace("= 60", "= 0"), []),
+        (cap(0.1, 1.5, 0.05), []),
+        (
+            cap(0.1, 1.5, 0.06),
+            [
+                "s: profile cap: a contact radius of 0.4812 mm over R is 0.125, p0 over E* is 0.107: are "
+                "heights and positions in one unit?"
+            ],
+        ),
+    ],
+)
+def test_what_is_doubted(text: str, lines: list[str]) -> None:
+    assert told(real.UNITS + text) == lines
+
+
+@pytest.mark.parametrize(("ratio", "words"), [("", UNSAID), ("load_ratio = -1\n", "the load ratio -1")])
+def test_the_critical_distance_of_a_threshold_is_told(
+    ratio: str, words: str, caplog: pytest.LogCaptureFixture
+) -> None:
+    caplog.set_level(logging.INFO)
+    text = f"{real.UNITS}{THRESHOLD.format(100)}{ratio}{CONTACT}"
+    assert told(text) == []
+    assert caplog.messages == [f"critical_distance = 0.07958 mm, {DISTANCE.format(words, 100)}"]
+    (own,) = Study.from_text(f'title = "t"\n{text}').asked.distances
+    assert own == pytest.approx(0.25 / 3.141592653589793, rel=1e-12)
+
+
+def test_units_without_a_size_have_no_metals() -> None:
+    text = f"{real.UNITS}{THRESHOLD.format(3)}{CONTACT}".replace('"mm"', '"furlong"')
+    assert told(text) == []
+    metres = 'units = {length = "m", force = "N", stress = "Pa"}\n' + THRESHOLD.format(20) + CONTACT
+    assert told(metres)[0].endswith("20 Pa√m and 200 Pa; metals have 1e-06 to 0.003 m")

@@ -1,0 +1,73 @@
+"""What is said of a sequence of blocks: how often it is repeated, and which load does the damage."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from swtstudy.study.units.life import Block
+from swtstudy.study.units.results import sequence_words
+
+NAN, INF = np.nan, np.inf
+BLOCKS = (Block("start-up", 10.0), Block("running", 1e3), Block("start-up", 5.5))
+ROUNDS = "10 of start-up, 1000 of running, 5.5 of start-up"
+LOADS = {"load": ["start-up", "running"]}
+#: Shares of two loads at two points.
+SHARES = xr.DataArray([[0.25, 0.75], [0.9, 0.1]], LOADS, ("friction", "load"))
+FS = " by Fatemi and Socie"
+
+
+def at_points(*values: float) -> xr.DataArray:
+    return xr.DataArray([*values], dims="friction")
+
+
+@pytest.mark.parametrize(
+    ("variables", "words"),
+    [
+        ({"s": at_points(1.0, 2.0)}, ""),
+        (
+            {"repetitions": at_points(20.0, 100.0), "damage_share": SHARES},
+            f"{ROUNDS}, repeated 20 to 100 times to a crack; running does 75% of the damage",
+        ),
+        (
+            {"repetitions": at_points(100.0, 20.0), "damage_share": SHARES},
+            f"{ROUNDS}, repeated 20 to 100 times to a crack; start-up does 90% of the damage",
+        ),
+        (
+            {"repetitions": at_points(NAN, 20.0), "damage_share": SHARES},
+            f"{ROUNDS}, repeated 20 times to a crack, unknown at 1 of 2 points; start-up does 90% of the "
+            "damage",
+        ),
+        (
+            {"repetitions": at_points(20.0, INF), "damage_share": SHARES[:, 0].drop_vars("load")},
+            f"{ROUNDS}, repeated 20 times to a crack, unknown at 1 of 2 points",
+        ),
+        ({"repetitions": at_points(INF, NAN), "damage_share": SHARES}, f"{ROUNDS}: no crack"),
+        (
+            {
+                "repetitions": at_points(INF, NAN),
+                "damage_share": SHARES,
+                "FS_repetitions": at_points(30.0, 40.0),
+                "FS_damage_share": SHARES,
+            },
+            f"{ROUNDS}: no crack; repeated 30 to 40 times to a crack{FS}; running does 75% of the damage",
+        ),
+        ({"FS_repetitions": at_points(INF, INF), "FS_damage_share": SHARES}, f"{ROUNDS}: no crack{FS}"),
+    ],
+)
+def test_words_on_a_sequence(variables: dict[str, Any], words: str) -> None:
+    assert sequence_words(xr.Dataset(variables), BLOCKS) == words
+    assert sequence_words(xr.Dataset(variables), ()) == ""
+
+
+def test_each_criterion_has_its_own_points() -> None:
+    criteria = {"criterion": ["findley", "swt", "fatemi_socie"]}
+    values = np.array([[NAN, 20.0, NAN], [NAN, 30.0, NAN]])
+    times = xr.DataArray(values, criteria, ("friction", "criterion"))
+    shares = SHARES.expand_dims(criterion=criteria["criterion"], axis=1)
+    found = xr.Dataset({"repetitions": times, "damage_share": shares})
+    words = "repeated 20 to 30 times to a crack; running does 75% of the damage"
+    assert sequence_words(found, BLOCKS) == f"{ROUNDS}, {words}"

@@ -1,0 +1,48 @@
+"""All that is said of studies with tables in files, word by word: warnings, which begin with !, and mistakes.
+
+In the file of the texts ==== parts the cases, and --- the keys of a table, the file that it names, and what
+is said of it. What is said begins with ! or », and may go on in lines that are set in.
+"""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+import pytest
+import real
+from folders import DATA
+
+from swtstudy import Study, StudyError
+
+_FORCES = "normal_force = 100\ntangential_force_amplitude = 10\n"
+_RIG = f"{real.RIG}normal_force = 200\n"
+_BODIES = f'title = "t"\n{real.UNITS}[fixed]\nyoung_modulus = 73e3\npoisson_ratio = 0.33\nfriction = 0.5\n'
+#: Studies that name the file.
+HEADS = {
+    "{rig}": f"{real.RIG}[loads.rig]\n",
+    "{rig with a displacement}": f"{_RIG}normal_force_amplitude = 1\ntangential_amplitude = 1\n[loads.rig]\n",
+    "{rig with a depth}": f"{_RIG}normal_amplitude = 1\ntangential_force_amplitude = 1\n[loads.rig]\n",
+    "{points}": 'title = "t"\n[sample]\n',
+    "{points with units}": f"{_BODIES}radius = 50\nnormal_force_amplitude = 0\n[sample]\n",
+    "{profile}": f'{_BODIES}{_FORCES}profile = "pad"\n[profiles.pad]\n',
+}
+CASES = (DATA / "told_of_files.txt").read_text(encoding="utf-8").rstrip("\n").split("\n====\n")
+
+
+@pytest.mark.parametrize("case", CASES, ids=range(len(CASES)))
+def test_whole_words_on_files(case: str, tmp_path: Path) -> None:
+    keys, content, said = re.split(r"^---\n?", case, flags=re.MULTILINE)
+    head, _, keys = keys.partition("\n")
+    (tmp_path / "f.csv").write_text(content.removesuffix("\n"), encoding="utf-8")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        try:
+            Study.from_text(f'{HEADS[head]}file = "f.csv"\n{keys}', "s", tmp_path)
+            mistakes = []
+        except StudyError as error:
+            mistakes = [str(each).removeprefix("s: ") for each in error.mistakes]
+    found = [*(f"! {each.message}" for each in told), *(f"» {each}" for each in mistakes)]
+    expected = re.sub(r"\n  ", " ", said).strip().replace("{folder}", str(tmp_path))
+    assert "\n".join(found) == expected

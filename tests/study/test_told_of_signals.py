@@ -1,0 +1,407 @@
+"""All that is said of recorded signals, word by word, and the sizes of their cycles."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from swtstudy import read_signal
+
+NORMAL = [200.0, 210.0, 190.0, 205.0]
+
+
+def noise(count: int, size: float, seed: int = 1) -> np.ndarray:
+    return size * np.random.default_rng(seed).normal(size=(count, 2))
+
+
+def wave(count: int, period: float, size: float = 0.0, orders: tuple[int, ...] = (1,)) -> np.ndarray:
+    """A tangential load of some orders about a normal load that moves with it, and noise."""
+    phase = 2.0 * np.pi * np.arange(count) / period
+    load = sum(60.0 / k * np.sin(k * phase) for k in orders)
+    return np.column_stack([200.0 + 0.1 * load, load]) + noise(count, size)
+
+
+def spoilt(values: np.ndarray, *spikes: tuple[int, int, float]) -> np.ndarray:
+    """Heights added to samples of columns."""
+    for row, column, height in spikes:
+        values[row, column] += height
+    return values
+
+
+def cycles(shares: list[float], size: float = 0.5) -> np.ndarray:
+    """Cycles of 20 samples, each with its share of the tangential amplitude."""
+    values = wave(20 * len(shares), 20)
+    values[:, 1] *= np.repeat(shares, 20)
+    return values + noise(len(values), size, 3)
+
+
+def both(normal: list[float], tangential: list[float], count: int) -> np.ndarray:
+    """Two columns that repeat."""
+    return np.column_stack([np.resize(normal, count), np.resize(tangential, count)])
+
+
+SPIKES = ((20, 1, 40.0), (77, 1, -50.0), (130, 0, 30.0), (131, 0, 30.0))
+PAIR = ((70, 1, 90.0), (71, 1, 95.0))
+RISE = [min(1.0, 0.1 * k + 0.05) for k in range(40)]
+MEAN_OF = (
+    "is the load: cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles "
+)
+MEAN_OF += "= true"
+#: Values, keys, what the signal is, the sum of its mean cycle, and what is told of it.
+SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
+    (
+        both(NORMAL, [2.0, 9.0, 4.0, 7.0], 16),
+        {},
+        "1 cycle of 16 samples",
+        3308.0,
+        ["the record repeats 4 times: recorded_cycles = 4?"],
+    ),
+    (both(NORMAL, [2.0, 9.0, 4.0, 7.0], 15), {}, "1 cycle of 15 samples", 3096.0, []),
+    (
+        both(NORMAL[:3], [1.0, 5.0, 2.0], 18),
+        {},
+        "1 cycle of 18 samples",
+        3648.0,
+        ["the record repeats 4 times: recorded_cycles = 4?"],
+    ),
+    (noise(64, 1.0) + 200.0, {}, "1 cycle of 64 samples", 25592.8336, []),
+    (
+        both([200.0], [0.0], 40),
+        {},
+        "1 cycle of 40 samples",
+        8000.0,
+        ["the last sample is the first again: leave it out if closed"],
+    ),
+    (both([200.0, 201.0], [0.0], 2), {}, "1 cycle of 2 samples", 401.0, []),
+    (
+        both([200.0, 201.0, 200.0], [0.0], 3),
+        {},
+        "1 cycle of 3 samples",
+        601.0,
+        ["the last sample is the first again: leave it out if closed"],
+    ),
+    (wave(100, 33.2), {}, "1 cycle of 100 samples", 19998.5, ["the record repeats 2.9 times: period = 34?"]),
+    (
+        wave(100, 20) + [1.0, 0.0] * noise(100, 9.0, 2),
+        {},
+        "1 cycle of 100 samples",
+        20062.4742,
+        ["the record repeats 5 times: recorded_cycles = 5?"],
+    ),
+    (wave(100, 20, 3.0), {"recorded_cycles": 1}, "1 cycle of 100 samples", 19955.8025, []),
+    (
+        spoilt(wave(16, 16), (5, 1, 80.0)),
+        {"recorded_cycles": 1},
+        "1 cycle of 16 samples",
+        3280.0,
+        [
+            "tangential 135.433 in cycle 1, line 7 of the file, where the other samples suggest 51.21: a "
+            "spike? despike = true takes it out"
+        ],
+    ),
+    (spoilt(wave(15, 15), (5, 1, 80.0)), {"recorded_cycles": 1}, "1 cycle of 15 samples", 3080.0, []),
+    (spoilt(wave(16, 16), (1, 1, 80.0)), {"recorded_cycles": 1}, "1 cycle of 16 samples", 3280.0, []),
+    (
+        spoilt(wave(16, 16, 1e-3), (2, 1, 80.0)),
+        {"recorded_cycles": 1},
+        "1 cycle of 16 samples",
+        3279.99902,
+        [
+            "tangential 122.427 in cycle 1, line 4 of the file, where the other samples suggest 39.2: a "
+            "spike? despike = true takes it out"
+        ],
+    ),
+    (
+        spoilt(wave(16, 16), (13, 1, -80.0)),
+        {"recorded_cycles": 1},
+        "1 cycle of 16 samples",
+        3120.0,
+        [
+            "tangential -135.433 in cycle 1, line 15 of the file, where the other samples suggest -51.21: "
+            "a spike? despike = true takes it out"
+        ],
+    ),
+    (spoilt(wave(16, 16), (14, 1, -80.0)), {"recorded_cycles": 1}, "1 cycle of 16 samples", 3120.0, []),
+    (
+        spoilt(wave(200, 50, 0.3), *SPIKES),
+        {"recorded_cycles": 4, "despike": True},
+        "4 cycles of 50 samples; the cycles scatter by 0.27 (normal), 0.26 (tangential)",
+        9997.57234,
+        ["4 spikes replaced, tangential 75.0621 in cycle 1, line 22 of the file, by 34.86, and 3 more"],
+    ),
+    (
+        spoilt(wave(200, 50, 0.3), *SPIKES),
+        {"recorded_cycles": 4},
+        "4 cycles of 50 samples; the cycles scatter by 3 (normal), 4.5 (tangential)",
+        10010.0378,
+        [
+            "tangential 75.0621 in cycle 1, line 22 of the file, where the other samples suggest 34.86, "
+            "and 3 more: a spike? despike = true takes it out"
+        ],
+    ),
+    (
+        spoilt(wave(200, 50, 1e-3), (20, 1, 5.5)),
+        {"recorded_cycles": 4},
+        "4 cycles of 50 samples; the cycles scatter by 0.00089 (normal), 0.39 (tangential)",
+        10001.3668,
+        [],
+    ),
+    (
+        spoilt(wave(200, 50, 1e-3), (20, 1, 6.5)),
+        {"recorded_cycles": 4},
+        "4 cycles of 50 samples; the cycles scatter by 0.00089 (normal), 0.46 (tangential)",
+        10001.6168,
+        [],
+    ),
+    (
+        spoilt(wave(150, 50, 0.3), *PAIR),
+        {"recorded_cycles": 3, "despike": True},
+        "3 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential)",
+        9996.66426,
+        ["2 spikes replaced, tangential 125.704 in cycle 2, line 72 of the file, by 35.21, and 1 more"],
+    ),
+    (
+        spoilt(wave(100, 50, 0.3), *PAIR),
+        {"recorded_cycles": 2, "despike": True},
+        "2 cycles of 50 samples; the cycles scatter by 0.29 (normal), 13 (tangential)",
+        10090.2901,
+        [],
+    ),
+    (
+        spoilt(wave(150, 50, 1e-3), (70, 1, 55.0), (71, 1, 55.0)),
+        {"recorded_cycles": 3, "despike": True},
+        "3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 6.4 (tangential)",
+        10036.6564,
+        [],
+    ),
+    (
+        spoilt(wave(150, 50, 1e-3), (70, 1, 65.0), (71, 1, 65.0)),
+        {"recorded_cycles": 3, "despike": True},
+        "3 cycles of 50 samples; the cycles scatter by 0.00095 (normal), 7.5 (tangential)",
+        10043.3231,
+        [],
+    ),
+    (
+        wave(160, 40, 0.1),
+        {"period": 39},
+        "4 cycles of 39 samples; the cycles scatter by 0.85 (normal), 8.5 (tangential)",
+        7824.14259,
+        ["each of its 4 cycles comes 2.4% of a period late; is the period 39.95 and not 39?"],
+    ),
+    (
+        wave(160, 40, 0.1),
+        {"period": 41},
+        "3 cycles of 41 samples; the cycles scatter by 0.68 (normal), 6.7 (tangential)",
+        8209.45127,
+        [],
+    ),
+    (
+        wave(400, 40, 0.1),
+        {"period": 39.7},
+        "10 cycles of 40 samples; the cycles scatter by 0.6 (normal), 6 (tangential)",
+        8005.56121,
+        [],
+    ),
+    (
+        wave(400, 40, 0.1, (1, 2, 3, 4)),
+        {"period": 40.5},
+        "9 cycles of 40 samples; the cycles scatter by 1.7 (normal), 17 (tangential)",
+        8028.20741,
+        ["each of its 9 cycles comes 1.3% of a period early; is the period 39.96 and not 40.5?"],
+    ),
+    (
+        wave(400, 40, 0.5),
+        {"period": 31},
+        "12 cycles of 31 samples; the cycles scatter by 4.4 (normal), 44 (tangential)",
+        6241.25617,
+        ["its 12 cycles differ by more than their mean moves; is period right?"],
+    ),
+    (
+        wave(400, 40, 0.5),
+        {"recorded_cycles": 5},
+        "5 cycles of 80 samples; the cycles scatter by 0.5 (normal), 0.51 (tangential)",
+        15994.5372,
+        ["each cycle repeats 2 times: recorded_cycles = 10?"],
+    ),
+    (
+        wave(400, 40, 0.1),
+        {"recorded_cycles": 1},
+        "1 cycle of 400 samples",
+        79994.5372,
+        ["the cycle repeats 2 times: recorded_cycles = 2?"],
+    ),
+    (
+        wave(64, 8, 1e-3),
+        {"recorded_cycles": 4},
+        "4 cycles of 16 samples; the cycles scatter by 0.0011 (normal), 0.00083 (tangential)",
+        3199.99821,
+        ["each cycle repeats 2 times: recorded_cycles = 8?"],
+    ),
+    (both(NORMAL[:2], [60.0, -60.0], 8), {"recorded_cycles": 4}, "4 cycles of 2 samples", 410.0, []),
+    (
+        wave(32, 4, 1e-3),
+        {"recorded_cycles": 4},
+        "4 cycles of 8 samples; the cycles scatter by 0.00092 (normal), 0.00081 (tangential)",
+        1599.99883,
+        ["each cycle repeats 2 times: recorded_cycles = 8?"],
+    ),
+    (
+        wave(24, 3, 1e-3),
+        {"recorded_cycles": 4},
+        "4 cycles of 6 samples; the cycles scatter by 0.00089 (normal), 0.00088 (tangential)",
+        1199.99918,
+        [],
+    ),
+    (
+        wave(400, 40, 0.1, (2, 3)),
+        {"recorded_cycles": 10},
+        "10 cycles of 40 samples; the cycles scatter by 0.099 (normal), 0.1 (tangential)",
+        7999.45372,
+        [],
+    ),
+    (
+        wave(400, 40, 0.1, (2, 4)),
+        {"recorded_cycles": 10},
+        "10 cycles of 40 samples; the cycles scatter by 0.099 (normal), 0.1 (tangential)",
+        7999.45372,
+        ["each cycle repeats 2 times: recorded_cycles = 20?"],
+    ),
+    (
+        wave(400, 40, 0.1, (3, 6)),
+        {"recorded_cycles": 10},
+        "10 cycles of 40 samples; the cycles scatter by 0.099 (normal), 0.1 (tangential)",
+        7999.45372,
+        ["each cycle repeats 3 times: recorded_cycles = 30?"],
+    ),
+    (
+        wave(400, 40, 3.0, (2, 4)),
+        {"recorded_cycles": 10},
+        "10 cycles of 40 samples; the cycles scatter by 3 (normal), 3 (tangential)",
+        7983.61149,
+        ["each cycle repeats 2 times: recorded_cycles = 20?"],
+    ),
+    (
+        cycles(RISE),
+        {"recorded_cycles": 40},
+        "40 cycles of 20 samples; the cycles scatter by 0.48 (normal), 11 (tangential)",
+        4000.80091,
+        [
+            f"the first 4 cycles have a tangential amplitude of 11.93, the last of 60.03, and their mean, "
+            f"52.51, {MEAN_OF}"
+        ],
+    ),
+    (
+        cycles([1.0] * 11 + [0.6]),
+        {"recorded_cycles": 12},
+        "12 cycles of 20 samples; the cycles scatter by 0.52 (normal), 4.9 (tangential)",
+        4000.90793,
+        [
+            f"the first cycle has a tangential amplitude of 59.99, the last of 36.11, and their mean, "
+            f"58.04, {MEAN_OF}"
+        ],
+    ),
+    (
+        cycles([0.5, 1.0, 1.0, 1.0]),
+        {"recorded_cycles": 4},
+        "4 cycles of 20 samples; the cycles scatter by 0.56 (normal), 11 (tangential)",
+        3999.64572,
+        [],
+    ),
+    (
+        cycles([0.5, 1.0, 1.0, 1.0], 0.01),
+        {"recorded_cycles": 4},
+        "4 cycles of 20 samples; the cycles scatter by 0.011 (normal), 11 (tangential)",
+        3999.99291,
+        [],
+    ),
+    (
+        cycles([0.5, 1.0, 1.0], 0.01),
+        {"recorded_cycles": 3},
+        "3 cycles of 20 samples; the cycles scatter by 0.011 (normal), 12 (tangential)",
+        3999.98707,
+        [],
+    ),
+    (
+        cycles([0.93] + [1.0] * 19, 0.01),
+        {"recorded_cycles": 20},
+        "20 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.66 (tangential)",
+        4000.0142,
+        [],
+    ),
+    (
+        cycles([0.88] + [1.0] * 19, 0.01),
+        {"recorded_cycles": 20},
+        "20 cycles of 20 samples; the cycles scatter by 0.01 (normal), 1.1 (tangential)",
+        4000.0142,
+        [
+            f"the first 2 cycles have a tangential amplitude of 56.4, the last of 60, and their mean, "
+            f"59.64, {MEAN_OF}"
+        ],
+    ),
+    (
+        cycles([0.96] + [1.0] * 9, 0.01),
+        {"recorded_cycles": 10},
+        "10 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.54 (tangential)",
+        4000.01357,
+        [],
+    ),
+    (
+        cycles([0.94] + [1.0] * 9, 0.01),
+        {"recorded_cycles": 10},
+        "10 cycles of 20 samples; the cycles scatter by 0.01 (normal), 0.81 (tangential)",
+        4000.01357,
+        [
+            f"the first cycle has a tangential amplitude of 56.4, the last of 60, and their mean, 59.64, "
+            f"{MEAN_OF}"
+        ],
+    ),
+    (
+        wave(200, 50, 0.3, (1, 3)),
+        {"recorded_cycles": 4, "harmonics": 3, "absolute": True},
+        "4 cycles of 50 samples; mean normal load 199.96; the cycles scatter by 0.27 (normal), 0.27 "
+        "(tangential); the harmonics miss 0.27 (normal), 0.27 (tangential)",
+        9997.53782,
+        [],
+    ),
+    (
+        wave(200, 50, 0.3, (1, 3)),
+        {"recorded_cycles": 4, "absolute": True},
+        "4 cycles of 50 samples; mean normal load 199.96; the cycles scatter by 0.27 (normal), 0.27 "
+        "(tangential)",
+        9997.53782,
+        [],
+    ),
+    (
+        wave(190, 50, 0.3),
+        {"period": 50},
+        "3 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential)",
+        9996.91689,
+        [],
+    ),
+    (wave(99, 50, 0.3), {"period": 50}, "1 cycle of 50 samples", 9997.79164, []),
+    (
+        wave(100, 50, 0.3),
+        {"period": 50},
+        "2 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential)",
+        9997.79013,
+        [],
+    ),
+]
+
+
+@pytest.mark.parametrize(("values", "given", "words", "total", "told"), SIGNALS, ids=range(len(SIGNALS)))
+def test_what_is_said_of_a_signal(
+    tmp_path: Path, values: np.ndarray, given: dict[str, Any], words: str, total: float, told: list[str]
+) -> None:
+    rows = (",".join(map(repr, row)) for row in values.tolist())
+    (tmp_path / "r.csv").write_text("\n".join(["normal,tangential", *rows]))
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = read_signal(tmp_path / "r.csv", **given)
+    assert repr(found) == f"<Signal r: {words}>"
+    assert found.mean_cycle.sum() == pytest.approx(total, rel=1e-8)
+    assert [str(each.message) for each in caught] == [f"r: {line}" for line in told]
