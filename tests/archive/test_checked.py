@@ -13,7 +13,6 @@ import stand_in
 import xarray as xr
 from real import CONTACT
 
-import swtstudy
 from swtstudy import Study, open_results, run
 
 PLAIN = """title = "t"
