@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import stand_in
 from command import call
+from real import CONTACT
 
 from swtstudy import Study, run
 
@@ -57,6 +58,8 @@ normal_force = 250
 [axes]
 tangential_force_amplitude = [60, 150]
 """
+RIG = f"{CONTACT}normal_force = 200\n[axes]\ntangential_force_amplitude = [20, 60]\n"
+SAMPLE = 'title = "A sample"\nrtol = 1e-3\n[sample.points]\nfriction = [0.1, 0.2]\nphase = [0, 1]\n'
 #: The files that are there at the begin of each session.
 FILES = {
     "line.toml": LINE.format(numbers="[0.1, 0.2, 0.3]"),
@@ -68,6 +71,18 @@ FILES = {
     "few.toml": FAILING.replace("num = 6", "num = 5").partition("[figure]")[0],
     "panels.toml": PANELS,
     "units.toml": UNITS,
+    "figure.toml": LINE.format(numbers="[0.3]").replace("A line", "Mine") + '[figure]\nx = "friction"\n',
+    "coarse.toml": LINE.format(numbers="[0.4, 0.3]").replace("1e-3", "1e-2") + "phase = [0]\n",
+    "findley.toml": LINE.format(numbers="[0.1]")
+    + '[fixed]\ncriterion = "findley"\nnormal_sensitivity = 0.3\n',
+    "nearer.toml": LINE.format(numbers="[0.1]") + "critical_distance = [0.2]\n",
+    "nearest.toml": LINE.format(numbers="[0.1]") + "critical_distance = [0.1]\n",
+    "forces.toml": 'title = "Forces"\n[axes]\ntangential_force_amplitude = [0.2]\n',
+    "rig.toml": RIG,
+    "soft.toml": RIG.replace("350", "300").replace("0.409", "0.5"),
+    "sample.toml": SAMPLE,
+    "longer.toml": SAMPLE.replace("[0, 1]", "[1, 3]"),
+    "unlike.toml": SAMPLE.replace("phase", "poisson_ratio").replace("1]", "0.5]"),
     "bad.toml": LINE.format(numbers="[-1, 0.2]"),
 }
 _PARTS = (Path(__file__).parents[1] / "data" / "sessions.txt").read_text(encoding="utf-8").split("\n# ")
