@@ -15,6 +15,7 @@ from words import PARAMETERS
 
 import swtstudy
 from swtstudy import StudyError
+from swtstudy.cli.terminal import of_markdown
 
 #: The tests look at what is written, not at the layout of figures.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -107,6 +108,28 @@ def test_tables_of_markdown_are_set_in_columns(tmp_path: Path, monkeypatch: pyte
 
 
 NOT_FINITE = ("--profile", "truncated_paraboloid", "--flat-radius", "0.5", "--friction", "1.9")
+
+
+MARKDOWN = """# A title that is longer than a line
+* one, two, three, four, five, six
+plain words that go on and on
+| a | b |
+|---|---|
+| 1 | x |
+"""
+SET = """# A title that is
+longer than a line
+* one, two, three,
+  four, five, six
+plain words that go
+on and on
+a  b
+1  x"""
+
+
+@pytest.mark.parametrize(("width", "text"), [(None, MARKDOWN), (20, SET)])
+def test_a_list_is_indented_where_it_is_broken(width: int | None, text: str) -> None:
+    assert of_markdown(MARKDOWN, width) == text
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ import xarray as xr
 from asking import EVERY
 from real import CONSTANTS, CONTACT, CRITERIA
 
+import swtstudy
 from swtstudy import Study, run
 
 PLAIN = f"""title = "t"
@@ -74,3 +75,10 @@ def test_all_attributes_are_these(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(stand_in.QUANTITIES, stand_in.asked)
     found = run(Study.from_text(STUDIES[name]), tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
     assert attributes(found).strip() == SAID[name].strip()
+
+
+def test_what_is_not_always_there_is_not_minimised() -> None:
+    with pytest.raises(ValueError, match="minimise: ") as error:
+        swtstudy.optimise({"friction": (0.1, 0.5)}, "radius_ratio")
+    known = "s, s_surface, critical_x, critical_angle, message"
+    assert str(error.value).endswith(f"known: {known}, {', '.join(EVERY)}")
