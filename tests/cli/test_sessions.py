@@ -95,6 +95,8 @@ VARYING = {
     r"\(python .*\)": "(versions)",
     r"\d{4}-\d\d-\d\dT[\d:+]+": "now",
     r"solver version \d+": "solver version 1",
+    # Equal lines of one second are one.
+    r"(  history .*\n)\1+": r"\1",
 }
 
 
