@@ -432,6 +432,12 @@ CHANGES: list[tuple[str, Callable, str]] = [
         lambda found: found.rename(tangential_force_amplitude="tangential_amplitude"),
         ("control: found 'normal_displacement+tangential_force'; allowed: 'displacements'"),
     ),
+    (
+        "plain",
+        lambda found: found.assign(mine=found.s).assign_attrs(figure='{"x": "phase", "y": ["mine"]}'),
+        'attribute figure: found \'{"x": "phase", "y": ["mine"]}\' (\'mine\' is not a quantity); '
+        "allowed: JSON as swtstudy writes it",
+    ),
 ]
 
 

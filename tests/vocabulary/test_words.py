@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.special import struve
 
-from swtstudy.vocabulary import choices, definition, derived, files, mistakes, wording
+from swtstudy.vocabulary import choices, definition, derived, families, files, mistakes, wording
 from swtstudy.vocabulary.quantities import Request, read_quantities
 
 
@@ -447,6 +448,15 @@ CASES: list[tuple[Callable[[], Any], Any]] = [
         ],
     ),
 ]
+
+
+def test_waves_are_known_at_all_that_is_asked() -> None:
+    """H₀(x) + x (2/π − H₁(x)) by SciPy, where that has a value."""
+    x = np.concatenate([np.linspace(0.0, 60.0, 997), np.linspace(60.0, 31_000.0, 997)])
+    found, expected = families.wave(x), struve(0, x) + x * (2.0 / np.pi - struve(1, x))
+    assert np.isfinite(found).all()
+    there = np.isfinite(expected)
+    np.testing.assert_allclose(found[there], expected[there], rtol=1e-8, atol=1e-7)
 
 
 @pytest.mark.parametrize(("found", "expected"), CASES)
