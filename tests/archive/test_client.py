@@ -17,6 +17,7 @@ import stand_in
 from command import call
 
 from swtstudy import Study, run
+from swtstudy.vocabulary.version import SOLVER_VERSION
 
 LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {start = "0.01", stop = 2, num = 400}\n'
 
@@ -147,10 +148,12 @@ def test_each_thread_of_a_cluster_has_a_task_and_one_to_go_on_with(
     assert client.most == tasks
 
 
-def failing(client: Client, error: BaseException) -> None:
-    """Let every task of a client end with an error."""
+def failing(client: Client, error: BaseException, at_once: bool = False) -> None:
+    """Let every task of a client end with an error, or fail when it is given to it."""
 
     def submit(*_: object) -> Future[Any]:
+        if at_once:
+            raise error
         future: Future[Any] = Future()
         future.set_exception(error)
         return future
@@ -168,13 +171,23 @@ def test_a_client_whose_scheduler_ends_says_so(tmp_path: Path) -> None:
     assert not client.stopped
 
 
-def test_points_whose_workers_are_killed_fail_one_by_one(tmp_path: Path) -> None:
+@pytest.mark.parametrize("at_once", [False, True])
+def test_points_whose_workers_are_killed_fail_one_by_one(tmp_path: Path, at_once: bool) -> None:
     from distributed.scheduler import KilledWorker
 
     client = Client()
-    failing(client, KilledWorker("a task", None, 0))  # type: ignore[arg-type]
+    failing(client, KilledWorker("a task", None, 0), at_once)  # type: ignore[arg-type]
     found = run(Study.from_text(LINE.replace("400", "3")), tmp_path / "a.nc", client=client)  # type: ignore[arg-type]
     assert found.message.values.tolist() == ["the worker process died while it computed this point"] * 3
+
+
+def test_workers_of_another_version_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("swtstudy.points.chunk.SOLVER_VERSION", "other")
+    words = (
+        f"a worker has version other of the solver, this machine {SOLVER_VERSION}; 0 of 400 distinct points"
+    )
+    with pytest.raises(OSError, match=f"^{words} are saved beside"):
+        run(Study.from_text(LINE), tmp_path / "a.nc", solver=stand_in.smooth)
 
 
 def test_what_is_no_client_is_named(tmp_path: Path) -> None:

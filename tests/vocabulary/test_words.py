@@ -81,6 +81,7 @@ CASES: list[tuple[Callable[[], Any], Any]] = [
     (lambda: wording.value_words("friction", -1 / 3), "-1/3"),
     (lambda: wording.value_words("friction", 1 / 19), "1/19"),
     (lambda: wording.value_words("friction", math.sqrt(999)), "√999"),
+    (lambda: wording.value_words("friction", math.sqrt(1000)), "31.62"),
     (lambda: wording.value_words("friction", math.sqrt(1001)), "31.64"),
     (lambda: wording.value_words("friction", -math.sqrt(2)), "-1.414"),
     (lambda: wording.value_words("friction", 2 / 3 * (1 + 1e-8)), "0.6667"),
