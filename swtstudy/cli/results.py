@@ -14,7 +14,7 @@ from swtstudy.cli import terminal
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
-from swtstudy.vocabulary.wording import place_words
+from swtstudy.vocabulary.wording import number_of, place_words
 
 
 @click.command()
@@ -164,6 +164,6 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
         with keeping(kept_folder(target), dropped):
             save(dataset, target)
     missing = int((dataset.status == MISSING).sum())
-    click.echo(f"{target}: {dataset.s.size} points, {missing} of them missing")
+    click.echo(f"{target}: {number_of(dataset.s.size, 'point')}, {missing} of them missing")
     if len(dropped):
         click.echo(f"{len(dropped)} points of before are kept in {kept_folder(target)}", err=True)

@@ -179,5 +179,5 @@ def _summarize(dataset: xr.Dataset, target: Path, effort: str) -> bool:
     if len(failed) > _NAMED:
         click.echo(f"failed: {len(failed) - _NAMED} more, see swtstudy info {target}", err=True)
     if failed:
-        click.echo(f"{len(failed)} points failed; --retry-failed recomputes them", err=True)
+        click.echo(f"{number_of(len(failed), 'point')} failed; --retry-failed recomputes them", err=True)
     return bool(failed)

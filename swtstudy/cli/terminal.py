@@ -87,7 +87,7 @@ def check_options(context: click.Context, command: click.Command, args: list[str
         _, _, order = command.make_parser(own).parse_args(list(args))
     except click.NoSuchOption as error:
         names = {name: f"--{name.replace('_', '-')}" for name in (p.name for p in command.params) if name}
-        close = meant(error.option_name.lstrip("-"), names)
+        close = meant(error.option_name, names)
         if close is None:
             raise
         words = f"No such option '{error.option_name}'. Did you mean '{names[close]}'?"

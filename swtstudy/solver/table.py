@@ -346,7 +346,7 @@ def _mistakes(name: object, radius: FloatArray, height: FloatArray, smoothing: o
         yield Mistake(both, found, f"as many of each, at least {FEWEST}")
         return
     if radius.size > MOST:
-        allowed = f"at most {MOST}: every {-(-radius.size // MOST)}th, or the mean of so many"
+        allowed = f"at most {MOST}: one of every {-(-radius.size // MOST)}, or the mean of so many"
         yield Mistake(both, f"{radius.size} points", allowed)
         return
     if radius[0] != 0.0 or height[0] != 0.0:

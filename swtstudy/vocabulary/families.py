@@ -160,8 +160,4 @@ def _series_of_wave(j: int) -> FloatArray:
     y = np.cos(np.pi * (np.arange(WAVE_ORDER) + 0.5) / WAVE_ORDER)
     x = np.pi * (2.0 * j + 1.0 + y)
     value = struve(0, x) + x * (2.0 / np.pi - struve(1, x))
-    bad = ~np.isfinite(value)  # SciPy gives NaN next to the zeros
-    if bad.any():
-        near = x[bad] * (1.0 + 1e-7)
-        value[bad] = struve(0, near) + near * (2.0 / np.pi - struve(1, near))
     return np.polynomial.chebyshev.chebfit(y, value, WAVE_ORDER - 1)

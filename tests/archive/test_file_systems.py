@@ -64,6 +64,24 @@ def test_a_disk_that_refuses_a_lock_says_what_to_do(tmp_path, monkeypatch):
         run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
 
 
+def test_a_system_without_locks_runs_all_the_same(tmp_path, monkeypatch):
+    monkeypatch.setattr("swtstudy.archive.paths.fcntl", None)
+    twice(tmp_path / "t.nc")
+
+
+def test_a_lock_that_may_not_be_opened_is_told_as_it_is(tmp_path, monkeypatch):
+    own = os.open
+
+    def refuse(path, *arguments, **named):
+        if str(path).endswith("lock"):
+            raise PermissionError(13, "Permission denied", str(path))
+        return own(path, *arguments, **named)
+
+    monkeypatch.setattr(os, "open", refuse)
+    with pytest.raises(PermissionError, match="Permission denied"):
+        run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
+
+
 @pytest.mark.parametrize("make", [os.mkfifo, lambda lock: lock.symlink_to(lock.parents[1] / "precious")])
 def test_a_lock_that_is_a_pipe_or_a_link_is_left_alone(tmp_path, make):
     (tmp_path / "precious").write_text("precious")

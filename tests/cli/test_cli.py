@@ -666,6 +666,7 @@ def test_a_new_study_of_a_cylinder_has_forces(template):
     ("words", "typed", "offered"),
     [
         ("swtstudy run", "fig", {"plain,figure3", "plain,figure8"}),
+        ("swtstudy run --workers 1 --workers 2", "fig", {"plain,figure3", "plain,figure8"}),
         ("swtstudy validate", "mi", {"plain,mine.toml"}),
         ("swtstudy validate", "stu", {"plain,studies/own.toml"}),
         ("swtstudy info", "", {"plain,results/mine.nc"}),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import re
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from words import PARAMETERS
 
 import swtstudy
 from swtstudy import StudyError
+from swtstudy.cli.terminal import line_length, of_markdown
 
 #: The tests look at what is written, not at the layout of figures.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -107,6 +109,36 @@ def test_tables_of_markdown_are_set_in_columns(tmp_path: Path, monkeypatch: pyte
 
 
 NOT_FINITE = ("--profile", "truncated_paraboloid", "--flat-radius", "0.5", "--friction", "1.9")
+
+
+def test_a_closed_stream_has_lines_of_any_length(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = io.StringIO()
+    stream.close()
+    for each in (stream, None):
+        monkeypatch.setattr("sys.stdout", each)
+        assert line_length() is None
+
+
+MARKDOWN = """# A title that is longer than a line
+* one, two, three, four, five, six
+plain words that go on and on
+| a | b |
+|---|---|
+| 1 | x |
+"""
+SET = """# A title that is
+longer than a line
+* one, two, three,
+  four, five, six
+plain words that go
+on and on
+a  b
+1  x"""
+
+
+@pytest.mark.parametrize(("width", "text"), [(None, MARKDOWN), (20, SET)])
+def test_a_list_is_indented_where_it_is_broken(width: int | None, text: str) -> None:
+    assert of_markdown(MARKDOWN, width) == text
 
 
 @pytest.mark.parametrize(
