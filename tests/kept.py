@@ -126,7 +126,7 @@ def _text(text: Text, axes: Axes | None = None) -> dict[str, Any]:
     return said
 
 
-def _line(line: Line2D, axes: Axes | None = None) -> dict[str, Any]:
+def line_of(line: Line2D, axes: Axes | None = None) -> dict[str, Any]:
     words = [str(line.get_label()), colour(line.get_color()), str(line.get_linestyle()), line.get_drawstyle()]
     words += [str(line.get_marker()), str(line.get_fillstyle()), colour(line.get_markerfacecolor())]
     words += [str(line.get_markevery()), "clipped" if line.get_clip_on() else "", _place(line, axes)]
@@ -187,7 +187,7 @@ def _panel(axes: Axes) -> dict[str, Any]:
         "grid": [bool(axis._major_tick_kw.get("gridOn")) for axis in (axes.xaxis, axes.yaxis)],
         "frame": [axes.get_frame_on(), colour(axes.get_facecolor())],
         "aspect": str(axes.get_aspect()),
-        "lines": [_line(each, axes) for each in axes.lines],
+        "lines": [line_of(each, axes) for each in axes.lines],
         "texts": [_text(each, axes) for each in axes.texts],
         "collections": [_collection(each) for each in axes.collections],
         "patches": [_patch(each) for each in axes.patches],

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
 import re
+import sys
 from collections.abc import Callable
 from html import unescape
 from pathlib import Path
@@ -20,8 +23,8 @@ from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, evaluate_history, physical, read_history, run
+from swtstudy.faces import html, site
 from swtstudy.faces import page as pages
-from swtstudy.faces import site
 from swtstudy.faces.elements import write_history
 
 FIGURE = """
@@ -337,3 +340,128 @@ def test_messages_of_histories(kept: Kept, tmp_path: Path, monkeypatch: pytest.M
     tell("values", rows, RIG.replace("2e5", "'stiff'").replace("poisson_ratio = 0.3\n", ""))
     tell("axis", rows, RIG.replace("young_modulus = 2e5\n", "") + "[axes]\nyoung_modulus = [1, 2]\n")
     kept("messages_of_histories", said)
+
+
+def test_shares_values_and_symbols() -> None:
+    """The words of a page for numbers, angles, names and symbols."""
+    said = {share: html.share(share) for share in (0.0, 1.0, 0.5, 0.054, 0.9996, 9e-5, 0.00999, 0.9, 1.2)}
+    assert said == {
+        0.0: "0 %", 1.0: "100 %", 0.5: "50 %", 0.054: "5 %", 0.9996: "99.96 %", 9e-5: "0.009 %",
+        0.00999: "1.0 %", 0.9: "90 %", 1.2: "120 %",
+    }  # fmt: skip
+    body = {"flag_values": [1, 2], "flag_meanings": "upper_pad rod"}
+    for name, value, attributes, words in (
+        ("phase", np.nan, {}, "–"),
+        ("s", -np.inf, {}, "–"),
+        ("s", -0.25, {}, "−0.25"),
+        ("s", 3, {}, "3"),
+        ("phase", 0.0, {}, "0"),
+        ("phase", -0.5, {}, "−0.159π"),
+        ("phase", np.pi / 2, {}, "π/2"),
+        ("phase", True, {}, "True"),
+        ("profile", "rounded_punch", {}, "rounded punch"),
+        ("load", "a-b", {}, "a-b"),
+        ("body", 1, body, "upper pad"),
+        ("friction", -0.5, {}, "−0.5"),
+    ):
+        assert html.value_text(name, value, attributes) == words, (name, value)
+    for latex, symbol in (
+        (r"\delta_A/\delta_0", "<i>δ</i><sub><i>A</i></sub>/<i>δ</i><sub>0</sub>"),
+        (r"G^* u", "<i>G</i><sup>*</sup><i>u</i>"),
+        (r"\Delta s_{\mathrm{a, b}}", "<i>Δ</i><i>s</i><sub>a, b</sub>"),
+        (r"\lambda/\sqrt{hR}", "<i>λ</i>/√(<i>h</i><i>R</i>)"),
+        (r"\varphi\cdot\max x", "<i>φ</i>·max <i>x</i>"),
+        (r"\ell_1^2 \approx \infty", "<i>ℓ</i><sub>1</sub><sup>2</sup>≈∞"),
+        (r"<a>_{x_y}", "&lt;<i>a</i>&gt;<sub><i>x</i><sub><i>y</i></sub></sub>"),
+        (r"-\text{two words}", "−two words"),
+    ):
+        assert html.symbol_html(latex) == symbol, latex
+
+
+def test_what_a_page_cannot_draw_or_tell_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    lines = (
+        'title = "t"',
+        "fixed.tangential_force_amplitude = 1.5",
+        "axes.normal_force_amplitude = [0, 0.1]",
+    )
+    text = "\n".join(lines)
+    monkeypatch.setattr("swtstudy.faces.page.embedded", lambda *_, **__: pages.Picture("data:,", 400, 300))
+    monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
+    found = run(Study.from_text(text), tmp_path / "a.nc", workers=1)
+    said = words_of(pages.page(found, "a"))["points"]
+    assert said.count(next(line for line in said if line.startswith("Not drawn: "))) == 1
+    assert "at which the body slides away or is lifted off (no equilibrium)" in " ".join(said)
+    monkeypatch.setattr("swtstudy.faces.page.inspect", lambda **_: Figure())
+    sample = run(Study.from_text(SAMPLE), tmp_path / "b.nc", workers=1)
+    sample.s[0, 0] = np.nan
+    assert "No indices: s: found no number at 1 of 64 points, such as friction=" in " ".join(
+        words_of(
+            pages.page(
+                sample.drop_attrs(deep=False).assign_attrs(
+                    {k: v for k, v in sample.attrs.items() if k != "figure"}
+                ),
+                "b",
+            )
+        )["matters"]
+    )
+    listed = site.listing(
+        [site.Entry("a b", "Ä", "One.", None), site.Entry("c", "C", "", pages.Picture("data:,", 3, 2))]
+    )
+    assert re.findall('href="([^"d][^"]*)"', listed) == ["a%20b.html", "c.html"]
+    assert [line for line in words_of(listed)["head"] if line[:4] in ("2 pa", "Ä", "One.", "C")] == [
+        "2 parameter studies",
+        "Ä",
+        "One.",
+        "C",
+    ]
+    assert "Made by swtstudy VERSION." in words_of(listed)["head"]
+
+
+def test_other_parameters_of_the_same_bodies(kept: Kept) -> None:
+    """Lengths follow from what they are measured in; loads of a pair replace one another."""
+    one = physical(**REAL | CONTACTS["plain"])
+    r = np.linspace(0.0, 2.0, 30)
+    table = swtstudy.TabulatedProfile("pad", r, 0.5 * r * r, 0.0)
+    said = {}
+    for name, given in {
+        "amplitude": {"normal_amplitude": 0.25, "friction": 0.7},
+        "force": {"tangential_force_amplitude": 0.4},
+        "shape": {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5.0},
+        "table": {"profile": table},
+    }.items():
+        other = one.with_parameters(**given)
+        said[name] = [
+            *repr(other).splitlines(),
+            *(f"{key} = {each}" for key, each in other.parameters().items()),
+        ]
+    kept("contact_with_parameters", said)
+
+
+def test_a_mistake_of_a_place_is_told_as_it_is() -> None:
+    contact = physical(**REAL | CONTACTS["plain"])
+    x = xr.DataArray([0.0, 0.1], dims="time")
+    with pytest.raises(StudyError, match=r"^x, y, z: found a dimension named time; allowed: other names"):
+        contact.stress_field(x, 0.0, 0.0)
+
+
+def test_a_table_may_lack_what_is_not_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    history = read_history(of_elements(tmp_path))
+    (tmp_path / "rig.toml").write_text(RIG.replace("normal_sensitivity = 0.3\n", ""))
+    found = evaluate_history(history, tmp_path / "rig.toml", 2)
+    assert [*found.data_vars] == ["SWT", "SWT_normal", "cycles"]
+    monkeypatch.setitem(sys.modules, "meshio", None)
+    with pytest.raises(StudyError) as caught:
+        write_history(found, Path("a.vtu"))
+    words = "output: found a.vtu; allowed: pip install meshio, which writes it; or a .csv file"
+    assert str(caught.value) == words
+
+
+def test_tables_of_pages_are_packed_for_spreadsheets() -> None:
+    """Errors have two digits, other numbers seven; words that a spreadsheet runs have an apostrophe."""
+    table = pd.DataFrame(
+        {"s": [1 / 3, 2.0], "s_error": [0.01234, 5e-9], "name": ["=1", "a=1"], "n": ["\t", ""]}
+    )
+    head, _, data = html.packed(table).partition(",")
+    assert head == "data:application/gzip;base64"
+    text = gzip.decompress(base64.b64decode(data)).decode()
+    assert text == "s,s_error,name,n\n0.3333333,0.012,'=1,'\t\n2,5e-09,a=1,\n"

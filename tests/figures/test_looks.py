@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -10,14 +12,27 @@ import pytest
 import real
 import xarray as xr
 from drawn import draw, keys
-from kept import Kept, drawn
+from kept import Kept, drawn, line_of
 from made_up import made_up
+from matplotlib.transforms import IdentityTransform
+from PIL import Image
 from solved import REGIMES
 
 import swtstudy
-from swtstudy import Study, draw_load, draw_profile
-from swtstudy.figures.live import LiveFigure
+from swtstudy import Study, StudyError, draw_load, draw_profile
+from swtstudy.figures.live import Explorer, LiveFigure, phases
+from swtstudy.figures.sheet import LoopHandler, Sheet, new_figure
 from swtstudy.figures.statistics import draw_fit, draw_sensitivity, fit_lines
+from swtstudy.figures.style import style_of
+from swtstudy.figures.words import (
+    is_life,
+    power_words,
+    quantity_words,
+    tick_in_pi,
+    tick_in_ratios,
+    tick_names,
+    title_words,
+)
 
 #: The layout of a figure depends on the sizes of letters.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -259,3 +274,201 @@ def test_live_figures(name: str, kept: Kept) -> None:
     live = LiveFigure()
     live.redraw(**given)
     kept(name, drawn(live.figure))
+
+
+def test_sliders(kept: Kept) -> None:
+    """What they are called, from where to where they go, what is shown of them, and what they ask for."""
+    pytest.importorskip("ipywidgets")
+    explorer = Explorer()
+    said: dict[str, Any] = {"caption": explorer.caption.value, "picture": explorer.picture.value[:4].hex()}
+    for profile, control in (("wavy_paraboloid", "displacements"), ("paraboloid", "forces")):
+        explorer.controls["control"].value, explorer.controls["profile"].value = control, profile
+        for name, each in explorer.controls.items():
+            ends = [getattr(each, end, 0.0) for end in ("min", "max", "step")]
+            words = [each.description, each.tooltip, each.layout.display, each.layout.width]
+            words += [each.style.description_width, getattr(each, "readout_format", "")]
+            choices = [*map(str, getattr(each, "options", ()))]
+            said[f"{name} of {control}"] = [*map(str, words), *map(float, ends), str(each.value), *choices]
+        said[f"parameters of {control}"] = {name: str(each) for name, each in explorer.parameters.items()}
+    said["refused"] = explorer.caption.value
+    kept("sliders", said)
+
+
+def test_without_widgets_there_are_no_sliders(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ipywidgets", None)
+    with pytest.raises(ImportError, match=r'^sliders need the extra "live": pip install "swtstudy\[live\]"$'):
+        Explorer()
+
+
+def test_a_live_figure_is_saved_with_300_dots_per_inch(tmp_path: Path) -> None:
+    live = LiveFigure()
+    live.figure.set_size_inches(1.0, 0.5)
+    live.save(tmp_path / "a.png")
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.size == (300, 150)
+    with Image.open(BytesIO(live.png())) as picture:
+        assert picture.size == (80, 40)
+    with Image.open(BytesIO(new_figure((1.0, 0.5))._repr_png_())) as picture:
+        assert picture.size[0] == 100.0
+
+
+@pytest.mark.parametrize(
+    "phase_of", [(1, 1, 24), ("1/2", 1, 24), ("4/3", 2, 192), (3, 1, 72), ("2/3", 1, 48)]
+)
+def test_phases_of_a_live_figure(phase_of: tuple[Any, int, int]) -> None:
+    ratio, finer, count = phase_of
+    np.testing.assert_allclose(phases(ratio, finer), np.linspace(0.0, 2.0 * np.pi, count + 1))
+
+
+#: Rows, panels of each, width and more of a sheet.
+SHEETS: list[tuple[Any, ...]] = [
+    *((1, count, width) for count in (1, 4, 7) for width in (None, "column", "page")),
+    (4, 9, "column"),
+    (1, 13, "column", (4.0, 3.2), 2.4, False),
+    (1, 5, "page", (4.0, 3.2), 3.0),
+    (1, 2, None, (20.0, 3.0)),
+]
+
+
+def test_sheets(kept: Kept) -> None:
+    said: dict[str, Any] = {}
+    for given in SHEETS:
+        sheet = Sheet(*given)
+        figure = sheet.figure(1.5)
+        pads = figure.get_layout_engine().get()
+        size = [*figure.get_size_inches(), *(pads[name] for name in ("w_pad", "h_pad", "wspace", "hspace"))]
+        said[str(given)] = [sheet.across, [*map(float, size)], str(figure.width)]
+    for share_x, share_y in (("all", "row"), ("row", "all"), ("none", "none")):
+        sheet = Sheet(2, 4)
+        figure = sheet.figure()
+        axes = sheet.panels(figure, share_x, share_y)
+        sheet.label_left(axes[0], "words")
+        for name, one in zip("ABCDEFGH", axes.ravel(), strict=True):
+            across = one.xaxis.get_tick_params()["labelbottom"], one.yaxis.get_tick_params()["labelleft"]
+            joined = [other for other in axes.ravel() if one.get_shared_x_axes().joined(one, other)]
+            beside = [other for other in axes.ravel() if one.get_shared_y_axes().joined(one, other)]
+            place = one.get_subplotspec().get_geometry()
+            said[f"{name} {share_x} {share_y}"] = [
+                *place,
+                *across,
+                len(joined),
+                len(beside),
+                one.get_ylabel(),
+            ]
+    kept("sheets", said)
+    with pytest.raises(StudyError) as caught:
+        Sheet(1, 1, "screen")  # type: ignore[arg-type]
+    assert str(caught.value) == 'width: found \'screen\'; allowed: "column", "page", or None for a screen'
+
+
+def test_loops_in_a_legend(kept: Kept) -> None:
+    loops = {
+        "up": swtstudy.LoadPath("up", [[0, 1], [1, 0], [0, -1]]),
+        "rest": swtstudy.LoadPath("rest", [[0, 1], [0, -1]]),
+    }
+    figure = new_figure((3.0, 3.0))
+    axes = figure.subplots()
+    lines = [axes.plot([0.0, 1.0], [0.0, 1.0], label=name, color="C1")[0] for name in ("up", "rest", "none")]
+    legend = axes.legend()
+    said = {}
+    for line in lines:
+        made = LoopHandler(loops).create_artists(
+            legend, line, 1.0, 2.0, 100.0, 20.0, 8.0, IdentityTransform()
+        )
+        said[str(line.get_label())] = [line_of(each) for each in made]
+    kept("loops_in_a_legend", said)
+
+
+def test_words_and_ticks(kept: Kept) -> None:
+    """Ticks in π, of ratios, of names and of flags; words of quantities and their titles."""
+    figure = new_figure((3.0, 3.0))
+    axes = figure.subplots()
+    said: dict[str, Any] = {}
+    for ends in (
+        (0.0, 1.0),
+        (0.0, 6.3),
+        (-7.0, 9.0),
+        (0.0, 10.0),
+        (0.0, 40.0),
+        (0.1, 4.7),
+        (0.0, 1.5 * np.pi),
+    ):
+        tick_in_pi(axes.xaxis, *ends)
+        said[f"π {ends}"] = [
+            [float(f"{at:.6g}") for at in axes.get_xticks()],
+            [t.get_text() for t in axes.get_xticklabels()],
+        ]
+    for ends in (
+        (0.3, 4.0),
+        (2.1, 4.6),
+        (10.0, 9999.0),
+        (1.0, 1000.0),
+        (9e-6, 1e-3),
+        (6e4, 8e6),
+        (1e5, 2e6),
+        (0.0, 3.0),
+        (1e-5, 1e-4),
+        (1e5, 1.3e5),
+    ):
+        for axis in (axes.xaxis, axes.yaxis):
+            one = new_figure((3.0, 3.0)).subplots()
+            one.set(xscale="log", yscale="log")
+            own = one.xaxis if axis is axes.xaxis else one.yaxis
+            (one.set_xlim if axis is axes.xaxis else one.set_ylim)(max(ends[0], 1e-9), ends[1])
+            tick_in_ratios(own, *ends)
+            inside = [at for at in own.get_majorticklocs() if ends[0] <= at <= ends[1]]
+            said[f"{axis.axis_name} {ends}"] = [
+                *own.get_major_formatter().format_ticks(inside),
+                type(own.get_minor_formatter()).__name__,
+            ]
+    for count, letters in ((3, 4), (12, 4), (40, 2), (9, 40)):
+        for axis, most in ((axes.xaxis, 9), (axes.yaxis, 20)):
+            tick_names(axis, [f"{k % 7}" * letters for k in range(count)], most)
+            said[f"names {count} {letters} {axis.axis_name}"] = [t.get_text() for t in axis.get_ticklabels()]
+    said["powers"] = [
+        power_words(value) for value in (-1.0, 0.0, 1.0, 2.0, 9.9999, 10.0, 5e6, 1e-7, 1234.0, 1000.0)
+    ]
+    said["life"] = [is_life({"symbol": "N_1"}), is_life({"symbol": "n"}), is_life({})]
+    known = {
+        "critical_x": {"symbol": "x/a_H", "units": "1", "long_name": "critical point x/a_H"},
+        "critical_angle": {"symbol": r"\varphi", "units": "degree"},
+        "critical_position": {"symbol": "x", "units": "mm", "long_name": "critical point"},
+        "SWT": {"symbol": r"\mathrm{SWT}", "units": "MPa"},
+        "SWT_volume": {"symbol": r"\mathrm{SWT}_V", "units": "MPa", "long_name": "mean"},
+        "findley_usage": {"symbol": "f/f_0", "units": "1", "long_name": "usage"},
+        "FS_cycles": {"symbol": "N_{FS}", "long_name": "rounds"},
+        "mine": {"symbol": r"\varphi", "units": "a_b"},
+        "plain_words": {},
+        "s": {"criterion": "findley"},
+    }
+    for name, words in known.items():
+        values = xr.DataArray(1.0, name=name, attrs=words)
+        said[f"words of {name}"] = [quantity_words(values, name), title_words(values, name)]
+    s = xr.DataArray(1.0, name="s")
+    said["words of s"] += [
+        quantity_words(s, "s"),
+        quantity_words(s.assign_attrs(criterion="three"), "s"),
+        title_words(s, " s "),
+    ]
+    said["words of s"] += [quantity_words(s, "s/s(phase=pi/2)"), quantity_words(s, "s/s(profile=cone)")]
+    kept("words_and_ticks", said)
+
+
+def test_styles(kept: Kept) -> None:
+    kept(
+        "styles",
+        {name: {key: str(each) for key, each in style_of(name).items()} for name in ("screen", "print")},
+    )
+
+
+def test_a_map_of_one_regime_has_no_border() -> None:
+    found = results().isel(profile=0, normal_amplitude=0, phase=[0, 1, 2])
+    layout = keys("phase", kind="contour", vertical="friction", regimes=True)
+    assert not [text for text in draw(found, layout).axes[0].texts if "slip" in text.get_text()]
+    short = results().isel(profile=0, normal_amplitude=0, friction=0, phase=[0, 11])
+    assert len(draw(short, keys("phase", y=("critical_x",))).axes[0].lines) == 1
+
+
+def test_a_shape_without_sense_is_refused() -> None:
+    with pytest.raises(StudyError, match=r"^flat_radius: found -1 \(out of range\); allowed: "):
+        draw_profile(profile="rounded_punch", flat_radius=-1)

@@ -14,7 +14,10 @@ from made_up import made_up
 from solved import REGIMES
 
 import swtstudy
-from swtstudy.results.inspection import load_and_springs
+from swtstudy import StudyError
+from swtstudy.results.history import one_of_both, smallest_sphere
+from swtstudy.results.inspection import load_and_springs, marked_instants
+from swtstudy.results.optimise import Planes, lowest_of, newton, read_ranges, tangent_planes
 
 POINT: dict[str, Any] = {"frequency_ratio": "1/2", "phase": 0.4, "normal_amplitude": 0.5, "friction": 0.5}
 LOOP = swtstudy.LoadPath("loop", [[0, 1], [1, 0], [0, -1], [-1, 0]])
@@ -183,3 +186,125 @@ def test_messages(kept: Kept) -> None:
     said = {name: refusal(ask) for name, ask in REFUSED.items()}
     said["apart"] = [words.partition(" (cannot")[0] for words in said["apart"]]  # xarray's own words
     kept("messages_of_results", said)
+
+
+def test_a_search_that_ends_early_is_warned_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = np.ones(3), np.tile([1.0, 0.0, 0.0], (3, 1)), 2
+    monkeypatch.setattr("swtstudy.kernel.all_planes.planes_of", lambda *_: found)
+    words = "^the search over planes ended early at 2 of 3 histories: their values may be low$"
+    with pytest.warns(RuntimeWarning, match=words) as caught:
+        swtstudy.swt_of_history(np.ones((3, 2, 6)), 0.3)
+    assert caught[0].filename == __file__
+
+
+def test_a_quantity_that_is_finite_nowhere_has_no_optimum(monkeypatch: pytest.MonkeyPatch) -> None:
+    def infinite(points: Any, rtol: float) -> stand_in.Solution:
+        found = stand_in.smooth(points, rtol)
+        return found._replace(s=np.full(len(found.s), np.inf))
+
+    monkeypatch.setattr(stand_in.SOLVER, infinite)
+    words = (
+        r"^over: found no finite value at any of \d+ points; allowed: ranges in which the quantity is finite"
+    )
+    with pytest.raises(StudyError, match=words):
+        swtstudy.optimise(over={"phase": (0, 1)})
+
+
+def test_spheres_around_points() -> None:
+    """The smallest one is on two, three or four of them; points inside, and equal ones, do not count."""
+    corners = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
+    turned = np.array([[np.cos(a), np.sin(a), 0.0] for a in (0.0, 2.0, 4.0)])
+    tetrahedron = np.array([[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
+    far = 1e6 + np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, 0.5, 0.0]])
+    for points, centre, radius in (
+        (corners[:2], [0, 0, 0], 1.0),
+        (corners, [0, 0, 0], 1.0),
+        (turned, [0, 0, 0], 1.0),
+        (tetrahedron, [0, 0, 0], 3.0**0.5),
+        (np.tile(corners[:1], (4, 1)), corners[0], 0.0),
+        (far, [1e6 + 1.0, 1e6, 1e6], 1.0),
+    ):
+        for order in (points, points[::-1], np.repeat(points, 2, axis=0)):
+            middle, size = smallest_sphere(order)
+            np.testing.assert_allclose(middle, centre, atol=1e-9)
+            assert size == pytest.approx(radius, abs=1e-9)
+
+
+def test_of_two_opposite_normals_the_one_with_a_positive_first_component_is_told() -> None:
+    given = [[-0.6, 0.8, 0.0], [1e-10, -1.0, 0.0], [0.0, -0.0, -1.0], [0.6, -0.8, 0.0]]
+    expected = [[0.6, -0.8, 0.0], [-1e-10, 1.0, 0.0], [0.0, 0.0, 1.0], [0.6, -0.8, 0.0]]
+    np.testing.assert_array_equal(one_of_both(np.array(given)), expected)
+
+
+def test_marked_instants() -> None:
+    """Extremes that are apart, the stress first; not while the bodies are apart; else the widest gaps."""
+    share = np.linspace(0.0, 1.0, 101)
+    wave = {"depth": 1.0 + 1.5 * np.sin(2 * np.pi * share), "displacement": np.cos(2 * np.pi * (share - 0.3))}
+    stress = {"normal_stress": np.cos(2 * np.pi * (share - 0.5)), "normal_strain": np.sin(2 * np.pi * share)}
+    between = "in between"
+    for curves, expected in (
+        (wave, {25: "δ largest", 43: between, 61: between, 93: between}),
+        (wave | stress, {0: between, 25: "δ largest", 50: "σ_n largest", 75: "ε_n smallest"}),
+    ):
+        at, reasons = marked_instants(share, curves)
+        assert dict(zip(at.tolist(), reasons, strict=True)) == expected
+
+
+def test_newton_goes_to_the_bottom_of_a_parabola() -> None:
+    """In two dimensions, from the nearest point; no further than the distance, and within the cube."""
+    bottom, curvature = np.array([0.52, 0.47]), np.array([[4.0, 1.0], [1.0, 2.0]])
+    points = np.array([[0.5, 0.5], [0.55, 0.5], [0.5, 0.55], [0.45, 0.46]])
+    away = points - bottom
+    planes = Planes(points, 0.5 * np.einsum("ki,ij,kj->k", away, curvature, away), away @ curvature)
+    np.testing.assert_allclose(newton(planes, np.array([0.5, 0.5]), 0.1), bottom, atol=1e-9)
+    near = newton(planes, np.array([0.5, 0.5]), 0.01)
+    assert np.abs(near - points[0]).max() == pytest.approx(0.01)
+    flat = Planes(points, points @ [1.0, -1.0], np.tile([1.0, -1.0], (4, 1)))
+    np.testing.assert_allclose(newton(flat, np.array([0.5, 0.5]), 0.1), [0.4, 0.6], atol=1e-9)
+    np.testing.assert_allclose(newton(flat, np.array([0.5, 0.5]), 0.9), [0.0, 1.0], atol=1e-9)
+
+
+def test_the_lowest_points_of_planes() -> None:
+    """Of a roof turned over: in its valley, or at the end of the distance, all of it and 0.3 of it."""
+    points = np.array([[0.45], [0.6]])
+    roof = Planes(points, np.array([0.05, 0.1]), np.array([[-1.0], [1.0]]))
+    whole, short = lowest_of(roof, np.array([0.45]), 0.05, 0.1)
+    np.testing.assert_allclose([*whole, *short], [0.5, 0.48], atol=1e-9)
+    first, _ = lowest_of(roof, np.array([0.45]), 0.05, 0.02)
+    np.testing.assert_allclose(first, [0.47], atol=1e-9)
+    # Beneath the value at the centre, and inside of the cube.
+    high = Planes(np.array([[0.02]]), np.array([9.0]), np.array([[1.0]]))
+    first, _ = lowest_of(high, np.array([0.02]), 0.5, 0.1)
+    np.testing.assert_allclose(first, [0.0], atol=1e-9)
+
+
+def test_planes_beside_a_kink_are_left_out() -> None:
+    points = np.array([[0.2], [0.4985], [0.9], [0.7]])
+    search = tangent_planes(points, 0.1)
+    at = next(search)
+    np.testing.assert_allclose(at[4:, 0], [0.203, 0.2015, 0.5015, 0.5, 0.897, 0.8985, 0.697, 0.6985])
+    values = np.where(at[:, 0] > 0.695, np.inf, np.abs(at[:, 0] - 0.5))
+    values[:4][2] = 1.0
+    with pytest.raises(StopIteration) as end:
+        search.send(values)
+    planes = end.value.value
+    np.testing.assert_allclose(planes.points, [[0.2]])
+    np.testing.assert_allclose(planes.gradients, [[-1.0]])
+    # The step of differences has a least length.
+    np.testing.assert_allclose(np.diff(np.ravel(next(tangent_planes(points[:1], 1e-9)))), [1e-6, -5e-7])
+
+
+def test_the_corners_of_a_box_are_its_ends() -> None:
+    ranges, wrong = read_ranges(
+        {"phase": (0.1, 0.7), "friction": np.array([0.1, 0.3])}, ["phase", "friction"]
+    )
+    assert not wrong
+    assert ranges == {"phase": [0.1, 0.7], "friction": [0.1, 0.3]}
+
+
+def test_a_place_may_be_an_array_of_no_dimension() -> None:
+    found = some()
+    assert found.swt.slice(phase=np.array(1.0)).identical(found.swt.slice(phase=1.0))
+    assert found.swt.slice(phase=np.array([1.0])).identical(found.swt.slice(phase=[1.0]))
+    assert found.swt.slice(phase=range(2)).phase.values.tolist() == [0.0, 1.0]
+    assert found.swt.slice(phase=(3, 0)).phase.values.tolist() == [3.0, 0.0]
