@@ -23,6 +23,7 @@ from matplotlib.figure import Figure
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, evaluate_history, physical, read_history, run
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.faces import html, site
 from swtstudy.faces import page as pages
 from swtstudy.faces.elements import write_history
@@ -465,3 +466,76 @@ def test_tables_of_pages_are_packed_for_spreadsheets() -> None:
     assert head == "data:application/gzip;base64"
     text = gzip.decompress(base64.b64decode(data)).decode()
     assert text == "s,s_error,name,n\n0.3333333,0.012,'=1,'\t\n2,5e-09,a=1,\n"
+
+
+def test_reports_and_their_mistakes(kept: Kept, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is written where, in which order, and what is refused before anything is."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("a/x.nc", "b/x.nc", "a/y.nc", "a/index.nc", "file", "c/z.nc"):
+        Path(name).parent.mkdir(exist_ok=True)
+        Path(name).touch()
+    monkeypatch.setattr(site, "open_results", lambda path: broken() if Path(path).stem == "z" else path)
+    monkeypatch.setattr(site, "page", lambda found, name, home="": f"page of {found}, {name}, {home}")
+    monkeypatch.setattr(site, "entry", lambda _, name: site.Entry(name, f"title of {name}", "", None))
+
+    def broken() -> None:
+        raise ArchiveError("c/z.nc: not a readable archive")
+
+    said: dict[str, Any] = {}
+    for archives, output in (
+        (["a/x.nc"], None),
+        (["a/x.nc"], "page.HTM"),
+        (["a/x.nc"], "site"),
+        (["a/x.nc"], "v1.2/"),
+        (["a/x.nc"], "a"),
+        (["a/x.nc", "c/z.nc", "a/y.nc"], "site2"),
+        (["c/z.nc"], "site3"),
+        (["a/x.nc", "b/x.nc"], "site4"),
+        (["a/index.nc"], "site4"),
+        (["a/index.nc"], "index.html"),
+        (["a/x.nc", "a/y.nc"], None),
+        (["a/x.nc", "a/y.nc"], "one.html"),
+        (["a/x.nc", "a/y.nc"], "file"),
+        (["a/x.nc"], "page.pdf"),
+    ):
+        try:
+            made = [f"{path.as_posix()}: {why}" for path, why in site.write_reports(archives, output, 1)]
+        except ValueError as error:
+            made = ["refused", *map(str, getattr(error, "mistakes", [error]))]
+        texts = {
+            p.as_posix(): p.read_text() for p in sorted(Path().rglob("*.[hH][tT]*")) if p.name != "index.html"
+        }
+        said[f"{archives} {output}"] = [made, texts]
+        lists = [path for path in Path().rglob("index.html") if output]
+        said[f"{archives} {output}"].append([re.findall('href="([^"]*html)"', p.read_text()) for p in lists])
+        for path in [*map(Path, texts), *lists]:
+            path.unlink()
+    kept("reports", said)
+
+
+def test_what_an_optimum_is_searched_over(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is given in the place of a range is left out; both bodies and their materials stay."""
+    searched: list[Any] = []
+    monkeypatch.setattr("swtstudy.results.optimise.optimum_in", lambda *given: searched.append(given))
+    one = physical(**REAL | CONTACTS["plain"])
+    two = physical(
+        **REAL | {"young_modulus": [210e3, 150e3], "normal_force": 100.0, "tangential_amplitude": 0.002}
+    )
+    one.optimise({"depth": (0.005, "0.01")})
+    one.optimise({"friction": (0.4, 0.5), "normal_amplitude": (0, 1e-3)}, "cycles", constants=STEEL, seed=3)
+    two.optimise({"tangential_force_amplitude": (1, 9)}, "SWT_volume", critical_distance=0.1, rtol=1e-3)
+    said = {}
+    for box, *asked in searched:
+        ends = [*box.low.tolist(), *box.high.tolist()]
+        corners = box.corners
+        axes = {name: [*map(str, values)] for name, values in corners.axes.items()}
+        fixed = {name: str(value) for name, value in corners.fixed.items()}
+        pairs = {name: [*map(float, both)] for name, both in corners.pairs.items()}
+        middle = box.sample(np.full((1, len(ends) // 2), 0.5)).samples
+        more = [
+            *map(str, asked),
+            str(corners.materials),
+            {name: [*map(float, v)] for name, v in middle.items()},
+        ]
+        said[", ".join(box.names)] = [ends, axes, fixed, pairs, *more]
+    kept("contact_searches", said)
