@@ -330,5 +330,5 @@ def _course(loop: Any) -> str:
     if loop is None:
         return "two oscillations"
     vertices = getattr(loop, "vertices", None)
-    measured = "measured " if getattr(loop, "mean_normal", None) is not None else ""
+    measured = "measured " if loop.mean_normal is not None else ""
     return f"a {measured}loop of {'harmonics' if vertices is None else f'{len(vertices)} vertices'}"

@@ -7,23 +7,29 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 import numpy as np
 import pytest
 import real
 import xarray as xr
 from drawn import draw, keys
-from kept import Kept, drawn, line_of
+from kept import Kept, colour, drawn, line_of
 from made_up import made_up
+from matplotlib import colormaps
+from matplotlib.colors import LogNorm, Normalize
 from matplotlib.transforms import IdentityTransform
 from PIL import Image
 from solved import REGIMES
 
 import swtstudy
 from swtstudy import Study, StudyError, draw_load, draw_profile
+from swtstudy.figures import point as panels
+from swtstudy.figures.lines import hue_scale, in_equal_ratios
 from swtstudy.figures.live import Explorer, LiveFigure, phases
 from swtstudy.figures.sheet import LoopHandler, Sheet, new_figure
 from swtstudy.figures.statistics import draw_fit, draw_sensitivity, fit_lines
 from swtstudy.figures.style import style_of
+from swtstudy.figures.surfaces import lowest, mark_cells
 from swtstudy.figures.words import (
     is_life,
     power_words,
@@ -33,6 +39,7 @@ from swtstudy.figures.words import (
     tick_names,
     title_words,
 )
+from swtstudy.results.inspection import load_and_springs
 
 #: The layout of a figure depends on the sizes of letters.
 pytestmark = pytest.mark.usefixtures("unwrapped")
@@ -409,6 +416,11 @@ def test_words_and_ticks(kept: Kept) -> None:
         (0.0, 3.0),
         (1e-5, 1e-4),
         (1e5, 1.3e5),
+        (1.0, 2.0),
+        (2.0, 5.0),
+        (1e5, 1e7),
+        (1.0, 999.0),
+        (1e4, 1e5),
     ):
         for axis in (axes.xaxis, axes.yaxis):
             one = new_figure((3.0, 3.0)).subplots()
@@ -472,3 +484,102 @@ def test_a_map_of_one_regime_has_no_border() -> None:
 def test_a_shape_without_sense_is_refused() -> None:
     with pytest.raises(StudyError, match=r"^flat_radius: found -1 \(out of range\); allowed: "):
         draw_profile(profile="rounded_punch", flat_radius=-1)
+
+
+def test_values_in_equal_ratios() -> None:
+    """A decade at least, and all ratios but a tenth are one."""
+    ten = [*(2.0 ** np.arange(10)), 1000.0]
+    for x, equal in (
+        ([1.0, 10.0**0.5, 10.0], True),
+        ([1.0, 9.9**0.5, 9.9], False),
+        ([1.0, 100.0], False),
+        ([0.0, 1.0, 100.0], False),
+        ([-1.0, 1.0, 100.0], False),
+        (ten, True),
+        ([*ten, 2e4], False),
+    ):
+        assert in_equal_ratios(np.array(x)) is equal, x
+
+
+def test_a_scale_is_for_eight_values_and_more() -> None:
+    for values, kind in (
+        (np.arange(7.0), None),
+        (np.arange(8.0), Normalize),
+        (np.arange(8), Normalize),
+        (np.geomspace(10.0, 1.0, 8), LogNorm),
+        (np.array([*"abcdefgh"]), None),
+    ):
+        scale = hue_scale(xr.DataArray(values, dims="x"))
+        assert scale is kind or type(scale.norm) is kind
+    (low, high), colours = scale_of(np.arange(8.0)).get_clim(), scale_of(np.arange(8.0)).cmap
+    assert (low, high, colours.N) == (0.0, 7.0, 256)
+    assert [colour(colours(end)) for end in (0.0, 1.0)] == [
+        colour(colormaps["cividis"](end)) for end in (0.0, 0.9)
+    ]
+
+
+def scale_of(values: np.ndarray) -> Any:
+    with matplotlib.rc_context({"image.cmap": "cividis"}):
+        return hue_scale(xr.DataArray(values, dims="x"))
+
+
+def test_clouds_and_histograms_of_much_and_of_nothing(kept: Kept) -> None:
+    flat = results().stack(sample=["friction", "profile", "phase", "normal_amplitude"]).reset_index("sample")
+    flat = flat.assign_coords(sample=np.arange(flat.sizes["sample"]))
+    kept("scatter_of_many", drawn(draw(flat, keys("sample", y=("s",), kind="scatter"))))
+    nothing = flat.isel(sample=[0, 1]).assign(s=lambda found: np.nan * found.s)
+    kept("histogram_of_nothing", drawn(draw(nothing, keys("sample", y=("s",), kind="histogram"))))
+
+
+def test_loads_with_means_of_their_own(kept: Kept) -> None:
+    loops = "".join(
+        f"[loads.{name}]\nabsolute = true\nvertices = [[{low}, -{pull}], [{high}, {pull}]]\n"
+        for name, low, high, pull in (("one", 300, 320, 80), ("two", 200, 240, 50))
+    )
+    study = real.RIG.replace('load = "rig"', "") + loops + '[axes]\nload = ["one", "two"]\n'
+    kept("load_of_two", drawn(draw_load(Study.from_text(study), "two")))
+    with pytest.raises(StudyError) as caught:
+        draw_load(Study.from_text(study), "tow")
+    assert str(caught.value) == "load: found 'tow'; allowed: did you mean two? known: one, two"
+    with pytest.raises(StudyError, match=r"^load: found 'one'; allowed: a loop$"):
+        draw_load(Study.from_text('title = "t"'), "one")
+
+
+@pytest.mark.parametrize("name", ["lost", "to_and_fro", "at_rest"])
+def test_paths_of_loads(name: str, kept: Kept) -> None:
+    """With a lost contact; with instants that have one place; with nothing that moves."""
+    amplitudes = {"lost": (1.5, 0.8), "to_and_fro": (0.0, 0.4), "at_rest": (0.0, 0.0)}[name]
+    given = dict(zip(("normal_amplitude", "tangential_amplitude"), amplitudes, strict=True))
+    figure = new_figure((9.0, 3.0))
+    axes = figure.subplots(1, 3)
+    found = load_and_springs(**given, frequency_ratio="1/2")
+    for one, draw_one in zip(
+        axes, (panels.draw_load, panels.draw_load_plane, panels.draw_springs), strict=True
+    ):
+        draw_one(one, found)
+    kept(f"path_{name}", drawn(figure))
+
+
+def test_dots_of_large_maps_are_thinned(kept: Kept) -> None:
+    rows, columns = np.mgrid[:40, :70]
+    outside = xr.DataArray(rows + columns > 50, dims=("friction", "phase"), attrs={"long_name": "outside"})
+    outside = outside.assign_coords(friction=np.linspace(0.0, 1.0, 40), phase=np.linspace(0.0, 2.0, 70))
+    figure = new_figure((6.0, 3.0))
+    one, other = figure.subplots(1, 2)
+    mark_cells(one, outside, True)
+    mark_cells(other, outside[:32, :33], False)
+    kept("dots", drawn(figure))
+
+
+def test_places_of_least_values() -> None:
+    """Vertices of parabolas, walls at the ends, gaps where rows are flat, turns that close."""
+    x = np.linspace(0.0, 2.0 * np.pi, 25)
+    shifts = np.array([0.1, 0.2, 0.4, 0.6, 6.2])
+    values = -np.cos(x - shifts[:, None])
+    np.testing.assert_allclose(lowest(x, values, True), shifts, atol=3e-3)
+    np.testing.assert_allclose(lowest(x, values, False)[:4], [0.1, 0.2, 0.4, 0.6], atol=0.14)
+    odd = np.array([0.0, 1.0, 3.0, 4.0])
+    rows = np.array(
+        [(odd - 1.5) ** 2, (odd - 3.2) ** 2, odd, 4.0 - odd, 0.0 * odd, odd + np.nan, [1, np.nan, 0, 1]]
+    )
+    np.testing.assert_allclose(lowest(odd, rows, False), [1.5, 3.2, 0.0, 4.0, np.nan, np.nan, 3.0], atol=1e-9)
