@@ -140,7 +140,9 @@ def test_figures_of_results(name: str, kept: Kept) -> None:
 def test_figures_of_samples(kind: str, kept: Kept) -> None:
     whole = results().isel(normal_amplitude=0).assign_coords(phase=np.linspace(0.0, 2.0, 13))
     flat = whole.stack(sample=["friction", "profile"]).reset_index("sample")
-    flat = flat.assign_coords(sample=np.arange(flat.sizes["sample"])).isel(phase=[0, 12])
+    flat = flat.assign_coords(sample=np.arange(flat.sizes["sample"])).isel(
+        phase=[0, 12] if kind == "histogram" else [0, 2, 4, 6, 8, 10, 12]
+    )
     role = {"hue": "phase"} if kind == "scatter" else {"panels": "phase"}
     layout = keys("sample", y=("s", "cycles", "regime"), kind=kind, validity=kind == "scatter", **role)
     kept(kind, drawn(draw(flat, layout)))
