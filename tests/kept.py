@@ -85,7 +85,8 @@ def numbers(values: Any) -> list[float]:
     known = flat[np.isfinite(flat)]
     where = np.flatnonzero(np.isfinite(flat)) / flat.size
     means = (known.mean(), (known**2).mean(), (where * known).mean()) if known.size else (0.0,)
-    return [float(f"{each:.6g}") for each in (flat.size, known.size, flat[0], flat[-1], *means)]
+    sizes = (flat[0], flat[-1], *means)
+    return [flat.size, known.size, *(float(f"{each:.6g}") for each in sizes)]
 
 
 def colour(value: Any) -> str:

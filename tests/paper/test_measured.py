@@ -180,3 +180,35 @@ def test_what_an_archive_lacks_is_a_problem_of_the_statement() -> None:
     assert {each.problem for each in found} == {"figure3: no axis phase in the archive"}
     assert {each.verdict for each in found} == {"not checked"}
     assert about_archive("mine", archive("figure3")) == []
+
+
+def test_where_the_maxima_off_the_line_are_is_counted() -> None:
+    off = {"s_body": 1.1, "s_surface": 1.1}
+    kinds = [{}, {"body_z": 0.1}, {"body_z": 0.2}, {"body_y": 0.5}, *[{"normal_x": 0.8, "normal_y": 0.6}] * 3]
+    points = [made_up_point(**(off | kind if kind else {})) for kind in kinds]
+    found = STATEMENTS["on_the_line"](audit_of(points, poisson_ratio=[0.3] * 6 + [0.25]))
+    assert found.measured == (
+        "at 14.3% of 7 random points of all parameters the worst of all points and planes is on the line; "
+        "beneath the surface 2, on an oblique plane 3, on the surface off the line 1, with swt up to 10.0% "
+        "higher, for ν ≥ 0.25"
+    )
+
+
+@pytest.mark.parametrize(
+    ("line_x", "nearest"), [(0.5001, 0.9e-4), (-0.4999, 0.9e-4), (0.9, 1e-3 * 1.75**0.5)]
+)
+def test_the_search_keeps_as_far_from_an_edge_as_the_line_does(
+    line_x: float, nearest: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    points, b = read_point(POINTS["edge"]), 0.5
+    distances: list[float] = []
+    known = field.criterion_at
+
+    def criterion_at(opened: Any, places: Any, *more: float) -> Any:
+        away = np.abs(np.hypot(places[:, 0], places[:, 1]) - b)
+        distances.append(float(away.min()) if len(away) > 100 else np.inf)
+        return known(opened, places, *more)
+
+    monkeypatch.setattr(field, "criterion_at", criterion_at)
+    body_maximum(points, line_x)
+    assert min(distances) == pytest.approx(nearest, rel=0.05)

@@ -31,6 +31,7 @@ PLANE: dict[str, Any] = {
 SHEAR: dict[str, Any] = {"criterion": "findley", "normal_sensitivity": 0.3}
 CASES: dict[str, Callable[[], xr.Dataset]] = {
     "point": lambda: swtstudy.inspect_point(**POINT),
+    "point_of_face": lambda: swtstudy.inspect_point(profile="rounded_punch", flat_radius=0.5, phase=0.5),
     "point_in_plane": lambda: swtstudy.inspect_point(**PLANE),
     "springs": lambda: load_and_springs(load=LOOP),
     "springs_of_forces": lambda: load_and_springs(normal_force_amplitude=0.3, tangential_force_amplitude=0.5),
