@@ -18,6 +18,7 @@ import swtstudy  # imports the rest when it is used: the process that only hands
 
 if TYPE_CHECKING:
     import xarray as xr
+    from kept import Kept
 
 #: Tests of these files share what is costly: the files of each line stay with one process.
 TOGETHER = (
@@ -106,6 +107,14 @@ def without_points(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
 
 
+@pytest.fixture(scope="session")
+def kept(request: pytest.FixtureRequest) -> Kept:
+    """What is kept of figures and Datasets, by name."""
+    from kept import Kept
+
+    return Kept(request.config.getoption("--keep"))
+
+
 @pytest.fixture(autouse=True)
 def signals_as_they_were() -> Iterator[None]:
     """A stopped command ignores further Ctrl-C; in this process, so would all that is started from here."""
@@ -167,3 +176,5 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 def pytest_addoption(parser: pytest.Parser) -> None:
     words = "How many studies test_fuzz.py changes; 8700 take some ten minutes."
     parser.addoption("--changed-studies", type=int, default=150, help=words)
+    words = "Keep what figures and Datasets show now, instead of comparing it with what is kept."
+    parser.addoption("--keep", action="store_true", help=words)

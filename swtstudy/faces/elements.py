@@ -185,7 +185,7 @@ def evaluate_history(
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = _in_our_order(given, details.units.stress)
     unit = {"units": details.units.stress}
-    found = given.drop_vars("stress").drop_dims("component", errors="ignore")
+    found = given.drop_dims("component")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 
     def add(name: str, value: FloatArray, normal: FloatArray, words: Any = None) -> None:

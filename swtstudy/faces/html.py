@@ -56,7 +56,7 @@ def _token(found: re.Match[str]) -> str:
         return f"{{{upright}}}" if upright else entity or (f"<i>{letter}</i>" if letter else "")
     kind, small = "CAPITAL" if command[0].isupper() else "SMALL", command.lower()
     try:
-        name = f"GREEK {kind} LETTER {_GREEK.get(small, small).upper()}"
+        name = f"GREEK {kind} LETTER {_GREEK.get(small, small)}"
         return _SIGNS.get(command) or f"<i>{unicodedata.lookup(name)}</i>"
     except KeyError:
         return f"{command} "  # a function, such as max

@@ -262,7 +262,7 @@ def _indices(dataset: xr.Dataset, indices: xr.Dataset | StudyError | None) -> An
         cells += [html.symbol_html(str(one.symbol.item())), AXES[str(one.parameter.item())].meaning]
         for name in ("first_order", "total"):
             value, low, high = (float(one[f"{name}{end}"]) for end in ("", "_low", "_high"))
-            cells.append(f"{value:.2f} ({low:.2f} to {high:.2f})")
+            cells.append(f"{value:.2f} ({low:.2f} to {high:.2f})".replace("-", "−"))
         rows.append(cells)
     y = str(indices["quantity"].values[0])
     return {
@@ -330,5 +330,5 @@ def _course(loop: Any) -> str:
     if loop is None:
         return "two oscillations"
     vertices = getattr(loop, "vertices", None)
-    measured = "measured " if getattr(loop, "mean_normal", None) is not None else ""
+    measured = "measured " if loop.mean_normal is not None else ""
     return f"a {measured}loop of {'harmonics' if vertices is None else f'{len(vertices)} vertices'}"

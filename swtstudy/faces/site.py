@@ -141,7 +141,7 @@ def _write_one(path: Path, folder: Path) -> Entry:
 def entry(dataset: xr.Dataset, name: str) -> Entry:
     """Summarise an archive for a list."""
     picture = thumbnail(dataset) if "figure" in dataset.attrs else None
-    return Entry(name, str(dataset.attrs["title"]), next(iter(sentences(dataset)), Markup()), picture)
+    return Entry(name, str(dataset.attrs["title"]), sentences(dataset)[0], picture)
 
 
 def listing(entries: Sequence[Entry]) -> str:

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import Style, stroke
+from swtstudy.figures.style import Style, entitle, stroke
 from swtstudy.figures.words import show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
@@ -97,11 +97,11 @@ def draw_load(
         for column, each in enumerate(("normal", "tangential", "bulk stress")[: loads.shape[1]]):
             course.plot(phase, loads[:, column], **stroke(f"C{column}", label=each + units[column]))
         course.set(xlabel="share of a cycle", ylabel="loads")
-        course.set_title("course", loc="left")
+        entitle(course, "course")
         course.legend(frameon=False)
         path.plot(loads[:, 0], loads[:, 1], **stroke("C0"))
         path.set(xlabel=f"normal load{units[0]}", ylabel=f"tangential load{units[1]}")
-        path.set_title("path", loc="left")
+        entitle(path, "path")
         if forces:
             end = 1.05 * loads[:, 0].max()
             limit = [-slope * end, 0.0, slope * end]
@@ -112,7 +112,7 @@ def draw_load(
             margin[0].axhline(1.0, color="0.5", lw=0.8, ls="--")
             margin[0].set(xlabel="share of a cycle", ylabel="$|Q|/(\\mu P)$")
             which = f" at $\\mu$ = {slope:g}" * any(units)
-            margin[0].set_title(f"friction, at most {np.nanmax(share):.2f}{which}", loc="left")
+            entitle(margin[0], f"friction, at most {np.nanmax(share):.2f}{which}")
         figure.suptitle(as_text(f"{name}: {signal.words}" if signal else name))
     return figure
 
@@ -238,7 +238,7 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
         axes.annotate(words, at, color="C3", fontsize="small")
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
-    axes.set_title(f"f, undeformed, {'sunk by δ0' if plane else 'at the depth δ0'}", loc="left")
+    entitle(axes, f"f, undeformed, {'sunk by δ0' if plane else 'at the depth δ0'}")
 
 
 def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], labels: Labels) -> None:
@@ -282,7 +282,7 @@ def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> N
         other.grid(False)
         show_units(other, (None, "pressure"), labels)
     what = "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0"
-    axes.set_title(what, loc="left")
+    entitle(axes, what)
     axes.legend(frameon=False, loc="upper left")
 
 

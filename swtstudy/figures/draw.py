@@ -11,7 +11,7 @@ import xarray as xr
 from swtstudy.figures.lines import draw_lines, hue_scale
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend, wrap_texts
 from swtstudy.figures.statistics import draw_histogram, draw_scatter
-from swtstudy.figures.style import Style, styled
+from swtstudy.figures.style import Style, entitle, styled
 from swtstudy.figures.surfaces import draw_maps
 from swtstudy.figures.words import flag_words, parts_of, quantity_words, tick_angles, title_words
 from swtstudy.points.grid import SAMPLE
@@ -149,7 +149,7 @@ def _draw_rows(dataset: xr.Dataset, layout: FigureLayout, width: Width | None) -
             # The letter of a panel, the quantity where that differs between rows, and its place.
             letter = f"({ascii_uppercase[number % 26]})" if axes.size > 1 else ""
             title = title_words(values, y) if len(layout.y) > 1 else ""
-            one.set_title(f"{letter}  {',  '.join(filter(None, (title, place)))}".strip(), loc="left")
+            entitle(one, f"{letter}  {',  '.join(filter(None, (title, place)))}".strip())
     if scale and layout.hue:
         values = dataset[layout.hue]
         bar = figure.colorbar(scale, ax=axes, label=axis_words(layout.hue, values.attrs), pad=0.02)

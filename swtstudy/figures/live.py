@@ -20,7 +20,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
-from swtstudy.figures.style import save_figure, styled
+from swtstudy.figures.style import entitle, save_figure, styled
 from swtstudy.figures.words import tick_in_pi
 from swtstudy.points.solve import solve
 from swtstudy.points.values import read_value
@@ -125,7 +125,7 @@ def _draw_over_phase(axes: Axes, s: xr.DataArray, phase: float) -> None:
     tick_in_pi(axes.xaxis, 0.0, 2.0 * pi)
     axes.locator_params(axis="y", nbins=4)
     axes.set(xlabel=axis_words("phase"), ylabel="$s$")
-    axes.set_title("$s$ over the phase", loc="left")
+    entitle(axes, "$s$ over the phase")
 
 
 #: Lower and upper end of each slider, its step, and where it begins; ends within what is allowed.

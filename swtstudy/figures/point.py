@@ -22,7 +22,7 @@ from matplotlib.patches import Patch
 
 from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import DASHES, Style, dots, stroke
+from swtstudy.figures.style import DASHES, Style, dots, entitle, stroke
 from swtstudy.figures.words import flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.results.inspection import inspect_point
@@ -111,7 +111,7 @@ def draw_inspection(
     with sheet.drawn(style) as (figure, (own,)):
         for axes, draw, letter in zip(own, panels, "ABCDEFGHI", strict=False):
             draw(axes, dataset, labels)
-            axes.set_title(f"({letter})  {axes.get_title('left')}", loc="left")
+            entitle(axes, f"({letter})  {axes.get_title('left')}")
         figure.suptitle(_headline(dataset, labels, headlines))
     return figure
 
@@ -224,7 +224,7 @@ def draw_load(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
     if dataset.depth.min() < 0.0:
         axes.axhspan(axes.get_ylim()[0], 0.0, color="0.92", zorder=0)
         axes.text(0.02, 0.02, "no contact", transform=axes.transAxes, color="0.3")
-    axes.set_title(f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed", loc="left")
+    entitle(axes, f"load path, {_PRESCRIBED[str(dataset.control.item())]} prescribed")
 
 
 def draw_time_axis(axes: Axes, time: xr.DataArray) -> None:
@@ -289,7 +289,7 @@ def draw_slip(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> No
     below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "borderaxespad": 4.4}
     axes.legend(handles=handles, ncols=3, handlelength=1.4, columnspacing=1.0, fontsize="small", **below)
     show_units(axes, (None, "r"), labels)
-    axes.set_title("stick and slip over the cycle", loc="left")
+    entitle(axes, "stick and slip over the cycle")
 
 
 def _draw_bounded(axes: Axes, dataset: xr.Dataset, names: tuple[str, str], factor: float, words: str) -> None:
@@ -314,7 +314,7 @@ def draw_springs(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) ->
     axes.set_xlim(0.0, 1.05 * float(dataset.largest_radius))
     axes.set(xlabel=r"$\xi/a_H$", ylabel=f"${dataset.force.attrs['symbol']}$")
     show_units(axes, ("r", None), labels)
-    axes.set_title(r"memory diagram: springs, $|\tau| \leq w$", loc="left")
+    entitle(axes, r"memory diagram: springs, $|\tau| \leq w$")
 
 
 def draw_tractions(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
@@ -328,7 +328,7 @@ def draw_tractions(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) 
     _guide(axes, float(dataset.shown_x), True, color="black", linestyle=_DASHED)
     axes.set(xlabel="$x/a_H$", ylabel=r"$q\,a_H/(E^* \delta_0)$")
     show_units(axes, ("x", "traction"), labels)
-    axes.set_title(r"traction, $|q| \leq \mu p$", loc="left")
+    entitle(axes, r"traction, $|q| \leq \mu p$")
 
 
 def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
@@ -365,7 +365,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     place = "on the critical plane at" if _is_finite(dataset) else "at the largest swt sampled,"
     x = float(dataset.shown_x)
     at_x = f"$x$ = {labels['x'].number(x)}" if "x" in labels else f"$x/a_H$ = ${x:.3f}$"
-    axes.set_title(f"{place} {at_x}", loc="left")
+    entitle(axes, f"{place} {at_x}")
 
 
 def _scale_stress(axes: Axes, other: Axes, stress: FloatArray, swing: FloatArray) -> None:
@@ -403,7 +403,7 @@ def draw_swt(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> Non
     axes.set_ylabel(f"${over}$")
     show_units(axes, ("x", "s_local"), labels)
     what = "swt" if criterion == SWT else dataset.s_local.attrs["long_name"].replace("-", "–")
-    axes.set_title(f"{what} along the surface{'' if finite else '; dot: largest sampled'}", loc="left")
+    entitle(axes, f"{what} along the surface{'' if finite else '; dot: largest sampled'}")
     _draw_plane(axes, float(dataset.shown_angle))
 
 
@@ -433,7 +433,7 @@ def draw_load_plane(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     axes.fill_betweenx([0.0, highest], [0.0, -highest], [0.0, highest], color="0.95", zorder=0)
     axes.plot([-highest, 0.0, highest], [highest, 0.0, highest], **stroke(_FAINT, linewidth=_thin()))
     axes.axis(ends)
-    axes.set_title(r"load plane of forces, $|F_x| \leq \mu F_N$", loc="left")
+    entitle(axes, r"load plane of forces, $|F_x| \leq \mu F_N$")
 
 
 def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
@@ -455,7 +455,7 @@ def draw_forces(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.9), ncols=3, fontsize="small")
     unit = labels[names[0]].unit.strip() if labels else ""
     axes.set_ylabel(f"force ({unit})" if unit else "")
-    axes.set_title("forces over the cycle" + (r", dotted: $\pm\mu F_N$" if labels else ""), loc="left")
+    entitle(axes, "forces over the cycle" + (r", dotted: $\pm\mu F_N$" if labels else ""))
 
 
 def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> None:
@@ -464,7 +464,7 @@ def draw_force_loop(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS)
     work = float(dataset.dissipation)
     axes.fill(dataset.displacement, dataset.tangential_force, color="0.9", linewidth=0, zorder=0)
     number = labels["dissipation"].number(work, 3) if labels else f"{work:.3g}"
-    axes.set_title(f"fretting loop, {'' if labels else 'area = '}dissipation {number}", loc="left")
+    entitle(axes, f"fretting loop, {'' if labels else 'area = '}dissipation {number}")
 
 
 #: The panels, and the panels of a plane contact, whose displacements are not known.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
 from swtstudy.figures.sheet import Figure, Sheet, Width, add_legend
-from swtstudy.figures.style import COLOURS, Style, dots, stroke
+from swtstudy.figures.style import COLOURS, Style, dots, entitle, stroke
 from swtstudy.figures.words import flag_words, is_life, parts_of, quantity_words, tick_angles, tick_flags
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
@@ -86,7 +86,7 @@ def draw_histogram(dataset: xr.Dataset, layout: FigureLayout, width: Width | Non
                 one.hist(values, edges, label=words if alone else label, **look)
                 for place, dashes in zip(places, _PERCENTILES.values(), strict=False):
                     one.axvline(place, color=colour, linestyle=dashes, linewidth=1.4)
-            one.set_title("\n".join(filter(None, lines)), loc="left")
+            entitle(one, "\n".join(filter(None, lines)))
             one.set_xlabel(quantity_words(whole, y))
             if is_life(whole.attrs):
                 one.set_xscale("log")
@@ -147,7 +147,7 @@ def draw_sensitivity(indices: xr.Dataset, style: Style | None = None, width: Wid
             panel.set_xticks(at, [f"${symbol}$" for symbol in one.symbol.values])
             panel.grid(False, axis="x")
             where = [place_words(name, columns[name][column].item(), columns[name].attrs) for name in axes]
-            panel.set_title(", ".join(where if row == 0 else []), loc="left")
+            entitle(panel, ", ".join(where if row == 0 else []))
         for own, name in zip(panels, indices.quantity.values, strict=True):
             sheet.label_left(own, f"share of the variance of {name}".replace("_", " "))
         title = str(indices.attrs["title"])

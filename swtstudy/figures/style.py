@@ -19,6 +19,7 @@ import matplotlib
 import matplotlib.style
 from cycler import cycler
 from matplotlib import rcParamsDefault
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from swtstudy.vocabulary.files import read_text, replacing
@@ -60,6 +61,11 @@ def dots(color: Any = "black", size: float = 1.0, **own: Any) -> dict[str, Any]:
     """The look of points without a line, so many times as large as the style's markers."""
     own = {"marker": "o", "markersize": size * matplotlib.rcParams["lines.markersize"], **own}
     return {"color": color, "linestyle": "none", **own}
+
+
+def entitle(axes: Axes, words: str) -> None:
+    """Give a panel a title, flush left."""
+    axes.set_title(words, loc="left")
 
 
 @contextmanager

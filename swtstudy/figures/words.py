@@ -146,8 +146,8 @@ def power_words(value: float) -> str:
     """A number below 10 and a power of ten, such as 5·10⁶."""
     if value <= 0.0:
         return ""
-    exponent = math.floor(math.log10(value) + 1e-9)
-    digits, power = f"{value / 10.0**exponent:.3g}", f"10^{{{exponent}}}"
+    number, exponent = f"{value:.2e}".split("e")
+    digits, power = f"{float(number):g}", f"10^{{{int(exponent)}}}"
     return f"${power}$" if digits == "1" else rf"${digits}\cdot{power}$"
 
 

@@ -77,12 +77,8 @@ class Formalism:
         def excess(stick: float) -> float:
             return float(sense * (self.springs(stick) + du) - (depth - stick))
 
-        if sense == 0.0:
-            stick = edge
-        elif excess(0.0) >= 0.0:
-            stick = 0.0  # gross slip wipes the memory
-        else:
-            stick = brentq(excess, 0.0, edge, xtol=1e-15, rtol=1e-14)
+        # Gross slip wipes the memory.
+        stick = 0.0 if excess(0.0) >= 0.0 else brentq(excess, 0.0, edge, xtol=1e-15, rtol=1e-14)
         self.renew(stick, float(sense), depth)
 
 

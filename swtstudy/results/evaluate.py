@@ -180,7 +180,7 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
 def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     """Results as a table, one row per point: see ``to_table`` of the accessor."""
     # A point has several cycles, which are no column.
-    dataset = dataset.drop_vars([*COUNTED], errors="ignore")
+    dataset = dataset.drop_vars({*COUNTED} & {*dataset.variables})
     beside = dims_beside(dataset)
     dims = [str(name) for name in dataset.dims if name not in beside]
     # Parameters of a sample are along its dimension, single values along none.

@@ -331,7 +331,7 @@ class Search:
                 asked = {each: asked[each] for each in leading}
 
 
-_NOT_ALWAYS = ("s_error", "run", *MARGINS)
+_NOT_ALWAYS = ("s_error", "run", "message", *MARGINS)
 #: The data variables that may be minimised: values that are not flags, and quantities on request.
 MINIMISED = (
     *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in _NOT_ALWAYS),

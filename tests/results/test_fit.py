@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from click.testing import CliRunner
+from kept import told
 from real import ALLOY, ALUMINIUM
 from told import refused
 
@@ -84,6 +85,14 @@ def test_lives_of_a_fit_are_by_counted_cycles(rig):
     grid, *_ = fitting._read(file, {name: values[:1] for name, values in table(lives).items()}, 0)
     found = fitting._lives(grid, "cycles_volume", np.array([MADE_WITH]), None)
     assert found.item() == pytest.approx(np.log10(lives[0]), rel=1e-6)
+    # A trial friction takes the place of the study's; of a mean along a line the one straight down counts.
+    given = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.6}
+    load = {"normal_force": LOADS[0], "tangential_force_amplitude": FORCES[0], "load": LoadPath("two", LOOP)}
+    solved = physical(**given, **load).solve(1e-3, critical_distance=MADE_WITH, constants=ALUMINIUM)
+    found = fitting._lives(grid, "cycles_line", np.array([MADE_WITH]), 0.6)
+    assert 10.0 ** found.item() == pytest.approx(
+        float(solved.cycles_line.sel(direction="depth").min()), rel=1e-6
+    )
 
 
 def test_noise_has_the_interval_of_linear_regression(rig, monkeypatch):
@@ -176,7 +185,7 @@ def test_a_trial_friction_without_a_life_is_no_candidate(rig, monkeypatch):
 
     def lives(grid, y, distances, friction):
         found = law(grid, y, distances, friction)
-        found[3, distances > 0.2 / (friction or 0.5) ** 6] = np.inf
+        found[3, distances > 0.02 / (friction or 0.5) ** 6] = np.inf
         return found
 
     monkeypatch.setattr(fitting, "_lives", lives)
@@ -184,6 +193,27 @@ def test_a_trial_friction_without_a_life_is_no_candidate(rig, monkeypatch):
     tests = {"tangential_force_amplitude": forces, "life": observed}
     found = swtstudy.fit(rig[0], tests, friction=True)
     assert float(found.friction) == pytest.approx(0.7, rel=1e-2)
+
+
+def test_a_fit_says_what_it_is(rig, monkeypatch, kept):
+    marks = [0, "no", "", "No", "yes", "TRUE", " x ", 1, "1", "1.0", "y", "0.0", "false", "n", "nan", "0"]
+    forces = np.linspace(30.0, 80.0, 16)
+    law = Law(forces)
+    monkeypatch.setattr(fitting, "_lives", law)
+    factors = 10.0 ** np.tile([0.3, -0.28, 0.1, -0.1, 0.72, -0.68, 0.0, 0.05], 2)
+    lives = factors * 10.0 ** law(None, "", np.array([0.05]), None)[:, 0]
+    tests = {"tangential_force_amplitude": forces, "life": lives, "load": ["two"] * 16, "runout": marks}
+    kept("told_fit", told(swtstudy.fit(rig[0], tests, friction=True, confidence=0.8)))
+    kept("told_fit_of_distance", told(swtstudy.fit(rig[0], {**tests, "runout": [0] * 16})))
+
+
+def test_forces_that_no_friction_bears_are_refused(rig, monkeypatch, tmp_path):
+    monkeypatch.setattr(fitting, "_lives", Law([300.0, 599.5, 400.0]))
+    other = tmp_path / "other.toml"
+    other.write_text(STUDY.replace("friction = 0.5", "friction = 2.999"), encoding="utf-8")
+    tests = {"tangential_force_amplitude": [300.0, 599.5, 400.0], "life": [1e6, 1e5, 1e4]}
+    words = r"^friction: found tangential forces that need 3 at least; allowed: forces that 3 bears$"
+    refused(words, swtstudy.fit, other, tests, friction=True)
 
 
 def test_a_test_that_slides_is_refused_before_anything_is_solved(rig, monkeypatch):
