@@ -175,10 +175,10 @@ def first_arcs(circle, body):
 
 @jit
 def open_circle(circle, body, place):
-    """Sample the cycle on the circle at a place s; False on the axis, which has no circle."""
+    """Sample the cycle on the circle at a place s; False on the axis and at the singular edge of a face."""
     b, normal = body.point.profile.flat_radius, body.planes.normal
     circle.place, circle.x, circle.swing = place, sqrt(b * b + place * abs(place)), 0.0
-    if not circle.x > 0.0:
+    if not circle.x > 0.0 or beside_singular_edge(body.point.profile, circle.x, NEAREST):
         return False
     begin_circle(circle, body)
     normal[0], normal[1], normal[2] = 0.0, 0.0, 0.0
@@ -351,7 +351,7 @@ def surface_value(circle, body, found):
         search_circle(circle, body, circle.places[k])
     if circle.best <= floor:
         return found.s
-    for _ in range(0 if profile.singular else CLIMBS):
+    for _ in range(CLIMBS):
         climb_surface(circle, body)
         top = circle.best
         search_circle(circle, body, circle.summit)

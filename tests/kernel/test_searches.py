@@ -11,7 +11,7 @@ from swtstudy.kernel.field import mean_about, open_cycle
 from swtstudy.kernel.mean import LINE, MEAN, POINT, SPHERE
 
 pytestmark = pytest.mark.xdist_group("kernel")
-POINTS = 8
+POINTS = 6
 TOLERANCES = 1e-2, 1e-3, 1e-5
 #: A search may take so many times the positions that were recorded.
 MORE = 1.02
@@ -53,28 +53,28 @@ def shape(rng, name, low, high):
 
 def scenes():
     """Name, profile, points, and the positions that each tolerance takes for all points."""
-    rng = np.random.default_rng(5)
+    rng = np.random.default_rng(11)
     small = {name: rng.uniform(0.02, 0.49, POINTS) for name in ("normal_amplitude", "tangential_amplitude")}
     forces = {"control": (True, True), **small}
-    yield "spheres", "paraboloid", harmonic(rng), (611, 681, 816)
-    yield "spheres under forces", "paraboloid", harmonic(rng, **forces), (623, 674, 774)
+    yield "spheres", "paraboloid", harmonic(rng), (654, 696, 809)
+    yield "spheres under forces", "paraboloid", harmonic(rng, **forces), (547, 578, 659)
     constant = {**forces, "normal_amplitude": np.zeros(POINTS), "frequency_ratio": None}
     shifted = {"tangential_amplitude": rng.uniform(0.1, 0.95, POINTS), **bulk(rng, 0.0)}
-    yield "shifted stick zones", "paraboloid", harmonic(rng, **constant | shifted), (143, 151, 158)
-    yield "powers", "power_law", harmonic(rng, **shape(rng, "exponent", 0.05, 1.0)), (943, 986, 1081)
+    yield "shifted stick zones", "paraboloid", harmonic(rng, **constant | shifted), (110, 120, 135)
+    yield "powers", "power_law", harmonic(rng, **shape(rng, "exponent", 0.05, 1.0)), (579, 610, 693)
     faces = shape(rng, "flat_radius", -2.0, 1.0)
-    yield "rounded punches", "rounded_punch", harmonic(rng, **faces), (619, 665, 761)
-    yield "edges", "truncated_paraboloid", harmonic(rng, **faces), (626, 670, 778)
+    yield "rounded punches", "rounded_punch", harmonic(rng, **faces), (513, 555, 665)
+    yield "edges", "truncated_paraboloid", harmonic(rng, **faces), (476, 512, 574)
     waves = {"waviness_amplitude": np.full(POINTS, 0.02), "wavelength": rng.uniform(5.0, 9.0, POINTS)}
-    yield "waves", "wavy_paraboloid", harmonic(rng, shape=waves), (809, 849, 938)
-    yield "cylinders", "cylinder", harmonic(rng, **small, **bulk(rng, 0.0)), (974, 1017, 1101)
-    yield "short loops", "paraboloid", polygons(rng, 5), (239, 262, 297)
-    yield "long loops", "paraboloid", polygons(rng, 60), (1127, 1167, 1201)
-    yield "tension", "paraboloid", harmonic(rng, **bulk(rng, 1.0)), (838, 889, 983)
-    yield "compression", "paraboloid", harmonic(rng, **bulk(rng, -1.0)), (695, 720, 773)
+    yield "waves", "wavy_paraboloid", harmonic(rng, shape=waves), (505, 551, 633)
+    yield "cylinders", "cylinder", harmonic(rng, **small, **bulk(rng, 0.0)), (703, 740, 826)
+    yield "short loops", "paraboloid", polygons(rng, 5), (173, 191, 215)
+    yield "long loops", "paraboloid", polygons(rng, 60), (830, 878, 911)
+    yield "tension", "paraboloid", harmonic(rng, **bulk(rng, 1.0)), (855, 888, 973)
+    yield "compression", "paraboloid", harmonic(rng, **bulk(rng, -1.0)), (619, 648, 718)
     walker = {"walker_exponent": rng.uniform(0.1, 0.9, POINTS)}
-    yield "Walker", "paraboloid", harmonic(rng, **walker), (583, 628, 750)
-    for criterion, most in (("fatemi_socie", (711, 741, 807)), ("findley", (594, 636, 745))):
+    yield "Walker", "paraboloid", harmonic(rng, **walker), (565, 584, 657)
+    for criterion, most in (("fatemi_socie", (579, 603, 658)), ("findley", (486, 509, 567))):
         own = {"criterion": criterion, "normal_sensitivity": rng.uniform(0.0, 1.0, POINTS)}
         yield criterion, "paraboloid", harmonic(rng, **own), most
 
@@ -96,11 +96,11 @@ def test_all_tolerances_find_one_maximum(name):
 
 #: Values of the criterion for means of some scenes at both tolerances.
 MEANS = {
-    "spheres": (240, 540),
-    "shifted stick zones": (240, 500),
-    "edges": (820, 2370),
-    "cylinders": (240, 290),
-    "findley": (240, 290),
+    "spheres": (240, 690),
+    "shifted stick zones": (240, 540),
+    "edges": (510, 1830),
+    "cylinders": (860, 2580),
+    "findley": (240, 390),
 }
 
 
