@@ -196,13 +196,14 @@ def test_figures_of_real_contacts(name: str, given: dict[str, Any], kept: Kept) 
 
 R = np.linspace(0.0, 2.0, 40)
 SHAPES: dict[str, dict[str, Any]] = {
-    "face": {"profile": "rounded_punch", "flat_radius": 0.5},
-    "waves": {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5.0},
     "table": {"profile": swtstudy.TabulatedProfile("pad", R, 0.5 * R * R + 1e-3 * np.sin(30.0 * R), 2e-3)},
     "flat": {"profile": "rounded_flat", "flat_half_width": 3.0},
+    "face": {"profile": "rounded_punch", "flat_radius": 0.5},
+    "waves": {"profile": "wavy_paraboloid", "waviness_amplitude": 0.02, "wavelength": 5.0},
 }
 
 
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("name", SHAPES)
 def test_figures_of_profiles(name: str, kept: Kept) -> None:
     kept(f"profile_{name}", drawn(draw_profile(**SHAPES[name])))
