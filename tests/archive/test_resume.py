@@ -303,6 +303,7 @@ def test_ctrl_c_in_the_midst_of_a_submission_comes_after_it(line, tmp_path, monk
     assert submitted == [True]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("seconds", "words"),
     [
@@ -399,6 +400,7 @@ def test_one_run_at_a_time(line, path):
     assert [*path.parent.iterdir()] == [path]
 
 
+@pytest.mark.slow
 def test_workers_end_with_their_parent(tmp_path):
     with told_run(tmp_path, LINE, up_to=1.0) as process:
         heard(process, "saved")

@@ -86,6 +86,7 @@ def test_symmetric_points_are_computed_once(small, tmp_path):
     np.testing.assert_array_equal(dataset.critical_x.isel(phase=0), -dataset.critical_x.isel(phase=4))
 
 
+@pytest.mark.slow
 def test_a_lost_worker_is_replaced(wide, tmp_path):
     """Processes give what a thread gives, even if one of them is killed."""
     here = run(wide, tmp_path / "here.nc", solver=stand_in.smooth, workers=1)
@@ -274,6 +275,7 @@ print("distributed" in sys.modules)
 """
 
 
+@pytest.mark.slow
 def test_workers_start_without_scipy_and_archives_are_written_without_distributed(tmp_path):
     command = [sys.executable, "-c", IMPORTS, str(tmp_path / "a.nc")]
     options = {"capture_output": True, "text": True, "check": True}

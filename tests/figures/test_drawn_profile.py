@@ -16,6 +16,7 @@ from swtstudy import draw_profile
 pytestmark = pytest.mark.usefixtures("unwrapped")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("indenter", [oracle.rounded_punch(0.5), oracle.power_law(1.5)], ids=str)
 def test_curves(indenter: oracle.Indenter) -> None:
     sketch, springs = draw_profile(profile=indenter.profile, **indenter.shape).axes
@@ -52,6 +53,7 @@ def test_a_load_is_no_part_of_a_profile() -> None:
         draw_profile(profile="paraboloid", friction=0.3)
 
 
+@pytest.mark.slow
 def test_lengths_of_a_shape_are_drawn():
     """b from the axis on; λ = Λ √h from one crest to the next, half a wave from the axis."""
     sketch = draw_profile(profile="rounded_punch", flat_radius=0.5).axes[0]

@@ -136,7 +136,8 @@ def test_figures_of_results(name: str, kept: Kept) -> None:
     kept(name, drawn(draw(results().isel(at), layout)))
 
 
-@pytest.mark.parametrize("kind", ["scatter", "histogram"])
+@pytest.mark.quick(1)
+@pytest.mark.parametrize("kind", ["histogram", "scatter"])
 def test_figures_of_samples(kind: str, kept: Kept) -> None:
     whole = results().isel(normal_amplitude=0).assign_coords(phase=np.linspace(0.0, 2.0, 13))
     flat = whole.stack(sample=["friction", "profile"]).reset_index("sample")

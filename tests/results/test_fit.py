@@ -80,6 +80,7 @@ class Law:
         return 6.0 + 2.0 * np.log10(distances) - self.power * pull * np.log10(friction) - pull
 
 
+@pytest.mark.slow
 def test_lives_of_a_fit_are_by_counted_cycles(rig):
     file, lives = rig
     grid, *_ = fitting._read(file, {name: values[:1] for name, values in table(lives).items()}, 0)

@@ -213,6 +213,7 @@ def test_every_mistake_is_reported():
 UNIT = {"normal_amplitude": (0.0, 1.0), "friction": (0.0, 1.0), "tangential_amplitude": (0.0, 1.0)}
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("dimensions", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.slow)])
 def test_kinks_are_followed_to_their_lowest_point(dimensions, seed, monkeypatch):

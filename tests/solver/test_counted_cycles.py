@@ -69,6 +69,7 @@ def two(tmp_path_factory):
     return swtstudy.run(Study.from_text(TWO), path, workers=1), path
 
 
+@pytest.mark.slow
 def test_other_constants_need_no_new_run(two, tmp_path) -> None:
     found = two[0]
     shutil.copy2(two[1], tmp_path)

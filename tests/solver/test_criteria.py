@@ -488,6 +488,7 @@ def test_on_the_line_a_plane_that_does_not_hold_the_y_axis_may_be_higher() -> No
     assert line.s_surface[0] >= at_line.swt * (1.0 - 3e-3)
 
 
+@pytest.mark.slow
 def test_planes_off_the_line_have_instants_of_their_own() -> None:
     """Those that make s alone, or a coarse look, leave a circle 1 % low here; another one is the highest."""
     own = points(poisson_ratio=0.1024930, friction=0.1642169, normal_amplitude=0.8367486)

@@ -33,6 +33,7 @@ def found(name: str) -> xr.Dataset:
     return swtstudy.solve(rtol=1e-3, quantities=EVERY, **POINTS[name])
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("name", POINTS)
 def test_values_errors_and_places_are_known(name: str) -> None:
     dataset = found(name)

@@ -87,6 +87,7 @@ def test_a_loop_and_its_mirror_image_have_the_same_where_the_line_has_none():
     assert float(found[0].s_surface) == pytest.approx(float(found[1].s_surface), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_first_circle_of_a_process_is_that_of_its_point():
     """The first one compiles what circles need; the points at hand stay as they are."""
     point, highest = CIRCLES[0]

@@ -115,6 +115,7 @@ def test_percentiles_are_told_and_drawn(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 def test_a_probability_is_told_of_the_life_that_is_named(tmp_path: Path) -> None:
     more = f'{SAMPLE}{RANGE}[figure]\nx = "tangential_amplitude"\ny = ["cycles_volume"]\n'
     axes = AXES.replace("2e-3, 3e-3", "3e-3")
@@ -160,6 +161,7 @@ def test_constants_in_torsion_scatter(tmp_path: Path) -> None:
     assert "N10 = " in repr(found.swt)
 
 
+@pytest.mark.slow
 def test_estimated_constants_in_torsion_scatter_with_tensile_ones(tmp_path: Path) -> None:
     text = of_shear(SAMPLE + RANGE.replace("30 }", "30 }\nductility = [0.3, 0.5]"))
     text = text.replace("poisson_ratio = 0.33\n", "").replace("[axes]", "[axes]\npoisson_ratio = [0.3, 0.4]")
