@@ -242,11 +242,10 @@ def test_audit_of_criteria() -> None:
     says("it was not at {} of {} points", int(misses.sum()), int((~inside).sum()))
     says("s being too low by up to a factor of {}", float((found.s_body / found.s).max()))
     low, beneath = found.remainder > 1e-3, found.body_z > 1e-6
-    says("is too low at {} of these points: at {} of them", int(low.sum()), int((low & beneath).sum()))
-    says(
-        "at the others, by up to {} %, on the surface",
-        100.0 * float(found.remainder.where(low & ~beneath).max()),
-    )
+    says("`s_surface` is too low at {} of these points", int(low.sum()))
+    most = 100.0 * float(found.remainder.where(low & ~beneath).max())
+    counts = int((low & beneath).sum()), int((low & ~beneath).sum())
+    says("The maximum is beneath the surface at {}, and on it at {}, by up to {} %", *counts, most)
     ((_, *rows),) = tables("criteria.md")
     assert {row[3] for row in rows} == {"0"}
     says("of {} random points none was lower by more than s_error", sum(int(row[2]) for row in rows))
