@@ -93,7 +93,7 @@ def parse_toml(text: str) -> dict[str, Any]:
     lines = text.splitlines() or [""]
     place = re.search(r"line (\d+), column (\d+)", reason)
     row, column = (int(place[1]), int(place[2])) if place else (len(lines), len(lines[-1]) + 1)
-    line = lines[row - 1] if row <= len(lines) else ""
+    line = lines[row - 1]
     # A key that is there twice has its name; a decimal comma has a way out.
     key = line.partition("=")[0].strip()
     reason = reason.replace("Cannot overwrite a value", f"the key {key!r} twice")

@@ -109,6 +109,7 @@ def test_the_more_accurate_of_two_consistent_values_is_kept(tmp_path):
         np.testing.assert_allclose(relative, [1e-2, 1e-4, 1e-4])
 
 
+@pytest.mark.slow
 def test_quantities_that_contradict_each_other_are_refused(tmp_path):
     more = 'quantities = ["dissipation"]\n[fixed]\ncritical_distance = 0.1\n'
     one = made(tmp_path, "one", [0.1, 0.2], [0, 1], more)

@@ -407,6 +407,7 @@ def test_a_second_ctrl_c_does_not_take_the_words_of_the_first(study, tmp_path, m
     assert "0 of 8 distinct points are saved" in result.stderr
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_not_there(study, tmp_path):
     pytest.importorskip("distributed")
     code = (

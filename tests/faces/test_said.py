@@ -19,6 +19,7 @@ import real
 import stand_in
 import xarray as xr
 from kept import Kept, told
+from made_up import made_up
 from matplotlib.figure import Figure
 
 import swtstudy
@@ -542,3 +543,9 @@ def test_what_an_optimum_is_searched_over(kept: Kept, monkeypatch: pytest.Monkey
         ]
         said[", ".join(box.names)] = [ends, axes, fixed, pairs, *more]
     kept("contact_searches", said)
+
+
+def test_a_table_keeps_s_where_it_is_the_same_everywhere() -> None:
+    same = made_up(lambda phase, friction: 1.0 + 0.0 * (phase + friction), phase=[0.0, 1.0], friction=[0.3])
+    assert {"phase", "s"} <= {*html.table_of(same)}
+    assert [*html.table_of(same)] == ["phase", "friction", "s"]  # others with one value are told elsewhere

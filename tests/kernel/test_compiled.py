@@ -70,6 +70,7 @@ def ended(process: subprocess.Popen[str]) -> tuple[int, str]:
     return int(misses), folder
 
 
+@pytest.mark.slow
 def test_processes_and_threads_compile_once_and_remove_folders_not_used_for_long(
     tmp_path: Path, environment: dict[str, str]
 ) -> None:
@@ -90,6 +91,7 @@ def test_processes_and_threads_compile_once_and_remove_folders_not_used_for_long
     assert {path.name for path in base.iterdir()} == {folder.name, "kernel-recent", "of-somebody"}
 
 
+@pytest.mark.slow
 def test_a_copy_of_the_package_elsewhere_compiles_nothing_anew(
     tmp_path: Path, environment: dict[str, str]
 ) -> None:

@@ -124,6 +124,7 @@ def test_the_audit_of_a_point(name: str, kept: Kept, monkeypatch: pytest.MonkeyP
     kept(f"audit_of_{name}", {"found": said, "looked": looked[:3]})
 
 
+@pytest.mark.slow
 def test_a_maximum_is_found_from_wherever_the_search_begins() -> None:
     """Also where the line's own maximum is given as another place, or as none."""
     points = read_point(POINTS["line"])

@@ -24,6 +24,7 @@ def two_distances(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
     return run(study(axes=axes, quantities=EVERY[:1]), path, workers=1)
 
 
+@pytest.mark.slow
 def test_critical_distances_are_an_axis_of_the_quantities_alone(two_distances: xr.Dataset) -> None:
     found = two_distances
     assert found.s.dims == found.dissipation.dims == ("phase",)

@@ -29,6 +29,7 @@ def valley(monkeypatch):
     monkeypatch.setattr(stand_in.SOLVER, kinked)
 
 
+@pytest.mark.slow
 def test_no_point_of_a_fine_grid_is_better_or_worse(found, valley):
     amplitude, phase = np.linspace(0.0, 0.9, 31), np.linspace(np.pi / 4, np.pi, 31)
     grid = swtstudy.solve(normal_amplitude=amplitude, phase=phase, rtol=1e-3)

@@ -163,6 +163,7 @@ def test_other_samples_are_refused(results, tmp_path):
         sensitivity(run(plain, tmp_path / "b.nc", workers=1, solver=ishigami))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unwrapped")
 def test_the_bars_are_the_indices(indices, results, told):
     text, figure = told(results.path.with_suffix(".toml"), "--y", "s", "--y", "critical_x")

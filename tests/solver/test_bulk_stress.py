@@ -138,6 +138,7 @@ def test_the_aligned_textbook_method_agrees(profile: str) -> None:
     assert 1.0 - 2e-2 < ratio < 1.0 + 4e-3
 
 
+@pytest.mark.slow
 def test_a_maximum_outside_of_the_contact_is_found() -> None:
     at = points("paraboloid", 0.4354, 0.1805, 0.3087, 1.0453, 3.6127, 2, 1)
     point = with_bulk(at, 0.395, -0.0686, 5.3333, 0.4)

@@ -21,6 +21,7 @@ def sphere(young_modulus, poisson_ratio):
     return physical(**told.RIG | bodies, **loads, phase=np.pi / 2)
 
 
+@pytest.mark.slow
 def test_values_are_those_of_the_single_contact(solved):
     assert solved.s.dims == ("normal_force", "tangential_amplitude", "phase")
     point = solved.sel(normal_force=200, tangential_amplitude=2.5e-3).isel(phase=1)

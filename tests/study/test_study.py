@@ -318,6 +318,7 @@ def test_titles_that_can_be_drawn_are_accepted(title):
     assert study.figure.title == title
 
 
+@pytest.mark.slow
 def test_titles_are_checked_without_pyplot():
     code = f"""
 import sys

@@ -66,6 +66,7 @@ def test_the_noise_is_that_of_the_mean_of_both_sides(folded: Any) -> None:
     assert np.std(left) == pytest.approx(noise, rel=0.25)
 
 
+@pytest.mark.slow
 def test_one_grain_of_dust_in_the_middle_does_not_shift_all_heights(folded: Any) -> None:
     x, z = trace("flat", 0.0, 0.0)
     dust = np.where(np.abs(x - 0.13) < 0.003, 1e-3, 0.0)
