@@ -19,7 +19,7 @@ from swtstudy.points.canonical import canonical_number
 from swtstudy.points.grid import Grid, complete
 from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain
+from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE
@@ -184,7 +184,7 @@ def _read(
         # As TOML gives what is meant for an axis.
         if isinstance(raw, list | dict) and key == f"fixed.{row.name}":
             allowed += "; several values under [axes]"
-        report(key, f"{literal(plain(raw))} ({error})", allowed)
+        report(key, f"{literal(raw)} ({error})", allowed)
         return None
 
 
@@ -225,7 +225,7 @@ def _read_axis(
             found = f"{literal(element)}, another {row.name} with the name of {first}"
             report(own_key, found, "a name of its own")
         elif first != own_key:
-            report(own_key, f"{literal(plain(element))}, the same as {first}", "distinct values")
+            report(own_key, f"{literal(element)}, the same as {first}", "distinct values")
     if also:
         descending = len(values) > 1 and as_number(values[0]) > as_number(values[1])
         values.sort(key=as_number, reverse=descending)

@@ -130,7 +130,7 @@ class Report(list[Mistake]):
 def literal(value: object, longest: int = 60) -> str:
     """A value as shown in a message: its Python literal on one line, shortened if long."""
     try:
-        text = re.sub(r"\s*\n\s*", " ", repr(value))
+        text = re.sub(r"\s*\n\s*", " ", repr(plain(value)))
     except ValueError:  # Python refuses to write integers of more than 4,300 digits
         text = f"{type(value).__name__} with too many digits to be shown"
     except Exception:  # a failing repr of foreign code must not hide the mistake
