@@ -34,6 +34,31 @@ y = ["s", "s/s(flat_radius=0)"]
 title = "A title"
 """
 
+#: A sample that has Sobol indices.
+SALTELLI = """
+title = "A sample"
+[sample]
+design = "saltelli"
+size = 8
+seed = 2
+[sample.ranges]
+friction = [0, 1]
+phase = [0, 3]
+[axes]
+normal_amplitude = [0.25, 0.5]
+"""
+
+
+def having(name: str, value: float, **where: object) -> Callable[[xr.Dataset], xr.Dataset]:
+    """A change of results: another value of a variable, everywhere or at some places."""
+
+    def change(dataset: xr.Dataset) -> xr.Dataset:
+        dataset = dataset.copy(deep=True)
+        dataset[name][where] = value
+        return dataset
+
+    return change
+
 
 def made_up(function: Callable[..., xr.DataArray], **axes: object) -> xr.Dataset:
     """Results with s = function(axes), and everything else as it usually is."""

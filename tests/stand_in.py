@@ -6,13 +6,17 @@ import os
 import signal
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from swtstudy import Study, run
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 #: Where a stand-in goes when there is no argument for it: on the command line and in a search.
 SOLVER = "swtstudy.solver.points.solve_points"
@@ -45,8 +49,16 @@ def smooth(points: Points, rtol: float) -> Solution:
     return Solution(s, rtol * s, 1 + points.phase, angle, np.ones(len(points), np.int8), s)
 
 
+def computed(text: str, path: Path, solver: Callable[..., Solution] = smooth) -> xr.Dataset:
+    """Results of a study by a stand-in for the solver and by one for the quantities on request."""
+    from unittest.mock import patch  # workers do without
+
+    with patch(QUANTITIES, asked):
+        return run(Study.from_text(text), path, workers=1, solver=solver)
+
+
 def slow(points: Points, rtol: float) -> Solution:
-    """The same, 5 ms a point."""
+    """Like `smooth`, 5 ms a point."""
     time.sleep(0.005 * len(points))
     return smooth(points, rtol)
 

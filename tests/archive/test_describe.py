@@ -12,10 +12,10 @@ import pytest
 import stand_in
 import xarray as xr
 from command import call
+from folders import sections
+from made_up import having
 from real import CONTACT, CRITERIA, STUDY
 from stand_in import Points, Solution
-
-from swtstudy import Study, run
 
 PLAIN = """title = "Plain"
 rtol = 1e-3
@@ -74,12 +74,6 @@ def unlike(points: Points, rtol: float) -> Solution:
     return found._replace(s=s, s_error=rtol * s * (1.0 + place), regime=regime.astype(np.int8))
 
 
-def computed(folder: Path, text: str, solver: Callable = stand_in.smooth) -> xr.Dataset:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(stand_in.QUANTITIES, stand_in.asked)
-        return run(Study.from_text(text), folder / "mine.nc", workers=1, solver=solver)
-
-
 def lines(text: str) -> str:
     """A text without versions and times, and without what is said of validity."""
     text = re.sub(r"\(python .*\)", "(versions)", text)
@@ -105,14 +99,14 @@ STUDIES: dict[str, tuple[str, Callable]] = {
     "recorded": (RECORDED, stand_in.smooth),
     "blocks": (CONTACT + START + RUNNING + BLOCKS, stand_in.smooth),
 }
-_SAID = (Path(__file__).parents[1] / "data" / "info.txt").read_text(encoding="utf-8").split("\n# ")
 #: What swtstudy info says of each.
-SAID = dict(each.split("\n", 1) for each in _SAID[1:])
+SAID = sections("info.txt")
 
 
 @pytest.mark.parametrize("name", STUDIES)
 def test_info_says_all_that_is_known_of_a_study(tmp_path: Path, name: str) -> None:
-    computed(tmp_path, *STUDIES[name])
+    text, solver = STUDIES[name]
+    stand_in.computed(text, tmp_path / "mine.nc", solver)
     assert lines(call("info", tmp_path / "mine.nc").output) == SAID[name]
 
 
@@ -123,17 +117,6 @@ def lacking(*names: str) -> Callable:
         kept = {name: value for name, value in dataset.attrs.items() if name not in names}
         there = [name for name in names if name in dataset.variables]
         return dataset.drop_vars(there).drop_attrs(deep=False).assign_attrs(kept)
-
-    return change
-
-
-def having(name: str, value: float, **where: int) -> Callable:
-    """A change: another value of a variable, everywhere or at some places."""
-
-    def change(dataset: xr.Dataset) -> xr.Dataset:
-        dataset = dataset.copy(deep=True)
-        dataset[name][where] = value
-        return dataset
 
     return change
 
@@ -319,11 +302,12 @@ CHANGES: list[tuple[str, Callable, list[str]]] = [
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> dict[str, xr.Dataset]:
-    several = SEVERAL.replace("num = 8", "num = 2")
-    found = {"several": computed(tmp_path_factory.mktemp("several"), several)}
-    for name in ("units", "distances", "recorded", "blocks"):
-        found[name] = computed(tmp_path_factory.mktemp(name), *STUDIES[name])
-    return found
+    studies = {"several": (SEVERAL.replace("num = 8", "num = 2"), stand_in.smooth)}
+    studies |= {name: STUDIES[name] for name in ("units", "distances", "recorded", "blocks")}
+    return {
+        name: stand_in.computed(text, tmp_path_factory.mktemp(name) / "mine.nc", solver)
+        for name, (text, solver) in studies.items()
+    }
 
 
 def parts(dataset: xr.Dataset) -> list[str]:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import stand_in
 from command import call
+from folders import sections
 from real import CONTACT
 
 from swtstudy import Study, run
@@ -85,8 +86,7 @@ FILES = {
     "unlike.toml": SAMPLE.replace("phase", "poisson_ratio").replace("1]", "0.5]"),
     "bad.toml": LINE.format(numbers="[-1, 0.2]"),
 }
-_PARTS = (Path(__file__).parents[1] / "data" / "sessions.txt").read_text(encoding="utf-8").split("\n# ")
-SESSIONS = dict(part.split("\n", 1) for part in _PARTS[1:])
+SESSIONS = sections("sessions.txt")
 
 #: What differs from run to run, and what stands in its place.
 VARYING = {

@@ -19,7 +19,7 @@ import real
 import stand_in
 import xarray as xr
 from kept import Kept, told
-from made_up import made_up
+from made_up import SALTELLI, made_up
 from matplotlib.figure import Figure
 
 import swtstudy
@@ -47,18 +47,7 @@ phase = {{ start = 0, stop = "2*pi", num = 9 }}
 normal_amplitude = [0.25, "8/9"]
 profile = ["paraboloid", "rounded_punch"]
 {FIGURE}"""
-SAMPLE = """
-title = "A sample"
-[sample]
-design = "saltelli"
-size = 8
-seed = 2
-[sample.ranges]
-friction = [0, 1]
-phase = [0, 3]
-[axes]
-normal_amplitude = [0.25, 0.5]
-[figure]
+SAMPLE = f"""{SALTELLI}[figure]
 kind = "scatter"
 x = "sample"
 hue = "normal_amplitude"

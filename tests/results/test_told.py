@@ -10,7 +10,7 @@ import pytest
 import stand_in
 import xarray as xr
 from kept import Kept, told
-from made_up import made_up
+from made_up import SALTELLI, made_up
 from solved import REGIMES
 
 import swtstudy
@@ -86,23 +86,9 @@ def test_optima(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     kept("told_optimum", told(found.drop_vars(["progress", "evaluations", "run"], errors="ignore")))
 
 
-SAMPLE = """
-title = "A sample"
-[sample]
-design = "saltelli"
-size = 8
-seed = 2
-[sample.ranges]
-friction = [0, 1]
-phase = [0, 3]
-[axes]
-normal_amplitude = [0.25, 0.5]
-"""
-
-
 def test_indices(kept: Kept, tmp_path: Any) -> None:
     found = swtstudy.run(
-        swtstudy.Study.from_text(SAMPLE), tmp_path / "a.nc", workers=1, solver=stand_in.smooth
+        swtstudy.Study.from_text(SALTELLI), tmp_path / "a.nc", workers=1, solver=stand_in.smooth
     )
     kept("told_indices", told(swtstudy.sensitivity(found, ["s", "critical_x"], confidence=0.9, seed=3)))
     kept("told_indices_of_s", told(swtstudy.sensitivity(found.drop_attrs(deep=False))))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 from asking import EVERY
+from folders import sections
 
 import swtstudy
 
@@ -25,8 +25,7 @@ POINTS: dict[str, dict[str, Any]] = {
     "cylinder": {"profile": "cylinder", "critical_distance": (0.1, 1.0), **FORCES},
     "parting": {"phase": 1.0, "normal_amplitude": 1.2, "critical_distance": (0.1,)},
 }
-_PARTS = (Path(__file__).parents[1] / "data" / "known.txt").read_text(encoding="utf-8").split("\n# ")
-KNOWN = dict(part.split("\n", 1) for part in _PARTS[1:])
+KNOWN = sections("known.txt")
 
 
 def found(name: str) -> xr.Dataset:

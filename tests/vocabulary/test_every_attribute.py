@@ -8,10 +8,10 @@ import pytest
 import stand_in
 import xarray as xr
 from asking import EVERY
+from folders import sections
 from real import CONSTANTS, CONTACT, CRITERIA
 
 import swtstudy
-from swtstudy import Study, run
 
 PLAIN = f"""title = "t"
 quantities = {list(EVERY)}
@@ -55,8 +55,7 @@ target_life = 2e5
 strength = { distribution = "normal", mean = 927, deviation = 30 }
 """
 STUDIES = {"plain": PLAIN, "forces": FORCES, "units": UNITS, "loads": CONTACT + LOADS}
-_PARTS = (Path(__file__).parents[1] / "data" / "attributes.txt").read_text(encoding="utf-8").split("\n# ")
-SAID = dict(part.split("\n", 1) for part in _PARTS[1:])
+SAID = sections("attributes.txt")
 
 
 def attributes(dataset: xr.Dataset) -> str:
@@ -71,9 +70,8 @@ def attributes(dataset: xr.Dataset) -> str:
 
 
 @pytest.mark.parametrize("name", STUDIES)
-def test_all_attributes_are_these(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
-    monkeypatch.setattr(stand_in.QUANTITIES, stand_in.asked)
-    found = run(Study.from_text(STUDIES[name]), tmp_path / "a.nc", workers=1, solver=stand_in.smooth)
+def test_all_attributes_are_these(tmp_path: Path, name: str) -> None:
+    found = stand_in.computed(STUDIES[name], tmp_path / "a.nc")
     assert attributes(found).strip() == SAID[name].strip()
 
 
