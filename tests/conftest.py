@@ -47,11 +47,14 @@ READING = (
     *("legend", "drawn_profile", "quantities", "show_load", "jumps", "contour_labels", "hostile_names"),
     *("marked_validity", "loop_legend", "optimise", "statements", "validate_limits", "safe_files", "audit"),
     *("study", "schema", "rig_files", "expression", "mistakes_report", "scripts", "check", "formalisms"),
+    *("resume", "sensitivity", "told_of_files", "told_of_signals", "parts", "client", "messages", "mistakes"),
+    *("limits", "definitions", "radii", "doubts", "writing", "calls"),
 )
-#: Tests of these files need no more compiled code than that of s: it is what is compiled first.
+#: Tests of these files need little more compiled code than that of s, in the order in which that is there.
 OF_S_ALONE = (
-    *("cli", "trace", "accessor", "file_systems", "sample", "develop", "save", "page_numbers"),
-    *("many_values", "designers_figures", "tables_of_users", "bounds_of_statements", "plane_units"),
+    *("sample", "file_systems", "save", "page_numbers", "cli", "sessions", "checked", "describe"),
+    *("trace", "accessor", "designers_figures", "every_attribute", "tables_of_users", "bounds_of_statements"),
+    *("many_values", "plane_units"),
 )
 GROUP_OF = {f"test_{name}.py": group[0] for group in TOGETHER for name in group}
 
@@ -136,14 +139,16 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=turn_of)
 
 
-def turn_of(item: pytest.Item) -> int:
+def turn_of(item: pytest.Item) -> tuple[int, int]:
     """Which tests are run first: what compiles, what does not, what stays with one process, all others."""
     name, group = item.path.stem.removeprefix("test_"), GROUP_OF.get(item.path.name)
+    if name in TOGETHER[0]:
+        return 0, TOGETHER[0].index(name)
     if name in READING:
-        return 1
+        return 1, 0
     if name in OF_S_ALONE:
-        return 2
-    return 4 if group is None else 0 if group == TOGETHER[0][0] else 3
+        return 2, OF_S_ALONE.index(name)
+    return (4 if group is None else 3), 0
 
 
 def pytest_collection() -> None:

@@ -28,7 +28,7 @@ load = "rig"
 """
 STUDY = f"""
 title = "A sphere on a flat"
-rtol = 1e-3
+rtol = 1e-2
 quantities = ["dissipation", "stick_radius", "contact_radius"]
 {ALLOY}[fixed]
 young_modulus = 73.1e3

@@ -11,7 +11,7 @@ from solved import FAILED, MISSING
 from swtstudy import open_results, run
 
 
-@pytest.mark.quick(6)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("name", "value", "words"),
     [
@@ -84,7 +84,7 @@ BAD_ATTRIBUTES = [
 ]
 
 
-@pytest.mark.quick(10)
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(("name", "value", "words"), BAD_ATTRIBUTES, ids=lambda value: str(value)[:25])
 def test_an_attribute_that_is_none_is_named_wherever_an_archive_is_read(
     small, small_text, tmp_path, name, value, words

@@ -59,6 +59,7 @@ def test_a_flipped_bit_is_noticed(tmp_path, name, value, single):
             open_results(path)
 
 
+@pytest.mark.slow
 def test_damage_anywhere_is_noticed_or_changes_nothing(tmp_path):
     text = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = {start = 0.1, stop = 1, num = 300}\n'
     path = tmp_path / "small.nc"

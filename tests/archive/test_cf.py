@@ -14,6 +14,7 @@ FOUR = 'title = "t"\n[axes]\nphase = [0, 1]\nfrequency_ratio = ["1/2", 1]\nfrict
 NAMED = 'title = "t"\n[axes]\nprofile = ["rounded_punch", "truncated_paraboloid"]\nflat_radius = [0, 1]\n'
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("text", [FOUR, NAMED, 'title = "t"'])
 def test_cf(text, tmp_path):
     checker = pytest.importorskip("compliance_checker.runner")

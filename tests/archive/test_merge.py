@@ -75,6 +75,7 @@ def test_what_symmetry_gives_is_no_gap(tmp_path):
     assert np.isfinite(merged.s).all()
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("apart", [1.01, 0.99, 1 + 2.01e-3, 1 - 2.01e-3])
 @pytest.mark.parametrize("order", [1, -1])
 def test_conflicts_are_refused(tmp_path, apart, order):
@@ -189,6 +190,7 @@ def test_different_loops_of_one_name_are_refused(tmp_path):
         merge(*paths)
 
 
+@pytest.mark.slow
 def test_means_of_measured_loads_are_no_axis(tmp_path):
     """Of two such loads each contact had been asked for with the mean of the other one."""
     fixed = '[units]\nlength = "mm"\nforce = "N"\nstress = "MPa"\n[fixed]\n'

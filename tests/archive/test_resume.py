@@ -132,6 +132,7 @@ def test_points_that_leave_a_study_are_kept_for_whoever_has_them(path, caplog):
     assert [*path.parent.iterdir()] == [path]
 
 
+@pytest.mark.slow
 def test_the_time_of_a_run_is_told_once(path):
     wide, narrow = square([0.1, 0.2], [0, 1]), square([0.1], [0, 1])
     (first,) = json.loads(run(wide, path, solver=stand_in.smooth).attrs["runs"])
@@ -266,9 +267,8 @@ def test_a_disk_too_full_for_the_archive_loses_nothing(line, path, monkeypatch):
     assert count == 0
 
 
-@pytest.mark.parametrize(
-    "signals", [(signal.SIGINT, signal.SIGINT), pytest.param((signal.SIGTERM,), marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("signals", [(signal.SIGINT, signal.SIGINT), (signal.SIGTERM,)])
 def test_ctrl_c_twice_or_sigterm_ends_a_run_cleanly(tmp_path, signals):
     first, *later = signals
     with told_run(tmp_path, LONG, up_to=1.0) as process:
@@ -303,7 +303,7 @@ def test_ctrl_c_in_the_midst_of_a_submission_comes_after_it(line, tmp_path, monk
     assert submitted == [True]
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("seconds", "words"),
     [
@@ -443,6 +443,7 @@ OF_FILES = {
 }
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("part", OF_FILES)
 def test_what_is_left_of_a_run_needs_no_file_of_its_study(tmp_path, monkeypatch, part):
     folder, path = tmp_path / "studies", tmp_path / "results" / "study.nc"

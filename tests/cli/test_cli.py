@@ -60,9 +60,9 @@ def ran(finished, tmp_path):
 
 
 def test_run_leaves_archive_and_figures(study, tmp_path):
-    result = call("run", study, "--results", tmp_path / "results", "--format", "png", "--format", "pdf")
+    result = call("run", study, "--results", tmp_path / "results", "--format", "png", "--format", "svg")
     assert result.exit_code == 0, result.output
-    assert {path.name for path in (tmp_path / "results").iterdir()} == {"small.nc", "small.png", "small.pdf"}
+    assert {path.name for path in (tmp_path / "results").iterdir()} == {"small.nc", "small.png", "small.svg"}
     dataset = swtstudy.open_results(tmp_path / "results" / "small.nc")
     assert (dataset.s > 0).all()
     assert f"{dataset.s.size} points in " in result.output

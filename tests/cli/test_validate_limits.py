@@ -48,6 +48,7 @@ def test_a_radius_in_metres_is_told(tmp_path: Path) -> None:
     assert "validity: contact too large for half-spaces: contact radius over R up to 1.67" in words
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("face", [0.0, 0.2])
 def test_heights_in_micrometres_are_told(tmp_path: Path, face: float) -> None:
     x = np.linspace(-2.0, 2.0, 201)

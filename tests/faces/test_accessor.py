@@ -212,22 +212,17 @@ def test_results_of_solve():
         dataset.swt.figure()
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "imports",
     [
         "import swtstudy, xarray",
         "import xarray, swtstudy",
-        *(
-            pytest.param(each, marks=pytest.mark.slow)
-            for each in (
-                "import swtstudy.faces.accessor",
-                "from swtstudy import Study; import dask.array, xarray.core.dataset",
-                "from swtstudy.archive.archive import open_results; import xarray",
-                "from swtstudy.points.solve import solve",
-                "import swtstudy.points.labelled",
-            )
-        ),
+        "import swtstudy.faces.accessor",
+        "from swtstudy import Study; import dask.array, xarray.core.dataset",
+        "from swtstudy.archive.archive import open_results; import xarray",
+        "from swtstudy.points.solve import solve",
+        "import swtstudy.points.labelled",
     ],
 )
 def test_the_accessor_is_there_whatever_is_imported_first(imports):

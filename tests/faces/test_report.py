@@ -231,6 +231,7 @@ def test_values_of_several_criteria_are_not_compared() -> None:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:.* has no effect:UserWarning")
 def test_criteria_in_units_are_each_in_their_own(tmp_path: Path, without_points: None) -> None:
     """A phase moves nothing where the normal load is constant."""
@@ -251,6 +252,7 @@ def test_criteria_in_units_are_each_in_their_own(tmp_path: Path, without_points:
     assert float(again.s) == pytest.approx(float(worst.s), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_what_moves_several_criteria_is_said_of_each_by_its_name_and_unit(
     tmp_path: Path, without_points: None
 ) -> None:
@@ -389,6 +391,7 @@ def test_the_sentence_of_odd_studies(
     assert f"3 × 1, {missing or 'none'} without a value" in re.sub("<[^>]*>", "", said_in(dataset, "head"))
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize(
     ("name", "said"),
     [
@@ -432,9 +435,8 @@ def test_the_page_of_a_figure_of_the_paper_holds_it_against_the_paper(without_po
     assert {*paper.holds} == {"yes"}
 
 
-@pytest.mark.parametrize(
-    "name", ["life", *(pytest.param(name, marks=pytest.mark.slow) for name in ("figure4", "sensitivity"))]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["life", "figure4", "sensitivity"])
 def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) -> None:
     text = page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)
     tied = re.findall(r'<span class="tied">.*?</span>', text)

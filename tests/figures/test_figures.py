@@ -51,7 +51,7 @@ def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
 
 
 @pytest.mark.usefixtures("unwrapped")
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]
 )
@@ -147,6 +147,7 @@ def test_the_user_has_the_last_word_on_the_look(archive, one_panel, tmp_path):
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unwrapped")
 def test_lines_differ_in_greyscale():
     """Of any five neighbours in the cycle none have the same dashes; later ones differ in the marker."""
@@ -187,6 +188,7 @@ panels = "phase"
 """
 
 
+@pytest.mark.slow
 def test_long_labels_of_neighbours_do_not_touch_on_a_screen(tmp_path):
     results = run(Study.from_text(SENSITIVITY), tmp_path / "k.nc", solver=stand_in.smooth)
     figure = results.swt.figure()

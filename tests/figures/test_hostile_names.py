@@ -75,7 +75,7 @@ def test_names_are_written_as_they_are(tmp_path: Path, name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("unit", ["$$", pytest.param("$x", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("unit", ["$$", "$x"])
 def test_units_are_written_as_they_are(tmp_path: Path, unit: str) -> None:
     study = Study.from_text(
         f"""

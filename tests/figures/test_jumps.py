@@ -99,6 +99,7 @@ def test_numbers_of_a_short_logarithmic_axis_are_of_one_kind(
     assert len({"$" in each for each in shown}) == 1
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize(
     ("low", "high"), [(0.25, 0.71), (0.12, 8.0), (510.0, 640.0), (1.2e6, 1.8e6), (1.3e5, 1.4e7), (6e5, 5e9)]
 )

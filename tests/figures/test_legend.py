@@ -35,7 +35,7 @@ def assert_whole(figure, entries):
     assert all(axes.bbox.width > 0.5 * 72 for axes in figure.axes)
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("size", [5, 10, 24, 40])
 def test_no_entry_is_cut_in_any_size_of_letters(size):
     friction = np.arange(1, 8) / 10
@@ -73,7 +73,7 @@ def test_names_have_no_scale_however_many():
     assert len(figure.axes) == len(figure.legends) == 1
 
 
-@pytest.mark.quick(2)
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("width", [None, "column", "page"])
 def test_panels_stay_as_large_above_a_legend(width):
     dataset = lines_over([0.1, 0.2])
@@ -149,6 +149,7 @@ def test_a_scale_of_phases_is_in_multiples_of_pi():
     assert [tick.get_text() for tick in bar.get_yticklabels()] == ["0", "π/2", "π", "3π/2", "2π"]
 
 
+@pytest.mark.slow
 def test_one_scale_stands_beside_all_panels():
     dataset = made_up(
         lambda phase, friction, poisson_ratio: friction + poisson_ratio * phase,

@@ -71,6 +71,7 @@ def test_the_springs_are_those_of_the_inspection():
             assert force == pytest.approx(same.force.values[0], abs=1e-2)
 
 
+@pytest.mark.slow
 def test_where_s_is_not_finite_there_is_a_picture_all_the_same():
     live = LiveFigure()
     point = live.redraw(profile="truncated_paraboloid", flat_radius=0.5, friction=1.9)

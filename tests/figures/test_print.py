@@ -106,6 +106,7 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
     assert all(line.count("$") % 2 == 0 for line in lines)
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize(
     ("rows", "count", "width", "across"),
     [

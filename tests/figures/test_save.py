@@ -11,6 +11,7 @@ from command import call
 import swtstudy
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
 def test_nothing_is_left_of_a_figure_whose_drawing_is_ended(tmp_path):
     (tmp_path / "figure.png").write_bytes(b"the last one")

@@ -162,6 +162,7 @@ assert "numba" not in sys.modules
 """
 
 
+@pytest.mark.slow
 def test_a_study_is_checked_without_a_compiler(tmp_path: Path) -> None:
     """Those with forces are told where friction does not carry them, before anything is solved."""
     study = tmp_path / "forces.toml"

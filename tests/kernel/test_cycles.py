@@ -75,6 +75,7 @@ def test_without_a_critical_plane_nothing_is_counted() -> None:
     assert count_batch(nothing, nothing, "paraboloid", **sizes, tangential_amplitude=[0.1]) == [[]]
 
 
+@pytest.mark.slow
 def test_a_polygon_of_short_sides_has_the_cycles_of_its_curve() -> None:
     """Between the ends of a short side there are no instants."""
     found = []

@@ -54,6 +54,7 @@ def test_next_to_nothing_slips(rtol: float) -> None:
     assert found["s"] == pytest.approx(cattaneo_mindlin(nu, mu, U), rel=1e-6)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize(("name", "given"), [("paraboloid", {}), ("rounded_punch", {"flat_radius": [0.3]})])
 def test_a_search_ends_where_rounding_alone_is_left(name: str, given: dict[str, list[float]]) -> None:
     """The slip zone is as wide as the rounding of its ends: s, which goes like √U, is within its error."""

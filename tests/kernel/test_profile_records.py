@@ -172,6 +172,7 @@ def test_a_fine_table_is_its_profile(geometry: str, b: float) -> None:
     assert found["s"] == pytest.approx(known["s"], rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_rough_table_says_what_is_left_out() -> None:
     r = np.linspace(0.0, 2.0, 1501)
     noise = 1e-6 * np.random.default_rng(1).standard_normal(r.size)

@@ -82,6 +82,7 @@ def scenes():
 SCENES = {name: rest for name, *rest in scenes()}
 
 
+@pytest.mark.quick(13)
 @pytest.mark.parametrize("name", SCENES)
 def test_all_tolerances_find_one_maximum(name):
     profile, points, most = SCENES[name]
@@ -111,6 +112,7 @@ def only(points, k):
     return one | {"shape": {name: values[k : k + 1] for name, values in points.get("shape", {}).items()}}
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", MEANS)
 def test_all_tolerances_find_one_mean(name):
     profile, points, _ = SCENES[name]

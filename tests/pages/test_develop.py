@@ -49,6 +49,7 @@ def test_every_place_is_there(file: str, name: str) -> None:
     assert not name or name in held_by(tree.body)
 
 
+@pytest.mark.pages
 def test_a_value_goes_the_ten_steps(tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "two.toml").write_text(STUDY, encoding="utf-8")
@@ -80,6 +81,7 @@ def code_of(file: str, name: str) -> CodeType:
     return operator.attrgetter(name)(module).__code__
 
 
+@pytest.mark.pages
 def test_the_picture_says_every_import_and_no_other() -> None:
     def leads_to(room: str) -> set[str]:
         return drawn[room].union(*map(leads_to, drawn[room]))

@@ -9,6 +9,7 @@ import pytest
 from build_steps.rooms import MODULES, WHOLE, imported
 from folders import ROOT, TESTS
 
+pytestmark = pytest.mark.pages
 ORACLE = "swtstudy.paper.formalisms"
 
 

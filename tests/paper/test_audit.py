@@ -323,6 +323,7 @@ def test_a_sample_has_every_point_at_most_once(audited, tmp_path):
     assert places_of(one) != places_of(other)
 
 
+@pytest.mark.slow
 def test_points_of_a_sample_are_drawn_and_a_grid_without_end_is_refused(audited, tmp_path):
     sample = "[sample]\ndesign = 'sobol'\nsize = 8\nranges = { phase = [0, 6], friction = [0.1, 0.5] }\n"
     found = audit_study(Study.from_text(f'title = "t"\n{sample}'), tmp_path / "a.nc", points=4, workers=1)

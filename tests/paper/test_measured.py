@@ -195,7 +195,7 @@ def test_where_the_maxima_off_the_line_are_is_counted() -> None:
     )
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("line_x", "nearest"), [(0.5001, 0.9e-4), (-0.4999, 0.9e-4), (0.9, 1e-3 * 1.75**0.5)]
 )

@@ -73,12 +73,13 @@ def test_nonlocal_values():
     assert found.direction.values.tolist() == ["depth", "critical_plane"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("criterion", "value"),
     [
         ("findley", "Findley stress"),
-        pytest.param("fatemi_socie", "Fatemi-Socie parameter", marks=pytest.mark.slow),
-        pytest.param(["findley", "swt"], "criterion", marks=pytest.mark.slow),
+        ("fatemi_socie", "Fatemi-Socie parameter"),
+        (["findley", "swt"], "criterion"),
     ],
 )
 def test_nonlocal_values_are_of_the_criterion(criterion, value):

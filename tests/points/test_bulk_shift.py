@@ -86,6 +86,7 @@ def test_random_cylinders_have_the_closed_form(rtol: float) -> None:
     np.testing.assert_allclose(found["critical_x"], -of["way"], rtol=1e-6)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("rtol", [1e-4, 1e-6])
 def test_random_polygons_have_the_closed_form(rtol: float) -> None:
     """The tangential force has a mean, the load turns on its way, and the bulk stress follows it."""
@@ -139,7 +140,7 @@ MARCHED = {
 }
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", MARCHED)
 def test_boundary_elements_marched_in_time(name: str) -> None:
     loop, friction, elements, per_side = np.array(MARCHED[name]), 0.5, 200, 16

@@ -60,6 +60,7 @@ def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: fl
     _agree(counted.sum("counted_cycle"))
 
 
+@pytest.mark.slow
 def test_archives_keep_the_common_period(tmp_path: Path) -> None:
     """Values that a second run takes from an archive are those of the first one."""
     text = (

@@ -172,6 +172,7 @@ def test_axes_of_dask_are_solved_lazily_and_give_the_same_bits():
     xr.testing.assert_identical(later.compute(scheduler="threads"), now)
 
 
+@pytest.mark.slow
 def test_lazy_means_have_their_own_dimensions():
     given = {"critical_distance": [0.1, 0.2], "rtol": 0.1}
     later = swtstudy.solve(phase=dask.array.from_array([0.5], chunks=1), **given)

@@ -39,6 +39,7 @@ def rig(tmp_path_factory):
     return run(Study.from_text(RIG), tmp_path_factory.mktemp("rig") / "rig.nc", workers=1)
 
 
+@pytest.mark.slow
 def test_contact_radius_over_r(rig):
     radius = (0.75 * 200.0 * 50.0 / E_STAR) ** (1 / 3)
     np.testing.assert_allclose(rig.radius_ratio, radius / 50.0, rtol=1e-9)

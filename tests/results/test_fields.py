@@ -263,6 +263,7 @@ def test_nonlocal_values_are_nan_where_s_is_not_finite():
     assert np.isnan(dataset.s_point.sel(tangential_amplitude=3.0)).all()
 
 
+@pytest.mark.slow
 def test_nonlocal_values_of_several_profiles_at_once():
     at = {"critical_distance": 0.05, "rtol": 1e-2}
     both = swtstudy.solve(profile=["paraboloid", "rounded_punch"], flat_radius=0.5, **at)

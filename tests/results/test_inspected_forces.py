@@ -78,6 +78,7 @@ def test_springs_are_compressed_by_the_depth_beyond_their_own(points):
     np.testing.assert_allclose(point.compression, expected, atol=1e-4)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", SCENES)
 def test_springs_moved_like_that_give_these_forces(points, name):
     """Springs clipped step by step, from rest at u = 0: forces are their sums, F = ∫ w dr and ∫ τ dr."""
@@ -133,6 +134,7 @@ def test_no_contact_is_open():
     np.testing.assert_allclose(point.tangential_force.values[:-1][apart], 0, atol=1e-12)
 
 
+@pytest.mark.quick(4)
 @pytest.mark.parametrize("name", SCENES)
 def test_panels(points, name):
     plane, forces, loop = Figure().subplots(1, 3)

@@ -134,6 +134,7 @@ def test_mistakes_are_named():
         swtstudy.inspect(phase=[0, 1])
 
 
+@pytest.mark.quick(6)
 @pytest.mark.parametrize("phase", [0.0, 0.1, 0.3, 2.9, 3.1, 6.2])
 @pytest.mark.parametrize("ratio", ["1", "3/2"])
 def test_instants_near_to_one_another_are_one_also_across_the_end_of_the_cycle(phase, ratio):

@@ -100,6 +100,7 @@ def test_a_slip_map_has_both_sides() -> None:
     assert "stick_centre" not in swtstudy.slip_map(r, **given, stick_zone_shift="none")
 
 
+@pytest.mark.quick(1)
 @PROFILES
 def test_means_and_stresses_rise_with_s(profile: str) -> None:
     given = {"profile": profile, **MOVED, "critical_distance": 0.02, "quantities": ["von_mises"]}
@@ -148,6 +149,7 @@ def test_a_maximum_off_the_line_is_seen() -> None:
     assert float(found.s_surface) <= 1.02 * max(float(field.s_local.max()), float(found.s))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unwrapped")
 def test_a_figure_says_where_the_stick_zone_is() -> None:
     words = {}

@@ -41,6 +41,7 @@ def test_no_point_of_a_fine_grid_is_better_or_worse(found, valley):
     assert worst < 1.02 * grid.s.max()
 
 
+@pytest.mark.slow
 def test_the_best_point_is_a_minimum_of_a_very_fine_grid_around_it(found, valley):
     best = found.sel(case="best")
     around = {name: best[name].item() + 1e-3 * np.linspace(-1, 1, 21) for name in OVER}
@@ -214,9 +215,9 @@ def test_every_mistake_is_reported():
 UNIT = {"normal_amplitude": (0.0, 1.0), "friction": (0.0, 1.0), "tangential_amplitude": (0.0, 1.0)}
 
 
-@pytest.mark.quick(1)
-@pytest.mark.parametrize("dimensions", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("seed", [7, pytest.param(8, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("dimensions", [1, 2, 3])
+@pytest.mark.parametrize("seed", [7, 8])
 def test_kinks_are_followed_to_their_lowest_point(dimensions, seed, monkeypatch):
     """The highest of curved surfaces, whose gradients cancel at the place where they meet."""
     rng, over = np.random.default_rng(seed), dict(list(UNIT.items())[:dimensions])

@@ -111,6 +111,7 @@ def test_the_known_indices_are_in_the_confidence_intervals(indices, results):
     assert (width < 0.6 * wide).isel(parameter=[0, 1]).all()
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same(results, indices):
     again = sensitivity(results, "critical_x")
     assert again.identical(indices.sel(quantity=["critical_x"]))
@@ -190,6 +191,7 @@ def test_the_bars_are_the_indices(indices, results, told):
     assert "## critical_x, normal_amplitude = 0.5" in text.splitlines()
 
 
+@pytest.mark.slow
 def test_the_table_has_what_the_paper_says(tmp_path):
     shutil.copy2(RESULTS / "sensitivity.nc", tmp_path)
     result = call("sensitivity", "sensitivity", "--results", tmp_path)
@@ -198,6 +200,7 @@ def test_the_table_has_what_the_paper_says(tmp_path):
     assert line.endswith("| weak but intricate (section 4.1) |")
 
 
+@pytest.mark.slow
 def test_the_command_computes_and_writes(tmp_path):
     text = STUDY.format(size=2).replace("tangential_amplitude = [0, 2]", "").replace("[0.25, 0.5]", "[0.25]")
     (tmp_path / "mine.toml").write_text("rtol = 1e-2\n" + text)

@@ -238,6 +238,7 @@ def test_s_is_continuous_where_the_bulk_stress_ends(profile: str) -> None:
         np.testing.assert_allclose(solve_points(small, 1e-6).s, plain, rtol=3e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("profile", each_profile("paraboloid"))
 def test_s_converges_to_the_asked_accuracy(profile: str) -> None:
     batch = random_bulk(7, random_points(7, 8, profile, largest_term=3))
@@ -313,6 +314,7 @@ def test_means_over_a_distance_know_it(exponent: float) -> None:
     assert float(found.s_line.sel(direction="depth").squeeze()) == pytest.approx(mean, rel=3e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("unwrapped")
 def test_it_has_its_own_curve_in_the_cycle() -> None:
     own: dict[str, Any] = {"bulk_stress_amplitude": 0.1, "bulk_stress_mean": 0.05, "bulk_stress_phase": 2.0}

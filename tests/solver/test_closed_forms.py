@@ -207,6 +207,7 @@ def compare_springs(path: Path, point: xr.Dataset, angle: Array, indenter: oracl
     np.testing.assert_allclose(compression, np.maximum(depth - g, 0.0), atol=1e-6)
 
 
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("load", LOADS)
 def test_springs_follow_the_clip_rule(load: str) -> None:
     d, u, ψ, p, q = LOADS[load]

@@ -88,6 +88,7 @@ def test_other_constants_need_no_new_run(two, tmp_path) -> None:
     assert not {"counted", "counted_number"} & {*table.columns}
 
 
+@pytest.mark.slow
 def test_each_body_counts_with_its_own_constants(tmp_path) -> None:
     text = without(BODIES, "critical_distance", "[figure]", "x =", "hue =", "panels =", "y =")
     text = text.replace('phase = [0, "pi/2"]', "frequency_ratio = [3]")

@@ -106,7 +106,7 @@ def by_pairs(stress: Array, normals: Array, name: str, k: float) -> Array:
     return np.asarray(amplitude * (1.0 + k * np.maximum(tension.max(axis=-1), 0.0)))
 
 
-@pytest.mark.parametrize("instants", [3, 9])
+@pytest.mark.parametrize("instants", [3, pytest.param(9, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", SHEAR)
 def test_all_planes_against_all_pairs_of_instants(name: str, instants: int) -> None:
     stress = random_histories(instants, 30, instants)

@@ -64,6 +64,7 @@ def test_rotating_a_history_rotates_the_plane_only(histories):
     np.testing.assert_allclose(alignment[swt > 0], 1.0, atol=1e-9)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("histories", [smooth_histories, rough_histories, compressed_histories])
 def test_no_plane_is_higher(histories):
     stress = histories(np.random.default_rng(4), 60)

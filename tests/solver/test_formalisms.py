@@ -38,7 +38,7 @@ def traction_of_springs(radius: Array, force: Array, r: Array) -> Array:
 POSITIONS = np.linspace(0.03, 1.27, 80)
 
 
-@pytest.mark.quick(4)
+@pytest.mark.quick(2)
 @pytest.mark.parametrize("seed", range(12))
 def test_three_routes_lead_to_the_same_tractions(seed: int) -> None:
     depth, displacement = random_path(seed, 40)

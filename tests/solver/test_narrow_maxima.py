@@ -159,6 +159,7 @@ def test_a_cusp_whose_instant_is_rounded_where_the_load_turns_is_one_cusp(rtol):
     assert solve_points(mixed, rtol).s[0] == pytest.approx(0.171475262006, rel=rtol)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "load", [(0.4949, 0.001433, 0.0, 0.04296, 4.974, 1, 1), (0.5, 0.1048, 0.0, 0.01602, 4.189, 1, 1)]
 )

@@ -123,7 +123,7 @@ def march(loop: Array, strip: StripMarch, per_side: int, x: Array) -> Array:
     return np.stack(found, axis=1)
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "b"), [("oblique", 0.6), ("oblique", 0.0), ("growth", 0.0)])
 def test_boundary_elements_marched_in_time(name: str, b: float) -> None:
     """The normal load varies; the march knows neither a superposition nor a memory."""

@@ -48,6 +48,7 @@ def test_tangential_amplitude_to_nothing_and_to_gross_slip(profile: str) -> None
     assert regime_names(found)[4:] == ["gross_slip"] * 3
 
 
+@pytest.mark.quick(1)
 @every_profile
 def test_constant_depth_from_no_motion_to_gross_slip(profile: str) -> None:
     amplitude = np.array([0.0, TINY, 1e-12, 1e-6, 1.0 - 1e-9, 1.0, 1.0 + 1e-9, 5.0])

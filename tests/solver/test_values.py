@@ -97,12 +97,14 @@ def test_a_point_does_not_depend_on_its_batch(profile: str) -> None:
 ALIGNED: dict[str, Any] = {"springs": 1000, "steps": 360, "positions": 100, "planes": 180, "aligned": True}
 
 
+@pytest.mark.quick(5)
 @pytest.mark.parametrize("name", KNOWN)
 def test_the_aligned_textbook_method_agrees(name: str) -> None:
     point = points(**KNOWN[name][0])
     assert textbook_s(point, **ALIGNED).s == pytest.approx(solve_points(point).s[0], rel=7e-4)
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("profile", each_profile())
 def test_the_aligned_textbook_method_agrees_at_random_points(profile: str) -> None:
     point = random_points(3, 1, profile, largest_term=3)

@@ -84,7 +84,7 @@ CURVES = {
 }
 
 
-@pytest.mark.quick(5)
+@pytest.mark.quick(3)
 @pytest.mark.parametrize("given", CURVES.values(), ids=CURVES)
 def test_they_are_those_of_the_curves_that_are_drawn(given: dict[str, object]) -> None:
     """The work is the area of the loop of force and displacement: the quantity sums up what slips instead."""

@@ -87,6 +87,7 @@ def test_the_aligned_textbook_method_agrees(profile: str, exponent: float) -> No
     assert 1.0 - 4e-2 < ratio < 1.0 + 7e-4
 
 
+@pytest.mark.slow
 def test_fields_and_means_have_the_exponent() -> None:
     parameters: dict[str, Any] = {"phase": 1.0, "walker_exponent": 0.3}
     solved = swtstudy.solve(**parameters)

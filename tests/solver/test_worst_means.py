@@ -50,7 +50,7 @@ ELSEWHERE = {
 }
 
 
-@pytest.mark.quick(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ELSEWHERE)
 def test_no_mean_about_another_place_is_larger(name: str) -> None:
     batch, distance = ELSEWHERE[name], 0.06

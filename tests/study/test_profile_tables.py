@@ -49,6 +49,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 def test_tables_of_a_study_go_to_workers_and_into_the_archive(folder: Path) -> None:
     study = swtstudy.Study.from_toml(folder / "pads.toml")
     dataset = swtstudy.run(study, folder / "pads.nc", workers=2)

@@ -20,7 +20,7 @@ def test_arrays_in_python_are_the_study(solved):
     swings = {"normal_force": [150, 200], "tangential_amplitude": [1e-3, 2.5e-3], "phase": [0, "pi/2"]}
     contacts = physical(**RIG, **swings)
     asked = ["dissipation", "stick_radius", "contact_radius"]
-    both = contacts.solve(1e-3, quantities=asked, critical_distance=0.05, constants=ALUMINIUM)
+    both = contacts.solve(1e-2, quantities=asked, critical_distance=0.05, constants=ALUMINIUM)
     assert both.s.dims == ("normal_force", "tangential_amplitude", "phase", "body")
     assert (both.SWT[..., 0] == both.SWT[..., 1]).all()
     found = both.sel(body=2)
@@ -107,7 +107,7 @@ def test_the_columns_of_a_loop_are_in_newtons_and_megapascals(tmp_path):
         ("normal_force_amplitude", "tangential_force_amplitude", "bulk_stress_amplitude"), 1.0
     )
     alone = physical(**told.RIG, normal_force=200.0, load=swtstudy.LoadPath("cycle", vertices), **factors)
-    np.testing.assert_allclose(found.SWT[1], alone.solve(1e-3).SWT, rtol=1e-6)
+    np.testing.assert_allclose(found.SWT[1], alone.solve(1e-2).SWT, rtol=1e-6)
     lacking = text.replace("[axes]", loop.replace("normal_force_amplitude = 1\n", "")) + LOOP
     refused("1 if the column normal of the loop is in mm; or normal_force_amp", Study.from_text, lacking)
 
@@ -119,6 +119,7 @@ height = [0, 4e-4, 1.6e-3, 3.6e-3, 6.4e-3, 1e-2, 1.44e-2, 1.96e-2, 2.56e-2]
 """
 
 
+@pytest.mark.slow
 def test_a_table_in_lengths_is_a_profile(tmp_path):
     """f = r²/(2 · 50): the table of the paraboloid of R = 50."""
     text = plain("critical_distance", "radius = 50")

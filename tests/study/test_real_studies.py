@@ -21,16 +21,22 @@ def sphere(young_modulus, poisson_ratio):
     return physical(**told.RIG | bodies, **loads, phase=np.pi / 2)
 
 
+@pytest.fixture(scope="module")
+def alike(tmp_path_factory):
+    """Results of the study by stand-ins for the solver."""
+    return stand_in.computed(STUDY, tmp_path_factory.mktemp("alike") / "sphere.nc")
+
+
 @pytest.mark.slow
 def test_values_are_those_of_the_single_contact(solved):
     assert solved.s.dims == ("normal_force", "tangential_amplitude", "phase")
     point = solved.sel(normal_force=200, tangential_amplitude=2.5e-3).isel(phase=1)
     contact = sphere(73.1e3, 0.33)
-    alone = contact.solve(rtol=1e-3)
+    alone = contact.solve(rtol=1e-2)
     assert point.SWT.item() == pytest.approx(alone.SWT.values[0], rel=1e-9)
     assert point.SWT_error.item() == pytest.approx(alone.SWT_error.values[0], rel=1e-6)
     assert abs(point.critical_position.item()) == pytest.approx(abs(alone.critical_position.values[0]))
-    near = swtstudy.solve(rtol=1e-3, critical_distance=0.05 / contact.length_scale, **contact.parameters())
+    near = swtstudy.solve(rtol=1e-2, critical_distance=0.05 / contact.length_scale, **contact.parameters())
     for name in ("volume", "point", "line"):
         np.testing.assert_allclose(point[f"s_{name}"], near[f"s_{name}"], rtol=1e-6)
         np.testing.assert_allclose(point[f"SWT_{name}"], contact.swt(near[f"s_{name}"]), rtol=1e-6)
@@ -38,19 +44,19 @@ def test_values_are_those_of_the_single_contact(solved):
     assert point.cycles.item() == pytest.approx(contact.cycles(ALUMINIUM, point.s.item()))
 
 
-def test_the_contact_at_rest_is_hertz(solved):
+def test_the_contact_at_rest_is_hertz(alike):
     e_star = 73.1e3 / (2 * (1 - 0.33**2))
     for force in (150.0, 200.0):
         radius = (3 * force * 50.0 / (4 * e_star)) ** (1 / 3)
-        here = solved.sel(normal_force=force)
+        here = alike.sel(normal_force=force)
         assert here.contact_radius.item() == pytest.approx(radius)
         assert here.depth.item() == pytest.approx(radius**2 / 50.0)
         assert here.peak_pressure.item() == pytest.approx(3 * force / (2 * math.pi * radius**2))
-    assert solved.contact_radius.dims == ("normal_force",)
+    assert alike.contact_radius.dims == ("normal_force",)
 
 
 @pytest.mark.filterwarnings("ignore:.* has no effect:UserWarning")
-def test_work_and_radii_are_in_the_units(solved, tmp_path):
+def test_work_and_radii_are_in_the_units(tmp_path):
     """δA = 0: stick zone and loop of Cattaneo and Mindlin, the work from Johnson's Contact Mechanics, 7.4."""
     still = STUDY.replace("normal_amplitude = 2e-3", "").replace("critical_distance = 0.05", "")
     still = still.replace('"SWT_volume", ', "")
@@ -69,17 +75,17 @@ def test_work_and_radii_are_in_the_units(solved, tmp_path):
             term = 1 - (1 - q) ** (5 / 3) - 5 * q / 6 * (1 + (1 - q) ** (2 / 3))
             assert here.dissipation.item() == pytest.approx(energy * term, rel=1e-3)
             assert here.largest_contact_radius.item() == pytest.approx(a)
-    assert solved.dissipation.attrs["units"] == "N mm"
+    assert found.dissipation.attrs["units"] == "N mm"
 
 
-def test_units_are_said(solved):
-    units = {name: solved[name].attrs.get("units") for name in ("s", "SWT", "cycles", "critical_position")}
+def test_units_are_said(alike):
+    units = {name: alike[name].attrs.get("units") for name in ("s", "SWT", "cycles", "critical_position")}
     assert units == {"s": None, "SWT": "MPa", "cycles": None, "critical_position": "mm"}
     coordinates = ("radius", "normal_force", "tangential_amplitude", "young_modulus", "phase", "friction")
-    found = [solved[name].attrs.get("units") for name in coordinates]
+    found = [alike[name].attrs.get("units") for name in coordinates]
     assert found == ["mm", "N", "mm", "MPa", "rad", None]
-    assert solved.critical_distance.attrs["units"] == "mm"
-    assert solved.SWT_volume_error.attrs["units"] == "MPa"
+    assert alike.critical_distance.attrs["units"] == "mm"
+    assert alike.SWT_volume_error.attrs["units"] == "MPa"
 
 
 @pytest.mark.slow
@@ -118,6 +124,7 @@ def test_what_coincides_without_units_is_computed_once():
     assert stand_in.distinct(study) == 1
 
 
+@pytest.mark.slow
 def test_bodies_that_differ_have_a_dimension(tmp_path):
     text = without(BODIES, "critical_distance", "[figure]", "x =", "hue =", "panels =", "y =")
     found = run(Study.from_text(text), tmp_path / "two.nc", workers=1)
@@ -128,7 +135,7 @@ def test_bodies_that_differ_have_a_dimension(tmp_path):
     pair = (ALUMINIUM, FatigueConstants(150e3, 927.0, -0.113, 0.2, -0.713))
     pair = (FatigueConstants(210e3, *list(vars(ALUMINIUM).values())[1:]), pair[1])
     contact = sphere((210e3, 150e3), (0.3, 0.33))
-    alone = contact.solve(rtol=1e-3)
+    alone = contact.solve(rtol=1e-2)
     np.testing.assert_allclose(point.SWT, alone.SWT, rtol=1e-9)
     np.testing.assert_allclose(point.cycles, contact.cycles(pair, alone.s), rtol=1e-6)
     again = open_results(tmp_path / "two.nc")
@@ -201,6 +208,7 @@ def test_figures_have_the_units(solved):
     assert over.axes[0].get_xlabel() == "$F_0$ (N)"
 
 
+@pytest.mark.slow
 def test_of_two_profiles_one_has_a_wavelength():
     text = plain("quantities", "critical_distance")
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")

@@ -1,4 +1,3 @@
-import csv
 import re
 
 import matplotlib.pyplot as plt
@@ -404,15 +403,6 @@ def test_wrong_files_are_named(tmp_path, content, words):
     (tmp_path / "points.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
     (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
     refused(words, Study.from_toml, tmp_path / "mine.toml")
-
-
-def test_a_file_of_many_points_is_read_fast_enough_to_be_read(tmp_path):
-    rng = np.random.default_rng(0)
-    with open(tmp_path / "points.csv", "w", newline="") as file:
-        csv.writer(file).writerows([["phase", "friction"], *rng.random((20_000, 2)).tolist()])
-    (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
-    grid = Study.from_toml(tmp_path / "mine.toml").grid
-    assert grid.size == 20_000
 
 
 def test_forces_may_be_sampled():

@@ -40,6 +40,7 @@ def draws_of(dataset: xr.Dataset) -> list[FatigueConstants]:
     return [FatigueConstants(**{**vars(ALUMINIUM), **each}) for each in own]
 
 
+@pytest.mark.quick(1)
 @pytest.mark.parametrize("more", [SAMPLE + RANGE, SAMPLE + COVARIANCE])
 def test_percentiles_are_those_of_the_lives_of_all_draws(tmp_path: Path, more: str) -> None:
     found = results(tmp_path, more)
@@ -56,6 +57,7 @@ def test_percentiles_are_those_of_the_lives_of_all_draws(tmp_path: Path, more: s
     np.testing.assert_allclose(found.cycles_50, found.cycles, rtol=0.05)
 
 
+@pytest.mark.slow
 def test_draws_have_the_covariance(tmp_path: Path) -> None:
     draws = draws_of(results(tmp_path, SAMPLE.replace("64", "4096") + COVARIANCE))
     columns = np.array([[each.strength, each.ductility, each.strength_exponent] for each in draws])
@@ -73,6 +75,7 @@ def test_another_scatter_solves_nothing_again(tmp_path: Path) -> None:
     assert len(json.loads(second.attrs["runs"])) == 1
 
 
+@pytest.mark.slow
 def test_parameters_may_be_sampled_beside_constants(tmp_path: Path) -> None:
     more = SAMPLE.replace("64", "8") + RANGE + "friction = [0.4, 0.6]\n"
     text = f"{CONTACT}{LOADS}{more}tangential_amplitude = [1e-3, 3e-3]\n".replace("friction = 0.5\n", "")
@@ -86,6 +89,7 @@ def test_a_study_is_written_with_its_draws(tmp_path: Path) -> None:
     assert written(study, tmp_path).grid.scatter == study.grid.scatter  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 def test_each_body_has_lives_of_its_own_modulus(tmp_path: Path) -> None:
     text = SOUND.replace("= 73.1e3", "= [73.1e3, 60e3]")
     text = text.replace("[fixed]", "[fixed]\nsimilar = 1")
@@ -146,6 +150,7 @@ def of_shear(more: str, given: str = "") -> str:
     return text.replace("[material]", f"[material]\n{given}")
 
 
+@pytest.mark.slow
 def test_constants_in_torsion_scatter(tmp_path: Path) -> None:
     found = swtstudy.run(Study.from_text(of_shear(SAMPLE + SHEAR_RANGES, TORSION)), tmp_path / "torsion.nc")
     scatter = json.loads(found.attrs["contact"])["scatter"]
@@ -185,6 +190,7 @@ def test_each_point_of_a_sample_has_constants_estimated_by_its_own_poisson_ratio
         np.testing.assert_allclose(own.FS_cycles, lives, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_bodies_of_different_materials_have_ranges_of_their_own(tmp_path: Path) -> None:
     ranges = "[sample.ranges]\nstrength_1 = [900, 950]\nstrength_2 = [1800, 2200]\n"
     text = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{ranges}".replace("strength = 927", "strength = [927, 2000]")

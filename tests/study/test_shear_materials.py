@@ -65,6 +65,7 @@ def test_life_by_given_shear_constants(tmp_path):
         assert found.FS_cycles.item() == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_given_constants_take_the_place_of_estimated_ones(tmp_path):
     """Without a new run, and with words that say which."""
     path = tmp_path / "t.nc"
@@ -101,6 +102,7 @@ def test_estimated_constants_are_of_each_poisson_ratio(tmp_path):
             assert life == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_usage_is_the_stress_over_the_limit_of_the_body(tmp_path):
 
     both = '["swt", "findley"]'

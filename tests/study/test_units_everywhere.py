@@ -195,6 +195,7 @@ def shown_numbers(axis):
     return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
 
 
+@pytest.mark.slow
 def test_all_panels_of_a_contact_have_its_units(rig):
     figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
     panels = {each.get_title("left")[5:].replace("\n", " "): each for each in figure.axes}
