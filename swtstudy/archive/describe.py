@@ -250,10 +250,12 @@ def accuracy(dataset: xr.Dataset) -> str:
     relative = relative_errors(dataset)
     if not relative.size:
         return "s is 0 or unknown at all points"
-    above = int((relative > dataset.attrs["rtol"] * (1.0 + _ROUNDING)).sum()) or "none"
+    above = int((relative > dataset.attrs["rtol"] * (1.0 + _ROUNDING)).sum())
     largest, median = numbers_words((relative.max(), np.median(relative)), 2)
-    words = f"relative error of s estimated up to {largest}, median {median}"
-    return f"{words}; {above} of {relative.size} points above rtol"
+    words = "relative error of s estimated"
+    if relative.size == 1:
+        return f"{words} {largest}, {'above' if above else 'not above'} rtol"
+    return f"{words} up to {largest}, median {median}; {above or 'none'} of {relative.size} points above rtol"
 
 
 def outcome(dataset: xr.Dataset) -> Iterator[str]:

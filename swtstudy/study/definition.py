@@ -240,7 +240,9 @@ def one_of_study(
     raw = tables_of(path)
     reader = StudyReader(raw, path, Path(path).parent)
     reader.report.refuse()
-    fixed, _ = reader.fixed_and_axes(block.load for block in reader.parts.blocks)
+    fixed, axes = reader.fixed_and_axes(block.load for block in reader.parts.blocks)
+    alone = {axis: one[0] for axis, one in axes.items() if isinstance(one, list) and len(one) == 1}
+    fixed |= alone
     profiles, name = dict(raw.get("profiles", {})), str(values.get("profile", fixed.get("profile")))
     if Path(name).suffix == ".csv":
         file, name = str(Path(name).resolve()), Path(name).stem
@@ -256,7 +258,8 @@ def one_of_study(
         replaced |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
     if "criterion" in values:
         replaced |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
-    several = {n: one for n, one in reader.firsts().items() if n not in (*replaced, DISTANCE, "body")}
+    chosen = replaced | {*alone, DISTANCE, "body"}
+    several = {axis: one for axis, one in reader.firsts().items() if axis not in chosen}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
         needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)

@@ -194,7 +194,7 @@ CHANGES: list[tuple[str, Callable, list[str]]] = [
             "fixed          friction: 0.1",
             "fixed          phase: 0",
             "complete       1 computed",
-            "none of 1 points above rtol",
+            "accurate       relative error of s estimated 0.0001, not above rtol",
             "regimes        1 partial_slip",
             "run 0          1 point, rtol 0.0001, solver version 1, 0.0 s of computing, started now",
         ],

@@ -60,6 +60,13 @@ def test_every_axis_and_every_sampled_parameter_needs_a_value() -> None:
     given |= {"normal_amplitude": "0.5", "tangential_amplitude": "0.5"}
     refused("several values of flat_radius; allowed: one of each", one_of_study, "sensitivity", given)
     assert one_of_study("sensitivity", {**given, "flat_radius": "0.5"}).size == 1
+
+
+def test_an_axis_of_one_value_has_that_value(tmp_path: Path) -> None:
+    path = file_of(tmp_path, 'title = "t"\n[axes]\nfriction = [0.3]\nphase = [0, 1]\n')
+    refused("several values of phase; allowed", one_of_study, path, {})
+    assert one_of_study(path, {"phase": 1}).fixed["friction"] == 0.3
+    assert one_of_study(path, {"phase": 1, "friction": 0.4}).fixed["friction"] == 0.4
     # The profile alone does not depend on the others.
     drawn = one_of_study("sensitivity", {"flat_radius": "0.5"}, at_rest=True)
     assert drawn.fixed["flat_radius"] == 0.5
