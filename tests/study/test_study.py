@@ -115,23 +115,17 @@ def test_a_bad_value_is_named(entry, found):
 @pytest.mark.parametrize(
     ("axis", "key", "found"),
     [
-        ("phase = []", "axes.phase", "an empty axis"),
-        ("phase = 0", "axes.phase", "a list of values or {start, stop, num}"),
         ("phase = [0, 1, 0.0]", "axes.phase[2]", "the same as axes.phase[0]"),
         ('friction = [0.30000000000000004, "3/10"]', "axes.friction[1]", "the same as"),
         ('frequency_ratio = [0.5, "1/2"]', "axes.frequency_ratio[1]", "the same as"),
         ("phase = [0, nan]", "axes.phase[1]", "not a finite number"),
         ("fase = [0, 1]", "axes.fase", "did you mean phase?"),
-        ("phase = {start = 0, stop = 1}", "axes.phase.num", "nothing"),
         ("phase = {start = 0, stop = inf, num = 2}", "axes.phase.stop", "not a finite number"),
         ("phase = {start = 0, stop = 0x" + 4000 * "f" + ", num = 2}", "axes.phase.stop", "too many digits"),
         ("phase = {start = 0, stop = 1, num = 0x" + 4000 * "f" + "}", "axes.phase.num", "too many digits"),
         ("phase = {start = 0, stop = 1, num = 1}", "axes.phase.num", "a whole number from 2"),
         ("phase = {start = 0, stop = 1, num = 2.5}", "axes.phase.num", "a whole number"),
-        ("phase = {start = 0, stop = 0, num = 3}", "axes.phase", "two different ends"),
-        ('phase = {start = 0, stop = "two", num = 3}', "axes.phase.stop", "not a number"),
         ("phase = {start = 0, stop = 1, num = 3, step = 1}", "axes.phase.step", "did you mean stop?"),
-        ("phase = {start = 0, stop = 1, num = 3, also = 0.2}", "axes.phase.also", "a list of values"),
         ("phase = {start = 0, stop = 1, num = 3, also = [0.2, 0.5]}", "axes.phase.also[1]", "axes.phase[1]"),
         (
             "phase = {start = 0, stop = 1, num = 3, also = [0.2, 0.2]}",
@@ -149,20 +143,7 @@ def test_a_bad_axis_is_named(axis, key, found):
     assert found in mistakes[key]
 
 
-@pytest.mark.parametrize(
-    ("text", "key"),
-    [
-        ("", "title"),
-        ("title = 3", "title"),
-        (MINIMAL + "rtol = 0", "rtol"),
-        (MINIMAL + "rtol = nan", "rtol"),
-        (MINIMAL + 'rtol = "1e-4"', "rtol"),
-        (MINIMAL + "axes = 3", "axes"),
-        (MINIMAL + "fixed = 3", "fixed"),
-        (MINIMAL + "figure = 3", "figure"),
-        (MINIMAL + "rtoll = 1e-3", "rtoll"),
-    ],
-)
+@pytest.mark.parametrize(("text", "key"), [("", "title"), (MINIMAL + "rtol = nan", "rtol")])
 def test_a_bad_structure_is_named(text, key):
     assert list(mistakes_of(text)) == [key]
 
@@ -221,11 +202,6 @@ def test_waves_too_short_for_a_float_are_refused_without_a_warning(amplitude, wa
     assert "is below 3.52" in next(iter(mistakes.values()))
 
 
-def test_axes_that_are_too_long_are_named():
-    found = mistakes_of(MINIMAL + "[axes]\nfriction = {start = 0.1, stop = 0.4, num = 10000000}\n")
-    assert found["axes.friction.num"].startswith("10000000; a whole number from 2 to")
-
-
 FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\nhue = "friction"\n'
 
 
@@ -234,8 +210,6 @@ FIGURE = '[axes]\nphase = [0, 1]\nfriction = [0.1, 0.3]\n[figure]\nx = "phase"\n
     [
         (FIGURE.replace('x = "phase"', 'x = "phse"'), "figure.x"),
         (FIGURE.replace('x = "phase"', 'x = "angle"'), "figure.x"),
-        (FIGURE.replace('hue = "friction"', 'hue = "phase"'), "figure.hue"),
-        (FIGURE.replace('hue = "friction"', 'kind = "contour"'), "figure.vertical"),
     ],
 )
 def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
@@ -246,42 +220,15 @@ def test_a_wrong_place_in_a_figure_is_one_mistake(figure, key):
     ("figure", "key", "found"),
     [
         (FIGURE.replace('"phase"', '"psi"'), "figure.x", "not an axis"),
-        (FIGURE.replace('"friction"', '"frictoin"'), "figure.hue", "did you mean friction?"),
-        (FIGURE.replace('"friction"', '"phase"'), "figure.hue", "also used for x"),
-        (FIGURE.replace('hue = "friction"', ""), "figure", "no place for the axis friction"),
-        (FIGURE + 'panels = "profile"', "figure.panels", "not an axis"),
-        (FIGURE + 'colour = "red"', "figure.colour", "one of"),
-        (FIGURE + "y = 3", "figure.y", "a text, or a list"),
-        (FIGURE + 'y = "t"', "figure.y", "not a quantity"),
         (FIGURE + 'y = "critical"', "figure.y", "critical_angle, regime"),
         (FIGURE + 'y = "regimes"', "figure.y", "did you mean regime?"),
-        (FIGURE + 'y = "b/c"', "figure.y", "not a quantity"),
         (FIGURE + 'y = "cycles_volume"', "figure.y", r"[material]"),
-        (FIGURE + "y = []", "figure.y", "empty list"),
-        (FIGURE + "title = 'an $\\frca$'", "figure.title", "Unknown symbol: \\frca"),
         (FIGURE + "title = '$x^2^3$'", "figure.title", "Double superscript"),
-        (FIGURE + 'kind = "pie"', "figure.kind", "lines, life, contour"),
-        (FIGURE + 'kind = "contour"', "figure.vertical", "needs it"),
-        (FIGURE + 'kind = "contour"', "figure.hue", "none for"),
-        (FIGURE + 'vertical = "friction"', "figure.vertical", "none for"),
         (
             FIGURE.replace("hue", "vertical") + 'kind = "contour"\npanels = "phase"',
             "figure.panels",
             "also used for x",
         ),
-        (
-            FIGURE.replace("hue", "vertical").replace("[0.1, 0.3]", "[0.1]") + 'kind = "contour"',
-            "figure.vertical",
-            "single value",
-        ),
-        (
-            FIGURE.replace("hue", "vertical") + 'kind = "heatmap"\nregimes = true',
-            "figure.regimes",
-            'false for kind = "heatmap"; kind = "contour" draws borders',
-        ),
-        (FIGURE + 'y = "s/s(friction=0.2)"', "figure.y", "not on that axis"),
-        (FIGURE + 'y = "s/s(normal_amplitude=0)"', "figure.y", "not an axis"),
-        (FIGURE + 'y = "s/s(friction=-1)"', "figure.y", "out of range"),
     ],
 )
 def test_a_figure_that_the_study_cannot_make_is_named(figure, key, found):
