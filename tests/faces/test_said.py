@@ -449,13 +449,17 @@ def test_a_table_may_lack_what_is_not_asked(tmp_path: Path, monkeypatch: pytest.
 
 def test_tables_of_pages_are_packed_for_spreadsheets() -> None:
     """Errors have two digits, other numbers seven; words that a spreadsheet runs have an apostrophe."""
-    table = pd.DataFrame(
-        {"s": [1 / 3, 2.0], "s_error": [0.01234, 5e-9], "name": ["=1", "a=1"], "n": ["\t", ""]}
-    )
+    words = {"name": ["=1", "a=1"], "n": ["\t", ""], "sign": ["+1", "-1"], "function": ["@A", "\r"]}
+    table = pd.DataFrame({"s": [1 / 3, 2.0], "s_error": [0.01234, 5e-9], **words})
     head, _, data = html.packed(table).partition(",")
     assert head == "data:application/gzip;base64"
     text = gzip.decompress(base64.b64decode(data)).decode()
-    assert text == "s,s_error,name,n\n0.3333333,0.012,'=1,'\t\n2,5e-09,a=1,\n"
+    assert text.split("\n") == [
+        "s,s_error,name,n,sign,function",
+        "0.3333333,0.012,'=1,'\t,'+1,'@A",
+        "2,5e-09,a=1,,'-1,'\r",
+        "",
+    ]
 
 
 def test_reports_and_their_mistakes(kept: Kept, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.contact import CYCLE, solve_cycle
 from swtstudy.kernel.control import prescribe
 from swtstudy.kernel.events import force_ratio, slide
-from swtstudy.kernel.load import bulk_at, load_at, rates_at
+from swtstudy.kernel.load import bulk_at, bulk_rates, load_at, rates_at
 from swtstudy.kernel.loads import bimodal, harmonic_sum, polygon
 from swtstudy.kernel.loops import ends_of_sum, without_collinear
 
@@ -33,6 +33,8 @@ def test_bulk_stress_oscillates_with_the_tangential_load(ratio: str) -> None:
     load = bimodal(0.4, Fraction(ratio), 0.3, 1.1, bulk_amplitude=0.02, bulk_mean=-0.01, bulk_phase=0.7)
     for t in np.linspace(0.0, 9.0, 7):
         assert bulk_at(load, t) == pytest.approx(-0.01 + 0.02 * np.sin(p * t + 0.7), abs=1e-15)
+        rates = 0.02 * p * np.cos(p * t + 0.7), -0.02 * p * p * np.sin(p * t + 0.7)
+        assert bulk_rates(load, t) == pytest.approx(rates, abs=1e-14)
         n, v = load_at(load, t)
         assert n == pytest.approx(1.0 + 0.4 * np.sin(q * t + 1.1), abs=1e-14)
         assert v == pytest.approx(0.3 * np.sin(p * t), abs=1e-14)

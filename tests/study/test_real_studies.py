@@ -79,6 +79,7 @@ def test_work_and_radii_are_in_the_units(tmp_path):
 
 
 def test_units_are_said(alike):
+    assert alike.contact_radius.attrs["long_name"] == "contact radius at the mean depth"
     units = {name: alike[name].attrs.get("units") for name in ("s", "SWT", "cycles", "critical_position")}
     assert units == {"s": None, "SWT": "MPa", "cycles": None, "critical_position": "mm"}
     coordinates = ("radius", "normal_force", "tangential_amplitude", "young_modulus", "phase", "friction")
