@@ -12,7 +12,7 @@ import truth
 import swtstudy
 
 #: Points of the sample: as many of each scene, all of it where it has fewer.
-SAMPLE = 170
+SAMPLE = 520
 RTOL = 1e-4
 #: Points with a trap each, which are always tried: a narrow interval beside a wide one, on the line; next to
 #: no slip; two instants with peaks within 4e-5 of each other, one of them between coarse instants; a
