@@ -30,7 +30,6 @@ from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import NAMED, Request
-from swtstudy.vocabulary.variables import ATTRIBUTES, MARGINS
 
 
 @dataclass(frozen=True)
@@ -331,12 +330,8 @@ class Search:
                 asked = {each: asked[each] for each in leading}
 
 
-_NOT_ALWAYS = ("s_error", "run", "message", *MARGINS)
-#: The data variables that may be minimised: values that are not flags, and quantities on request.
-MINIMISED = (
-    *(n for n, words in ATTRIBUTES.items() if "flag_values" not in words and n not in _NOT_ALWAYS),
-    *NAMED,
-)
+#: The data variables that may be minimised: values that all results have, and quantities on request.
+MINIMISED = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
 #: Steps of the neighbourhood, as fractions of a range.
 _STEPS = np.linspace(-0.1, 0.1, 41)
 

@@ -24,15 +24,6 @@ SOLVED = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface")
 
 #: Where the stick zone is in s, under a bulk stress that moves.
 ZONES = ("in_place", "moved", "moved_approximately")
-#: Data variables that results have where something is given that they are about.
-MARGINS = (
-    "stick_zone",
-    "bulk_shift",
-    "bulk_shift_ratio",
-    "prescribed_force_ratio",
-    "radius_ratio",
-    "slide_ratio",
-)
 
 
 def flag_attributes(words: Sequence[str]) -> dict[str, Any]:
