@@ -22,8 +22,8 @@ from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
 from swtstudy.vocabulary.choices import REGIMES
+from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.tables import read_table
 from swtstudy.vocabulary.variables import flag_attributes
 from swtstudy.vocabulary.version import SOLVER_VERSION
 

@@ -18,7 +18,7 @@ import xarray as xr
 from swtstudy.paper.audit import AUDIT_PREFIX
 from swtstudy.paper.markdown import rendered
 from swtstudy.paper.measures import NotInArchiveError
-from swtstudy.vocabulary.tables import read_table
+from swtstudy.vocabulary.files import read_table
 
 #: A test's result: whether the statement holds, and the values for the words of its measurement, by name.
 Measured = tuple[Any, dict[str, Any]]

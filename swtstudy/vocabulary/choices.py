@@ -9,7 +9,7 @@ import re
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from swtstudy.vocabulary.tables import read_table
+from swtstudy.vocabulary.files import read_table
 
 #: Kinds of contact: a disc, or a strip in plane strain.
 AXISYMMETRIC, PLANE = GEOMETRIES = ("axisymmetric", "plane")

@@ -9,8 +9,8 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, Criterion
+from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, STICK_ENDS, YIELD, Request, error_of
-from swtstudy.vocabulary.tables import read_table
 
 #: Per cent of the bodies that have a crack before the life of that name.
 PERCENTS = (10, 50, 90)

@@ -107,6 +107,15 @@ def parse_toml(text: str) -> dict[str, Any]:
     raise wrong
 
 
+def read_table(module: str, name: str) -> dict[str, dict[str, Any]]:
+    """The rows of the table in ``NAME.toml`` beside a module's file; lists in them become tuples."""
+    rows = parse_toml(read_text(Path(module).with_name(f"{name}.toml")))
+    return {
+        each: {key: tuple(value) if isinstance(value, list) else value for key, value in row.items()}
+        for each, row in rows.items()
+    }
+
+
 def plain_float(cell: str) -> float:
     """The number in a cell; Python would also read 1_0 as 10.
 

@@ -14,8 +14,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, SHIFTS
+from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.parameter import Parameter, spelled
-from swtstudy.vocabulary.tables import read_table
 
 #: The load of the paper.
 HARMONIC = "harmonic"

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.mistakes import Report, literal, nearest
 from swtstudy.vocabulary.parameters import DIRECTIONS
-from swtstudy.vocabulary.tables import read_table
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"

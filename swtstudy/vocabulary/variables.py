@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.vocabulary.choices import REGIMES
+from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.mistakes import refused
-from swtstudy.vocabulary.tables import read_table
 
 if TYPE_CHECKING:
     import xarray as xr
