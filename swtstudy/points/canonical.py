@@ -14,6 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.solver.loop import Loop
+from swtstudy.solver.phases import fold_bulk_phase, fold_phase
+from swtstudy.solver.points import Points
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, families_with, family_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import HARMONIC, PARAMETERS, SHIFT, STRAIN_SHARE, Control
@@ -21,8 +25,6 @@ from swtstudy.vocabulary.quantities import NOTHING, Request
 
 if TYPE_CHECKING:
     from swtstudy.points.grid import Grid
-    from swtstudy.solver.points import Points
-    from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 
 #: The built-in profiles by their code; archives' parts say which ones they count on.
 NAMES = PARAMETERS["profile"].names
@@ -123,8 +125,6 @@ def canonical_points(grid: Grid, places: IndexArray, fold: bool = True) -> tuple
     mirrored
         Shape (n,): True where x is mirrored with respect to the canonical point.
     """
-    from swtstudy.solver.phases import fold_bulk_phase, fold_phase
-
     table, columns = np.empty(len(places), ROW), grid.at(places, *GIVEN_COLUMNS)
     for name, numbers in zip(COLUMNS, columns, strict=False):
         table[name] = numbers
@@ -275,9 +275,6 @@ def points_from(table: Table, definitions: Definitions) -> Points:
     definitions
         Definitions of the user, by code.
     """
-    from swtstudy.solver.loop import Loop
-    from swtstudy.solver.points import Points
-
     profile = value_of(table["profile"][0], definitions)
     course = value_of(table["load"][0], definitions, "load")
     return Points(

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from swtstudy.points.canonical import COST, GIVEN_COLUMNS, Column, canonical_number, code_of
 from swtstudy.points.values import NamedValues, Value, amplitudes_of, press_steadily, read_value
+from swtstudy.solver.loop import Loop
+from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameter import Parameter
@@ -30,10 +32,6 @@ from swtstudy.vocabulary.quantities import Request
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from swtstudy.solver.loop import Loop
-    from swtstudy.vocabulary.arrays import IndexArray
-
 
 #: Name of the dimension along which the sampled parameters vary together.
 SAMPLE = "sample"
@@ -109,8 +107,6 @@ class Grid:
     @property
     def loops(self) -> tuple[Loop, ...]:
         """Its loads that are loops."""
-        from swtstudy.solver.loop import Loop
-
         return tuple(load for load in self.values("load") if isinstance(load, Loop))
 
     def row(self, name: str) -> Parameter:

@@ -5,21 +5,20 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
 from swtstudy.points.grid import Grid, complete, numbers_at
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
+from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
+from swtstudy.solver.loop import Loop
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
 from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
-
-if TYPE_CHECKING:
-    from swtstudy.solver.loop import Loop
 
 #: Parameters that scale the columns of a loop.
 AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")
@@ -223,9 +222,6 @@ def check_shapes(grid: Grid, report: Report, told: Callable[[dict[str, int]], st
         Says where a place of the grid is, so that each load is looked at. Without it the largest load of a
         shape counts, whose contact is the hardest to keep compact.
     """
-    from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
-    from swtstudy.solver.loop import Loop
-
     # By how many amplitudes the normal load rises at most.
     reach = max(load.normal_ends[1] if isinstance(load, Loop) else 1.0 for load in grid.values("load"))
     # A table of real contacts is another one in a_H and δ0 from depth to depth.

@@ -13,8 +13,11 @@ from numpy.typing import NDArray
 
 from swtstudy.points.arguments import listed, spanned
 from swtstudy.points.canonical import Distinct, check_count
+from swtstudy.points.chunk import Arrays, blank, chunks, fill, put
+from swtstudy.points.grid import Grid
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import idle_axes
+from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
@@ -25,10 +28,6 @@ from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
-
-    from swtstudy.points.chunk import Arrays
-    from swtstudy.points.grid import Grid
-    from swtstudy.vocabulary.arrays import IndexArray
 
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
@@ -155,8 +154,6 @@ def _values_of_block(
 
 def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tuple[Distinct, Arrays]:
     """The distinct points at places of a grid, and the values there; raises if a point has no value."""
-    # The solver is imported where something is solved.
-    from swtstudy.points.chunk import blank, chunks, fill, put
     from swtstudy.points.labelled import values_at
 
     points = Distinct.of(grid, asked, places)
