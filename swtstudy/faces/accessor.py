@@ -242,7 +242,7 @@ class SwtAccessor:
 
         return contact_of(self._dataset)
 
-    def extrema(self, dim: str, y: str = "s") -> xr.Dataset:
+    def extrema(self, dim: str, y: str | None = None) -> xr.Dataset:
         """Least and greatest values along a dimension, and where they are.
 
         Parameters
@@ -250,7 +250,9 @@ class SwtAccessor:
         dim
             A dimension of the quantity.
         y
-            The quantity: a data variable, such as "SWT" or "cycles_volume", or "s/s(name=value)".
+            The quantity: a data variable, such as "SWT" or "cycles_volume", or "s/s(name=value)". By
+            default SWT, or the value of another criterion, where results have units, and else s, which is
+            over a stress that changes with the mean load.
 
         Returns
         -------

@@ -155,7 +155,8 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
         return np.array([], dtype=np.intp)
     before, after = np.append(0.0, step[:-1]), np.append(step[1:], 0.0)
     beside = np.fmax(np.fmax(before * np.sign(step), after * np.sign(step)), 0.0)
-    return np.flatnonzero((np.abs(step) > 0.02 * np.ptp(known)) & (np.abs(step) > 3.0 * beside)) + 1
+    least = max(0.02 * np.ptp(known), 1e-6 * np.abs(known).max())  # a constant has a range of rounding
+    return np.flatnonzero((np.abs(step) > least) & (np.abs(step) > 3.0 * beside)) + 1
 
 
 def _mark_regimes(axes: Axes, x: NDArray[Any], s: NDArray[Any], regimes: list[str]) -> None:

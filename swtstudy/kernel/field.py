@@ -27,6 +27,8 @@ OF_GROWTH = 1e-7
 MANY, SINGLE = COARSEST, 2 * COARSEST
 #: Whether a place takes the plane of the one before as a guess: its value depends on the others then.
 AVERAGED, ALONE = np.arange(2)
+#: Radii at which something turns are left out only where there are so many times as many as were asked for.
+CUSPS = 20
 #: The gaps beside the extremes of a history are divided so finely, so often.
 CLOSER, LOOKS = 6, 3
 
@@ -96,17 +98,27 @@ def largest_radius(opened):
 
 
 def passed_radii(opened, most):
-    """Radii that edges and fronts pass and at which pieces start, ascending; at most so many."""
+    """Radii at which pieces start and at which edges and fronts turn, and some that these pass, ascending.
+
+    At the former the stress has its cusps: of a usual cycle all are there, however few the others are. There
+    are at most so many of the others, and `CUSPS` times as many of the former.
+    """
     cycle, profile = opened.point.cycle, opened.point.profile
     pieces, stretches = int(cycle["pieces"]), int(cycle["stretches"])
     starts = cycle["start_s"][:pieces][cycle["used"][:pieces] == 1]
-    every = np.unique(np.concatenate([starts, cycle["place"][:stretches, :: FINEST // 4].ravel()]))
+    passed = cycle["place"][:stretches, :: FINEST // 4]
+    turns = np.unique(np.concatenate([starts, passed[:, [0, -1]].ravel()]))
+    between = _some_of(np.setdiff1d(passed, turns), max(most - len(turns), 0))
+    every = np.concatenate([_some_of(turns, CUSPS * most), between])
     if cycle["shift"] != 0.0:
         off = [centre_of(profile, cycle["shift"], cycle["largest"], opened.largest, s) for s in every]
         every = np.unique(np.abs(np.concatenate([every, every + off, every - off])))
-    if len(every) > most:
-        every = every[np.round(np.linspace(0, len(every) - 1, most)).astype(int)]
-    return np.sqrt(every * every + float(profile["flat_radius"]) ** 2)
+    return np.sqrt(np.sort(every) ** 2 + float(profile["flat_radius"]) ** 2)
+
+
+def _some_of(values, most):
+    """At most so many of ascending values, evenly by their number."""
+    return values[np.linspace(0, len(values) - 1, min(most, len(values))).round().astype(int)]
 
 
 def far_field_of(opened):

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
+from swtstudy.study.units.results import measures
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
@@ -153,9 +154,11 @@ def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
     return both.where(dataset[name] != there[name].item(), 0.0)
 
 
-def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
+def extrema(dataset: xr.Dataset, dim: str, y: str | None = None) -> xr.Dataset:
     """Least and greatest values along a dimension, and where they are: see ``extrema`` of the accessor."""
     require_points(dataset)
+    own = measures(dataset)
+    y = y or (own[0] if len(own) == 1 else "s")
     values = quantity(dataset, y).compute()  # xarray indexes by arrays in memory only
     if "flag_values" in values.attrs:
         raise refused("y", f"{literal(y)}, whose values are flags", "numbers, such as 's'")
@@ -163,12 +166,12 @@ def extrema(dataset: xr.Dataset, dim: str, y: str = "s") -> xr.Dataset:
         raise ValueError(
             f"found {dim!r}, not a dimension of {y}; allowed: {nearest(dim, map(str, values.dims))}"
         )
-    own = {"units": values.attrs.get("units", "1"), "symbol": values.attrs.get("symbol", y)}
+    labels = {"units": values.attrs.get("units", "1"), "symbol": values.attrs.get("symbol", y)}
     found = xr.Dataset()
     for name in ("minimum", "maximum"):
         value = getattr(values, name[:3])(dim, keep_attrs=False)
         place = getattr(values, f"idx{name[:3]}")(dim, keep_attrs=False)
-        words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", **own}
+        words = {"long_name": f"{name} of {y}", "comment": f"along {dim}", **labels}
         found[name] = value.assign_attrs(words)
         words = {"long_name": f"{dim.replace('_', ' ')} of {name} {y}"}
         found[f"at_{name}"] = place.assign_attrs(dataset[dim].attrs | words)

@@ -128,18 +128,18 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> dic
         for kind, names in VARIABLES.items()
         for name in names
     }
-    for row in np.flatnonzero(np.isfinite(solution.critical_x)):
+    for row in np.flatnonzero(np.isfinite(solution.s) & (solution.s > 0.0)):
         opened = open_cycle(GROWTH, **arguments_of(points[[row]]))
-        critical, s = float(solution.critical_x[row]), float(solution.s[row])
+        # Where the bulk stress alone makes s, it may be larger beneath the contact: the pressure adds to it.
+        critical, s = float(np.nan_to_num(solution.critical_x[row])), float(solution.s[row])
         for k, each in enumerate(distance):
             for kind, means in _largest(opened, critical, s, float(each)).items():
                 for name, own in zip(VARIABLES[kind], means.T, strict=True):
                     found[name][row, k] = own[0] if kind == "volume" else own
-    # Where s is 0, or the bulk stress alone makes it far from the contact, no mean anywhere is larger.
-    rows = np.flatnonzero(np.isnan(solution.critical_x) & np.isfinite(solution.s))
+    rows = np.flatnonzero(solution.s == 0.0)
     for mean, error, _ in VARIABLES.values():
         # The points come last, so that their values are repeated along the other dimensions.
-        found[mean].T[..., rows] = solution.s[rows]
+        found[mean].T[..., rows] = 0.0
         # Beside a line without tension there may be some.
         found[error].T[..., rows] = np.fmax(solution.s_error, solution.s_surface - solution.s)[rows]
     return found

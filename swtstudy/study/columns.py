@@ -296,7 +296,8 @@ class UserTable:
         elif lacking:
             column = self.form.header(lacking[0])
             found = f"no column {literal(column)}, which is to be {lacking[0]}"
-            allowed = nearest(column, headers, {})
+            used = {self.form.header(name) for name in named}
+            allowed = nearest(column, [each for each in headers if each and each not in used], {})
         others_fit = score[likely][0] == len(wanted) or score[likely][-1] >= len(self.names) > len(headers)
         if likely != own and others_fit:
             found = f"cells parted by {likely!r}, while separator is {own!r}"

@@ -104,7 +104,9 @@ class Signal:
         else:
             mean = float(self.cycles[..., 0].mean())
         if not mean > 0.0:
-            allowed = "a mean above 0; where compression is negative: scale = { normal = -1 }"
+            allowed = (
+                "a mean above 0; where compression is negative: scale = { normal = -1 }, or minus its scale"
+            )
             raise refused("absolute", f"a mean normal load of {mean:.3g}", allowed)
         return mean
 

@@ -114,7 +114,7 @@ def trace_from(own: Path, name: str, form: TraceTable, labels: Labels = None) ->
     fold = Fold.of(position, height, form.level)
     if -fold.height.min() > fold.height.max():
         found = f"heights that fall by {-fold.height.min():.3g} from the middle to the sides"
-        allowed = "heights that grow away from the other body: scale = { height = -1 }"
+        allowed = "heights that grow away from the other body: scale = { height = -1 }, or minus its scale"
         raise refused("", found, allowed, str(own))
     for line in _doubts(position, fold, rows):
         warnings.warn(f"{name}: {line}", stacklevel=2)

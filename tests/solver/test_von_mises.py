@@ -92,3 +92,28 @@ def test_at_a_sharp_tip_it_is_that_of_the_pressure_there(exponent):
     radius = 1.5 ** (1.0 / exponent)  # the largest: p goes like aⁿ⁻¹
     expected = 0.5 * exponent * radius ** (exponent - 1.0) / (np.pi * (exponent - 1.0))
     assert largest(**parameters, tangential_amplitude=0.0) == pytest.approx(expected, rel=1.2e-2)
+
+
+@pytest.mark.parametrize(
+    ("x", "given"),
+    [
+        (
+            -0.6875681026988674,
+            {"profile": "cylinder", "poisson_ratio": 0.5, "friction": 0.408, "frequency_ratio": "2"}
+            | {"normal_force_amplitude": 0.4055, "tangential_force_amplitude": 0.468, "phase": 1.4436},
+        ),
+        (
+            -0.82057556,
+            {"profile": "rounded_flat", "flat_half_width": 0.00972, "poisson_ratio": 0.2434}
+            | {"friction": 0.3808, "frequency_ratio": "4/3", "phase": 1.7671}
+            | {"normal_force_amplitude": 0.2909, "tangential_force_amplitude": 0.3486},
+        ),
+    ],
+)
+def test_a_peak_beside_a_cusp_is_found(x, given):
+    """At one of many radii at which a front turns."""
+    stress = swtstudy.stress_field([x], [0.0], [0.0], **given)
+    xx, yy, zz, yz, xz, xy = (stress[f"sigma_{each}"] for each in ("xx", "yy", "zz", "yz", "xz", "xy"))
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    there = float(np.sqrt(0.5 * normal + 3.0 * (yz**2 + xz**2 + xy**2)).max())
+    assert largest(**given) >= 0.999 * there

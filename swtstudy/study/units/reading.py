@@ -66,6 +66,8 @@ def read_contacts(
     labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
     given, single = _read_bodies(fixed, given, own, report)
+    for name in {units.SIMILAR_KEY, units.NAMES_KEY} & {*axes}:
+        report.of(name, "an axis", "one for all points, under [fixed]")
     others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *given.pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
