@@ -46,7 +46,7 @@ def test_extrema_of_any_quantity(solved):
     assert (found.at_maximum == 30.0).all()
     np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
     assert "cycles" in found.minimum.attrs["long_name"]
-    assert solved.swt.extrema("normal_force", "SWT").maximum.attrs["units"] == "unit of stress"
+    assert solved.swt.extrema("normal_force").maximum.attrs["units"] == "unit of stress"
     for dim, y, words in (
         ("normal_force", "regime", "whose values are flags"),
         ("phase", "SWT", "not a dimension of SWT"),
