@@ -60,7 +60,7 @@ critical_distance = 0.05 |  |
     figure.y: found 'SWT_volume'; allowed: in a study with a critical_distance; or s,
 y = ["SWT", "cycles" | y = ["SWTs", "cycles" |
     figure.y: found 'SWTs' (not a quantity); allowed: did you mean SWT?
-[150, 200] | [150, 200]\nsimilar = [0.3, 0.4] | axes.similar: found an axis; allowed: one for all points, under
+[150, 200] | [150, 200]\nsimilar = [0.3, 0.4] | axes.similar: found an axis; allowed: one for all points
 [150, 200] | [150, -200] | axes.normal_force[1]: found -200 (out of range); allowed: a positive force in N
 """.strip()
     .replace("\n    ", " ")
