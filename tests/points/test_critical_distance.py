@@ -123,5 +123,5 @@ def test_means_of_what_is_the_same_everywhere() -> None:
         assert np.isnan(found.critical_x)
         for name in ("s_volume", "s_point", "s_line"):
             np.testing.assert_array_equal(found[name], found.s)
-            np.testing.assert_array_equal(found[f"{name}_error"], found.s_error)
+            assert (found[f"{name}_error"] <= found.s_error).all()
         assert np.isnan(found.volume_x)
