@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from solved import Points
 
@@ -29,6 +30,13 @@ def opened(batch: Points) -> Opened:
     given["frequency_ratio"] = [*map(Fraction, p.tolist(), q.tolist())]
     given["loops"] = None if path is None else [path] * len(batch)
     return open_cycle(**given, control=control)
+
+
+def von_mises(field: xr.Dataset) -> Array:
+    """The von Mises stress in results of `swtstudy.stress_field`."""
+    xx, yy, zz, yz, xz, xy = (field[f"sigma_{name}"].values for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
+    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
+    return np.asarray(np.sqrt(0.5 * normal + 3.0 * (yz**2 + xz**2 + xy**2)))
 
 
 def swt_at(

@@ -19,7 +19,7 @@ from swtstudy.points.values import index_at
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
 from swtstudy.study.figure import FigureLayout
-from swtstudy.study.units.results import measures
+from swtstudy.study.units.results import measures, usual_measure
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import StudyError
@@ -79,7 +79,7 @@ def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
     if CRITERION not in dataset.dims:
         return measured(dataset)
     part = dataset.sel({CRITERION: place[CRITERION].item()})
-    return part[[*measures(part), "s"][0]]
+    return part[usual_measure(part)]
 
 
 def levers(dataset: xr.Dataset) -> list[Lever]:

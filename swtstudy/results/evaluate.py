@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, read_value
 from swtstudy.study.figure import QUANTITY, reference
-from swtstudy.study.units.results import measures
+from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import COUNTED, error_of
@@ -157,8 +157,7 @@ def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
 def extrema(dataset: xr.Dataset, dim: str, y: str | None = None) -> xr.Dataset:
     """Least and greatest values along a dimension, and where they are: see ``extrema`` of the accessor."""
     require_points(dataset)
-    own = measures(dataset)
-    y = y or (own[0] if len(own) == 1 else "s")
+    y = y or usual_measure(dataset)
     values = quantity(dataset, y).compute()  # xarray indexes by arrays in memory only
     if "flag_values" in values.attrs:
         raise refused("y", f"{literal(y)}, whose values are flags", "numbers, such as 's'")

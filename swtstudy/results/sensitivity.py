@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from swtstudy.points.grid import SAMPLE
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.sample import saltelli
-from swtstudy.study.units.results import measures
+from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, plain_number, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.progress import Progress
@@ -71,8 +71,7 @@ def sensitivity(
     report.seed(seed)
     report.refuse()
     names, size = _design(dataset)
-    own = measures(dataset)
-    quantities = [y] if isinstance(y, str) else list(y) or (own if len(own) == 1 else ["s"])
+    quantities = [y] if isinstance(y, str) else list(y) or [usual_measure(dataset)]
     values = {name: quantity(dataset, name) for name in quantities}
     for name, each in values.items():
         _check(name, each, dataset, report)

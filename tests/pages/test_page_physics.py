@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from body import von_mises
 from scipy.integrate import quad
 from test_page_numbers import says
 
@@ -10,12 +11,6 @@ import swtstudy
 #: Of studies/physical.py.
 STRENGTH_EXPONENT = -0.113
 RIG = {"young_modulus": 73.1e3, "radius": 50.0, "normal_force": 200.0}
-
-
-def von_mises(field):
-    xx, yy, zz, yz, xz, xy = (field[f"sigma_{name}"].values for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
-    normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
-    return np.sqrt(0.5 * normal + 3.0 * (xy**2 + yz**2 + xz**2))
 
 
 def first_yield(friction, force):

@@ -66,9 +66,10 @@ def read_contacts(
     labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
     given, single = _read_bodies(fixed, given, own, report)
-    for name in {units.SIMILAR_KEY, units.NAMES_KEY} & {*axes}:
+    of_all = units.SIMILAR_KEY, units.NAMES_KEY
+    for name in (name for name in of_all if name in axes):
         report.of(name, "an axis", "one for all points, under [fixed]")
-    others = (DISTANCE, units.SIMILAR_KEY, units.NAMES_KEY, *given.pairs)
+    others = (DISTANCE, *of_all, *given.pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}

@@ -84,6 +84,12 @@ def measures(dataset: xr.Dataset) -> list[str]:
     return [name for name in names if name in dataset]
 
 
+def usual_measure(dataset: xr.Dataset) -> str:
+    """The value of the criterion of results with units; s without units, and where criteria are several."""
+    own = measures(dataset)
+    return own[0] if len(own) == 1 else "s"
+
+
 def with_units(dataset: xr.Dataset, grid: PhysicalGrid, asked: Request) -> xr.Dataset:
     """Results of a grid of real contacts, with SWT, lives and all that has a unit."""
     found = dataset.rename({old: new for old, new in NORMALISED.items() if old in dataset.data_vars})
