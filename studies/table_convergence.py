@@ -1,14 +1,15 @@
 """How s of a table approaches s of the closed form, against the number of its points and over its noise.
 
 A rounded punch, a wavy paraboloid, and in the plane a flat with rounded edges and a cylinder, as tables of 25
-to 2,000 points, and a paraboloid with noisy heights that are smoothed by as much, each at points all over the
-box of parameters; plane ones by forces. Run from the project's folder:
-``python studies/table_convergence.py``; writes results/table_convergence.png.
+to 2,000 points, each at points all over the box of parameters; plane ones by forces. Rounded punches with
+noisy heights that are smoothed by as much, over the share of their rise within the contact. Run from the
+project's folder: ``python studies/table_convergence.py``; writes results/table_convergence.png.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -26,8 +27,10 @@ from swtstudy.vocabulary.parameters import Control
 
 COUNTS = (25, 50, 100, 200, 500, 1000, 2000)
 NOISE = (1e-5, 1e-4, 1e-3, 1e-2)
-#: Points of a noisy table, largest radius of all, points of the box and relative tolerance.
-NOISY, LARGEST, POINTS, RTOL = 400, 2.5, 12, 1e-7
+#: Radii of the faces of noisy tables; 0 is a paraboloid.
+FACES = (0.0, 0.5, 1.0)
+#: Points of a noisy table, tables of one noise, largest radius of all, points of the box and tolerance.
+NOISY, DRAWS, LARGEST, POINTS, RTOL = 400, 4, 2.5, 12, 1e-7
 H, WAVELENGTH, FACE = 0.05, 5.0, 0.5
 #: Errors below this are rounding; they are drawn here.
 SMALLEST = 1e-12
@@ -67,11 +70,28 @@ def of_profile(box: Points, profile: str | TabulatedProfile, shape: dict[str, fl
     return solve_points(Points(**columns), rtol).s
 
 
-def noisy(amount: float) -> TabulatedProfile:
-    """A paraboloid with noise of this root mean square, smoothed by that."""
+def noisy(face: float, amount: float, seed: int) -> TabulatedProfile:
+    """A rounded punch with noise of this root mean square beside its face, smoothed by that or as needed."""
     r = np.linspace(0.0, LARGEST, NOISY)
-    noise = np.random.default_rng(0).standard_normal(NOISY) * (r > 0.0)
-    return TabulatedProfile("noisy", r, 0.5 * r * r + amount * noise, amount)
+    beside = r > face
+    noise = amount * np.random.default_rng(seed).standard_normal(NOISY)
+    heights = np.where(beside, 0.5 * (r - face) ** 2 + noise, 0.0)
+    table = TabulatedProfile("noisy", r, np.maximum(heights, 0.0) if face else heights, amount)
+    if table.compact_radius < 0.9 * LARGEST and (least := table.least_smoothing(0.9 * LARGEST)):
+        return TabulatedProfile("noisy", r, table.height, least)
+    return table
+
+
+def of_noise(box: Points, face: float, amounts: tuple[float, ...], rtol: float) -> tuple[Array, list[Array]]:
+    """Mean share of the rise by which tables of each noise are smoothed, and the errors of s."""
+    shape = {"flat_radius": face} if face else {}
+    exact = of_profile(box, "rounded_punch" if face else "paraboloid", shape, rtol)
+    shares, errors = [], []
+    for amount in amounts:
+        tables = [noisy(face, amount, seed) for seed in range(DRAWS)]
+        shares.append(float(np.mean([table.smoothed_share for table in tables])))
+        errors.append(np.abs([of_profile(box, table, {}, rtol) / exact - 1.0 for table in tables]).ravel())
+    return np.array(shares), errors
 
 
 def main() -> None:
@@ -92,13 +112,14 @@ def main() -> None:
             table = TabulatedProfile(f"{name} of {count}", r, height(name, r), geometry=geometry)
             errors.append(np.abs(of_profile(box, table, {}, rtol) / exact - 1.0))
         curves.append((name.replace("_", " "), found(name, counts, errors)))
-    exact = of_profile(box, "paraboloid", {}, rtol)
-    errors = [np.abs(of_profile(box, noisy(amount), {}, rtol) / exact - 1.0) for amount in amounts]
-    noisy_ones = f"paraboloid of {NOISY} points", found("noisy paraboloid", amounts, errors)
+    noisy_ones: list[tuple[str, Curve]] = []
+    for face in FACES:
+        name = f"face {face:g}" if face else "paraboloid"
+        noisy_ones.append((name, found(f"noisy, {name}", *of_noise(box, face, amounts, rtol))))
     save_figure(chart(curves, noisy_ones), given.results / "table_convergence.png")
 
 
-def found(name: str, at: tuple[float, ...], errors: list[Array]) -> Curve:
+def found(name: str, at: Sequence[float] | Array, errors: list[Array]) -> Curve:
     """Abscissae, median and largest errors, which are printed."""
     median, largest = (np.array([of(error) for error in errors]) for of in (np.median, np.max))
     for where, middle, most in zip(at, median, largest, strict=True):
@@ -106,7 +127,7 @@ def found(name: str, at: tuple[float, ...], errors: list[Array]) -> Curve:
     return np.array(at), median, largest
 
 
-def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Figure:
+def chart(curves: list[tuple[str, Curve]], noisy_ones: list[tuple[str, Curve]]) -> Figure:
     """Median and largest errors over the number of points, and both over the noise."""
     with styled(width="page"):
         sheet = Sheet(1, 3, "page", least_height=2.8)
@@ -116,14 +137,13 @@ def chart(curves: list[tuple[str, Curve]], noisy_ones: tuple[str, Curve]) -> Fig
             look = {"color": color, "marker": marker, "linestyle": "-", "label": label}
             panels[0, 0].loglog(at, np.maximum(median, SMALLEST), **look)
             panels[0, 1].loglog(at, np.maximum(largest, SMALLEST), **look)
-        label, (at, median, largest) = noisy_ones
-        panels[0, 2].loglog(at, median, **stroke("0.4", marker="o", label=f"{label}: median"))
-        panels[0, 2].loglog(
-            at, largest, **stroke("0.4", "--", marker="o", mfc="none", label=f"{label}: largest")
-        )
+        for (label, (at, median, largest)), color in zip(noisy_ones, ("0.1", "0.4", "0.65"), strict=True):
+            panels[0, 2].loglog(at, median, **stroke(color, marker="o", label=f"noisy, {label}: median"))
+            own = stroke(color, "--", marker="o", mfc="none", label=f"noisy, {label}: largest")
+            panels[0, 2].loglog(at, largest, **own)
         for axes, title in zip(panels[0], ("(A)  median", "(B)  largest", "(C)  with noise"), strict=True):
-            axes.set(xlabel="points of the table", title=title, ylim=(0.5 * SMALLEST, 3e-2))
-        panels[0, 2].set_xlabel(r"noise and smoothing, in $\delta_0$")
+            axes.set(xlabel="points of the table", title=title, ylim=(0.5 * SMALLEST, 0.3))
+        panels[0, 2].set_xlabel("smoothing over the rise in contact")
         panels[0, 0].set_ylabel("relative error of $s$")
         add_legend(figure)
     return figure

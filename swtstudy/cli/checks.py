@@ -183,21 +183,26 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 @click.command()
 @terminal.with_study
 @click.argument("file")
-@click.option("--order", help="Components: swtstudy (xx yy zz yz xz xy) or abaqus (S11 S22 S33 S12 S13 S23).")
+@click.option("--order", help="Order of components with other headers: swtstudy, abaqus or ansys.")
+@click.option("--column", multiple=True, metavar="NAME=HEADER", help="A column with another header; repeat.")
 @click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Whose properties.")
 @click.option(
     "--output", "-o", help="CSV, .vtu (ParaView) or .nc file; by default NAME_lives.csv beside FILE."
 )
-def history(study: str, file: str, order: str | None, body: int, output: str | None) -> None:
+def history(
+    study: str, file: str, order: str | None, column: tuple[str, ...], body: int, output: str | None
+) -> None:
     """Evaluate the stress histories in FILE, as from finite elements: criteria, critical planes and lives.
 
     FILE is a table with a row for each point and step of one load cycle: id or x, y, z or both, step, and six
-    stress components. STUDY is a study file with units, young_modulus and poisson_ratio; its [material] gives
-    lives, its normal_sensitivity the criteria of Fatemi and Socie and of Findley.
+    stress components, such as S11, SXY or sigma_xy. STUDY is a study file with units, young_modulus and
+    poisson_ratio; its [material] gives lives, its normal_sensitivity the criteria of Fatemi and Socie and of
+    Findley.
 
     \b
     Examples:
       swtstudy history rig.toml stresses.csv -o lives.vtu
+      swtstudy history rig.toml stresses.csv --column step=Frame --column id=Node
     """
     from swtstudy.faces.elements import ENDINGS, write_history
     from swtstudy.study.definition import tables_of
@@ -207,7 +212,8 @@ def history(study: str, file: str, order: str | None, body: int, output: str | N
         raise refused("output", str(target), f"a file that ends with {', '.join(ENDINGS)}")
     check_writable(target)
     tables_of(study)  # wrong or not, it is told before a large table is read
-    found = swtstudy.evaluate_history(swtstudy.read_history(file, order=order), study, body)
+    columns = terminal.pairs("--column", column, "a name and a header, such as step=Frame")
+    found = swtstudy.evaluate_history(swtstudy.read_history(file, order=order, columns=columns), study, body)
     write_history(found, target)
     for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
         if name in found:

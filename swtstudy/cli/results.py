@@ -88,9 +88,7 @@ def plot(
     dataset = swtstudy.open_results(archive)
     check_writable(target)
     if at:
-        if wrong := [each for each in at if "=" not in each]:
-            raise refused("--at", literal(wrong[0]), "an axis and a value, such as friction=0.6")
-        places = {name.strip(): value.strip() for name, _, value in (each.partition("=") for each in at)}
+        places = terminal.pairs("--at", at, "an axis and a value, such as friction=0.6")
         dataset = dataset.swt.slice(**places)
         words = (place_words(name, dataset[name].item(), dataset[name].attrs) for name in places)
         own["title"] = own["title"] or ",  ".join(words)

@@ -17,7 +17,7 @@ from click import Context, Parameter
 from click.shell_completion import CompletionItem
 
 from swtstudy.study.shipped import shipped_studies
-from swtstudy.vocabulary.mistakes import Report, meant
+from swtstudy.vocabulary.mistakes import Report, literal, meant, refused
 from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.wording import printable
 
@@ -175,6 +175,17 @@ def wrapped(line: str, width: int | None, indent: int = 0) -> str:
     look: dict[str, Any] = {"subsequent_indent": " " * indent}
     look |= {"break_long_words": False, "break_on_hyphens": False}
     return textwrap.fill(line, max(width, indent + 12), **look)
+
+
+def pairs(option: str, texts: Iterable[str], allowed: str) -> dict[str, str]:
+    """Read an option that is repeated, each time with a name, =, and a text."""
+    found = {}
+    for text in texts:
+        name, sign, own = text.partition("=")
+        if not sign:
+            raise refused(option, literal(text), allowed)
+        found[name.strip()] = own.strip()
+    return found
 
 
 def say(line: object, indent: int = 0, err: bool = False) -> None:

@@ -18,7 +18,7 @@ from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, spanned
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import read_distances, read_grid
-from swtstudy.points.rules import idle_axes
+from swtstudy.points.rules import doubts
 from swtstudy.points.solve import solve_grid
 from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.units import rows as units
@@ -320,7 +320,7 @@ class PhysicalContact:
             A ValueError with every mistake.
         """
         grid, asked = self._request(rtol, critical_distance, constants, yield_strength, quantities, blocks)
-        for words in idle_axes(grid):
+        for words in doubts(grid):
             warnings.warn(words, stacklevel=2)
         return solve_grid(grid, float(rtol), asked)
 

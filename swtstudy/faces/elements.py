@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import warnings
 from collections.abc import Iterable
 from itertools import chain
@@ -28,11 +29,15 @@ from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 
 #: The stress components in our order, and those that plane elements lack.
 COMPONENTS, ACROSS = ("xx", "yy", "zz", "yz", "xz", "xy"), ("yz", "xz")
-#: Headers of the components in their order, each with the component that it is.
+#: Headers of the components in the order of programs.
 ORDERS = {
-    "swtstudy": dict(zip(COMPONENTS, COMPONENTS, strict=True)),
-    "abaqus": {"S11": "xx", "S22": "yy", "S33": "zz", "S12": "xy", "S13": "xz", "S23": "yz"},
+    "swtstudy": COMPONENTS,
+    "abaqus": ("S11", "S22", "S33", "S12", "S13", "S23"),
+    "ansys": ("SX", "SY", "SZ", "SXY", "SYZ", "SXZ"),
 }
+#: What stands before the axes of a component in a header; a normal stress may have one axis behind it.
+_STRESS = r"(?:s|sig|sigma|t|tau|stress)"
+_COMPONENT = re.compile(rf"{_STRESS}*([xyz123])([xyz123])|{_STRESS}+([xyz])")
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
 _ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
@@ -48,8 +53,9 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     path
         The file: columns ``step``, six components, and ``id`` or ``x``, ``y``, ``z`` or both, in any order.
     order
-        "swtstudy" for xx, yy, zz, yz, xz, xy or "abaqus" for S11, S22, S33, S12, S13, S23. Found from the
-        headers unless given; with other headers the last six columns are taken in that order.
+        "swtstudy" for xx, yy, zz, yz, xz, xy, "abaqus" for S11, S22, S33, S12, S13, S23 or "ansys" for SX,
+        SY, SZ, SXY, SYZ, SXZ. Found from the headers unless given: S12, SXY, sigma_xy and xy are one. With
+        headers that do not say it the last six columns are taken in that order.
     columns, separator, decimal, encoding, scale, skip_rows, units_row, sheet
         As of `swtstudy.read_signal`.
 
@@ -102,32 +108,44 @@ def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
         warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
+def component_of(header: str) -> str | None:
+    """The component of stress that a header names, such as xy of S12, "Sigma_xy [MPa]" or TXY; or None."""
+    plain = re.sub(r"[\[(].*|[^a-z0-9]", "", header.lower())
+    if not (found := _COMPONENT.fullmatch(plain)):
+        return None
+    axes = (found[3] * 2 if found[3] else found[1] + found[2]).translate(str.maketrans("123", "xyz"))
+    return "".join(sorted(axes))
+
+
 def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
     """The stress components in our order, shape (rows, 6), and their unit; empty if unknown."""
-    known = {own: {n: names[n] for n in names if table.has(n)} for own, names in ORDERS.items()}
-    whole = {*COMPONENTS}, {*COMPONENTS} - {*ACROSS}
-    found = next((own for own, names in known.items() if {*names.values()} in whole), None)
-    if found is None and order is None:
-        allowed = f"columns {' or '.join(map(', '.join, ORDERS.values()))}; of plane elements without the two"
-        allowed += " across; with other headers an order of the last six columns (--order abaqus or swtstudy)"
-        raise refused(f"line {table.line}", ", ".join(table.headers), allowed, table.source)
-    if found is not None and order not in (None, found):
-        allowed = f"no order: the headers {', '.join(ORDERS[found])} name the components"
-        raise refused("order", literal(order), allowed, table.source)
-    names = ORDERS[str(found or order)]
-    if found:
-        own = known[found]
-    else:
-        others = {table.form.header(name) for name in (STEP, ID, *POSITION)}
-        last = [header for header in table.headers if header not in others][-len(names) :]
-        if len(last) < len(names):
+    renamed = {table.form.header(name): name for name in table.form.columns}
+    others = {table.form.header(name) for name in (STEP, ID, *POSITION)}
+    names = [renamed.get(header, header) for header in table.headers if header not in others]
+    own = {name: found for name in names if (found := component_of(name))}
+    place = f"line {table.line}"
+    for component in COMPONENTS:
+        if len(twice := [name for name in own if own[name] == component]) > 1:
+            raise refused(place, f"{' and '.join(twice)}, each {component}", "one of them", table.source)
+    if {*own.values()} not in ({*COMPONENTS}, {*COMPONENTS} - {*ACROSS}):
+        if order is None:
+            allowed = (
+                f"columns {' or '.join(map(', '.join, ORDERS.values()))}; of plane elements without the two"
+            )
+            allowed += f" across; with other headers an order of the last six columns, {' or '.join(ORDERS)}"
+            raise refused(place, ", ".join(table.headers), allowed, table.source)
+        if len(names) < len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
-            raise refused(f"line {table.line}", ", ".join(last), allowed, table.source)
-        own = dict(zip(last, names.values(), strict=True))
+            raise refused(place, ", ".join(names), allowed, table.source)
+        last = names[-len(COMPONENTS) :]
+        own = dict(zip(last, map(str, map(component_of, ORDERS[order])), strict=True))
+    elif order is not None and [*own.values()] != [*map(component_of, ORDERS[order])]:
+        allowed = f"no order: the headers {', '.join(own)} name the components"
+        raise refused("order", literal(order), allowed, table.source)
     unknown_names(table.form, (STEP, ID, *POSITION, *own)).refuse()
     values = np.zeros((len(table.cells), len(COMPONENTS)))
     values[:, [COMPONENTS.index(name) for name in own.values()]] = table.numbers([*own])
-    if lacking := [header for header, name in names.items() if name not in own.values()]:
+    if lacking := [name for name in COMPONENTS if name not in own.values()]:
         warnings.warn(f"{table.source}: {' = '.join(lacking)} = 0, of plane elements", stacklevel=4)
     return values, _unit_of(table, own)
 
@@ -218,20 +236,15 @@ def evaluate_history(
 def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
     """The stress of a history, shape (points, steps, 6), in a unit of stress."""
     stress = history["stress"]
-    own = stress.attrs.get("units", "")
-    if (factor := unit_factor("stress", own, unit)) != 1.0:
-        allowed = (
-            f"stresses in {unit}, the unit of the study, such as by scale, with {factor:g} of each component"
-        )
-        raise refused("stress", f"a unit of {own}", allowed, str(history.attrs.get("source", "")))
+    factor = unit_factor("stress", stress.attrs.get("units", ""), unit)
     if "component" in stress.coords:
-        labels = stress["component"].values.tolist()
-        names = next((each for each in ORDERS.values() if {*each} == {*labels}), None)
-        if names is None:
+        labels = list(map(str, stress["component"].values))
+        found = [component_of(label) for label in labels]
+        if sorted(map(str, found)) != sorted(COMPONENTS):
             allowed = " or ".join(map(", ".join, ORDERS.values()))
-            raise refused("component", ", ".join(map(str, labels)), allowed)
-        stress = stress.assign_coords(component=[names[each] for each in labels]).sel(component=[*COMPONENTS])
-    return np.asarray(stress.transpose("point", STEP, "component").values)
+            raise refused("component", ", ".join(labels), allowed)
+        stress = stress.assign_coords(component=found).sel(component=[*COMPONENTS])
+    return np.asarray(stress.transpose("point", STEP, "component").values) * factor
 
 
 def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, dict[str, float]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from swtstudy.points.grid import Grid, complete, numbers_at
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
 from swtstudy.solver.loop import Loop
+from swtstudy.solver.table import ROUGH, TabulatedProfile
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
@@ -143,14 +144,33 @@ def check_loops_alone(good: Mapping[str, Sequence[Any]], report: Report) -> None
         check_loops(complete({}, own), report)
 
 
-def idle_axes(grid: Grid) -> list[str]:
-    """Words on axes of phases and frequencies of what stands still, or of loops, which have their own."""
+def doubts(grid: Grid, where: str = "") -> Iterator[str]:
+    """Words on axes without effect, and on tables smoothed by much of their rise within the contact.
+
+    Parameters
+    ----------
+    grid
+        Points without mistakes.
+    where
+        What the keys of axes begin with, such as "axes.".
+    """
     harmonic = len(grid.loops) < len(grid.values("load"))
     moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
     pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
     idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
-    lost = [name for name, still in idle.items() if still and name in grid.axes]
-    return [f"{name} has no effect: what it is of does not oscillate" for name in lost]
+    for name in (name for name, still in idle.items() if still and name in grid.axes):
+        yield f"{where}{name} has no effect: what it is of does not oscillate"
+    tables = [each for each in grid.definitions.values() if isinstance(each, TabulatedProfile)]
+    largest: dict[str, float] = {}
+    for table in tables:
+        largest[table.name] = max(table.smoothed_share, largest.get(table.name, 0.0))
+    for name, share in largest.items():
+        if share > ROUGH:
+            yield (
+                f"profile {name}: its smoothing is {share:.2g} of its rise within the contact at the mean "
+                "load, so that the largest local values, such as s, may be off by more than that share; "
+                "a mean over a critical_distance is nearer"
+            )
 
 
 def sizes_of(load: Loop) -> dict[str, float]:

@@ -16,7 +16,7 @@ from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.chunk import Arrays, blank, chunks, fill, put
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import read_distances, read_grid
-from swtstudy.points.rules import idle_axes
+from swtstudy.points.rules import doubts
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
@@ -100,7 +100,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     grid, found = read_grid(fixed, axes, others=("rtol", "quantities", DISTANCE), samples=samples)
     if grid is None or report:
         raise StudyError([*found, *report])
-    for words in idle_axes(grid):
+    for words in doubts(grid):
         warnings.warn(words, stacklevel=2)
     return solve_grid(replace(grid, sample_dim=dim, sample_labels=labels), float(rtol), asked, lazy)
 

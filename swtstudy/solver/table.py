@@ -30,6 +30,9 @@ FEWEST, NEGATIVE = 8, 1e-6
 RADII = 4001
 #: Multiple of the noise up to which it is smoothed: more would be the shape.
 MOST_SMOOTHED = 32.0
+#: Share of the rise of heights within the contact above which the smoothing is told: s of rounded punches is
+#: off by some 5 % there at most (studies/table_convergence.py).
+ROUGH = 0.01
 #: Numbers that are worked on at once.
 _SLAB = 2_000_000
 
@@ -46,8 +49,8 @@ class TabulatedProfile(Definition):
         in δ0, the mean depth of a study; in `swtstudy.physical` both in the unit of its lengths.
         Leading zero heights form a flat face.
     smoothing
-        Root-mean-square misfit that is allowed for noisy heights, in their unit. Nothing is
-        smoothed unless asked: a spline goes through all points.
+        Root-mean-square misfit that is allowed for noisy heights, in their unit, before the fit is shifted
+        to rise from 0. Nothing is smoothed unless asked: a spline goes through all points.
     geometry
         "axisymmetric", or "plane" for a long body of this section, symmetric about x = 0: then radii are
         distances x from its middle, and δ0 is 4 P_0/(π E*), P_0 the mean load per length.
@@ -175,6 +178,14 @@ class TabulatedProfile(Definition):
     def compact_radius(self) -> float:
         """The radius of the largest contact that is one disc or strip, within the table."""
         return float(np.hypot(self._largest[0], self.flat_radius))
+
+    @cached_property
+    def smoothed_share(self) -> float:
+        """The smoothing over the rise of heights within the contact at the depth, or N/N_0, 1."""
+        s, _ = self._sampled
+        depth = self.rise(s)[0] / (MEAN_LOAD if self.plane else 1.0)
+        radius = np.interp(1.0, depth, np.hypot(s, self.flat_radius))
+        return self.smoothing / float(self.fit(radius))
 
     def least_smoothing(self, radius: float) -> float | None:
         """The least smoothing above its own with which contacts are one disc or strip up to a radius.

@@ -94,6 +94,8 @@ class UserTable:
         self.source, self.names, self.known = str(path), names, known
         self.form, self.has_keys = form or FileTable(), form is not None
         self.report = Report()
+        # The names by small letters, where no headers are given for them: rigs write Step or TIME.
+        self._names = {name.lower(): name for name in (*names, *known) if name not in self.form.columns}
         try:
             data = read_file(path, LARGEST_TABLE)
         except OSError as error:
@@ -108,7 +110,8 @@ class UserTable:
             rows = list(islice(_rows(text, separator, self.form.skip_rows), above + most + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
-        skipped, (self.line, self.headers), rows = rows[:above], rows[above], rows[above + 1 :]
+        skipped, (self.line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
+        self.headers = self._named(headers)
         self._check_headers()
         notices = []
         if above:
@@ -134,6 +137,10 @@ class UserTable:
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
             warnings.warn(f"{Path(self.source).name}: {words}", stacklevel=3)
+
+    def _named(self, headers: list[str]) -> list[str]:
+        """Headers, each as the name that it is but for capital letters."""
+        return [self._names.get(header.lower(), header) for header in headers]
 
     def column(self, name: str) -> int:
         """The place of a column."""
@@ -273,8 +280,9 @@ class UserTable:
                 if separator == SEPARATORS[0]:
                     raise self.refused("", str(error), _READABLE) from None
             scores = [
-                (len(wanted & {*row}), len(others & {*row}), not any(map(_is_number, row)), len(row))
+                (len(wanted & own), len(others & own), not any(map(_is_number, row)), len(row))
                 for _, row in rows
+                for own in [{*self._named(row)}]
             ]
             rows_of[separator], score[separator] = rows, max(scores)
             header[separator] = scores.index(max(scores))
@@ -283,6 +291,7 @@ class UserTable:
         likely = max(score, key=lambda each: (*score[each][:2], (each != " ") * score[each][-1]))
         own: str = self.form.separator or likely
         line, headers = rows_of[own][header[own]]
+        headers = self._named(headers)
         if headers and wanted <= {*headers}:
             return own, header[own]
         self.report.refuse()  # in another encoding headers may be right

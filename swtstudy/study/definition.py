@@ -12,7 +12,7 @@ from typing import Any
 
 from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.rules import idle_axes
+from swtstudy.points.rules import doubts
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.reading import StudyReader, unused
@@ -165,7 +165,7 @@ class Study:
         study = study_from(raw, text, source, Path(folder))
         unused(raw, study.grid, source).refuse()
         odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
-        for line in (*(f"axes.{words}" for words in idle_axes(study.grid)), *odd):
+        for line in (*doubts(study.grid, "axes."), *odd):
             warnings.warn(f"{source}: {line}", stacklevel=2)
         return study
 

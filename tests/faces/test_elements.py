@@ -12,6 +12,7 @@ import swtstudy
 from swtstudy import FatigueConstants, StudyError, evaluate_history, read_history
 
 NU = 0.3
+NAMES = ("xx", "yy", "zz", "yz", "xz", "xy")
 #: With E = 1 − ν² the SWT of stress_field is s.
 STUDY = """
 [units]
@@ -133,7 +134,7 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
     [
         (
             "id,step,xx\n1,0,0\n",
-            r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*--order abaqus",
+            r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*last six columns, swtstudy or",
         ),
         ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
         (
@@ -157,8 +158,8 @@ def test_what_a_study_lacks_is_named(tmp_path: Path) -> None:
     assert units == "units: found nothing; allowed: a table with length, force and stress"
     assert young.startswith("fixed.young_modulus: found 'stiff' (not a number")
     assert poisson.startswith("fixed.poisson_ratio: found nothing")
-    with pytest.raises(StudyError, match="order: found 'ansys'; allowed: one of swtstudy, abaqus"):
-        read_history(tmp_path / "stress.csv", order="ansys")
+    with pytest.raises(StudyError, match="order: found 'nastran'; allowed: one of swtstudy, abaqus, ansys"):
+        read_history(tmp_path / "stress.csv", order="nastran")
     (tmp_path / "ours.csv").write_text("id,step,xx,yy,zz,yz,xz,xy\n1,0,1,2,3,4,5,6\n")
     with pytest.raises(
         StudyError, match="order: found 'abaqus'; allowed: no order: the headers xx, yy, zz, yz, xz"
@@ -223,13 +224,20 @@ def test_components_go_by_their_names(tmp_path: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore:.*read as units")
-def test_stresses_in_another_unit_than_the_study_are_refused(tmp_path: Path) -> None:
-    in_pascal = of_a_point(tmp_path, "-,Pa,Pa,Pa,Pa,Pa,Pa")
-    with pytest.raises(StudyError, match=r"own.csv: stress: found a unit of Pa; allowed: stresses in MPa"):
-        evaluate_history(in_pascal, study(tmp_path))
-    scaled = read_history(in_pascal, scale=dict.fromkeys(("xx", "yy", "zz", "yz", "xz", "xy"), 1e-6))
-    assert float(evaluate_history(scaled, study(tmp_path)).SWT[0]) > 0.0
-    assert read_history(of_a_point(tmp_path, "-,MPa,MPa,MPa,MPa,MPa,MPa")).stress.attrs == {"units": "MPa"}
+def test_stresses_in_another_unit_than_the_study_are_converted(tmp_path: Path) -> None:
+    rig = study(tmp_path)
+    own, scaled = {}, dict.fromkeys(NAMES, 1e6)
+    for unit, form in (
+        ("MPa", {}),
+        ("Pa", {"scale": scaled}),
+        ("GPa", {"scale": dict.fromkeys(NAMES, 1e-3)}),
+    ):
+        history = read_history(of_a_point(tmp_path, ",".join(["-", *["MPa"] * 6])), **form)
+        assert history.stress.attrs == {"units": unit}
+        own[unit] = float(evaluate_history(history, rig).SWT[0])
+    assert own["Pa"] == pytest.approx(own["MPa"], rel=1e-12) == own["GPa"]
+    in_pascal = read_history(of_a_point(tmp_path, "-,Pa,Pa,Pa,Pa,Pa,Pa"))
+    assert float(evaluate_history(in_pascal, rig).SWT[0]) == pytest.approx(1e-12 * own["MPa"])
 
 
 @pytest.mark.filterwarnings("ignore:.*read as units")
@@ -240,9 +248,6 @@ def test_units_of_one_size_and_unknown_units_are_let_pass(tmp_path: Path, unit: 
     rig = study(tmp_path)
     rig.write_text(rig.read_text().replace("MPa", of_study))
     assert evaluate_history(history, rig).SWT.attrs["units"] == of_study
-
-
-NAMES = ("xx", "yy", "zz", "yz", "xz", "xy")
 
 
 @pytest.mark.filterwarnings("ignore:.*read as units", "ignore:.*= 0, of plane elements")
@@ -288,6 +293,41 @@ def test_other_headers_have_units_and_places_of_their_own(tmp_path: Path) -> Non
     (tmp_path / "other.csv").write_text("\n".join(row.partition(",")[2] for row in rows))
     with pytest.raises(StudyError, match=r"found .*; allowed: six columns of components beside step"):
         read_history(tmp_path / "other.csv", order="abaqus")
+
+
+@pytest.mark.parametrize(
+    ("headers", "places"),
+    [
+        ("SX,SY,SZ,SXY,SYZ,SXZ", [0, 1, 2, 5, 3, 4]),  # of Ansys
+        ("s11,s22,s33,s12,s13,s23", [0, 1, 2, 5, 4, 3]),
+        ("sigma_x,sigma_y,sigma_z,tau_xy,tau_yz,tau_zx", [0, 1, 2, 5, 3, 4]),
+        (
+            "Stress XX [MPa],Stress YY [MPa],Stress ZZ [MPa],Stress XY [MPa],Stress YZ [MPa],Stress ZX [MPa]",
+            [0, 1, 2, 5, 3, 4],
+        ),
+        ("S.S12,S.S11,S.S22,S.S33,S.S13,S.S23", [5, 0, 1, 2, 4, 3]),
+    ],
+)
+def test_headers_say_the_components(tmp_path: Path, headers: str, places: list[int]) -> None:
+    """In capitals or not, and so the other columns: X and Step are x and step."""
+    file = tmp_path / "stresses.csv"
+    rows = [f"{step},0.5,{','.join(str(10 * step + place) for place in places)}" for step in (1, 2)]
+    file.write_text("\n".join([f"Step,X,{headers}", *rows]))
+    found = read_history(file)
+    assert found.stress.values.tolist() == [[[10 * step + k for k in range(6)] for step in (1, 2)]]
+    with pytest.raises(StudyError, match=r"allowed: no order: the headers .* name the components"):
+        read_history(file, order="swtstudy")
+    file.write_text("\n".join([f"Step,X,{headers},xx", *(f"{row},0" for row in rows)]))
+    with pytest.raises(StudyError, match="each xx; allowed: one of them"):
+        read_history(file)
+
+
+def test_the_command_takes_other_headers(tmp_path: Path) -> None:
+    rows = ["Frame,Node,a,b,c,d,e,f", *(f"{step},7,{100 * step},0,0,0,0,0" for step in (0, 1))]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows))
+    own = "history", study(tmp_path), tmp_path / "stresses.csv", "--order", "ansys"
+    assert "largest SWT = 0.025 MPa" in call(*own, "--column", "step=Frame", "--column", "id = Node").stdout
+    assert "--column: found 'step'; allowed: a name and a header" in call(*own, "--column", "step").output
 
 
 def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:

@@ -316,7 +316,7 @@ def test_messages_of_histories(kept: Kept, tmp_path: Path, monkeypatch: pytest.M
             evaluate_history(read_history("a.csv", **form), "rig.toml", body)
         said[name] = [str(each) for each in caught.value.mistakes]
 
-    tell("order", rows, order="ansys")
+    tell("order", rows, order="nastran")
     tell("named", rows, order="abaqus")
     tell("headers", [rows[0].replace("xx", "a"), *rows[1:]])
     tell("few", ["step,a,b", "1,2,3"], order="abaqus")

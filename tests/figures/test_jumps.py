@@ -218,6 +218,13 @@ def test_a_map_of_a_ratio_is_pale_where_it_is_1() -> None:
     assert max(luminance(mesh.to_rgba(end)[:3]) for end in mesh.get_clim()) < 0.15
 
 
+def test_a_steep_first_step_of_few_is_no_jump() -> None:
+    """Lives that saturate, after lives without end or from the first point on."""
+    for before in ([], [np.inf, np.inf]):
+        lives = np.array([*before, 1e9, 3e5, 2e5, 1.9e5, 1.8e5])
+        assert jumps_of(lives, "cycles_volume", symbol=r"N_\mathrm{volume}") == []
+
+
 def test_there_is_no_jump_between_two_lives_without_end() -> None:
     """Nor do they warn."""
     lives = np.array([1e5, 1e6, np.inf, np.inf, 1e7, 1e8])

@@ -1,6 +1,7 @@
 import inspect
 import pickle
 import re
+import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -194,6 +195,24 @@ def test_an_axis_without_effect_is_warned_of(axis):
     with pytest.warns(UserWarning, match=f"^{axis} has no effect: what it is of does not oscillate"):
         found = swtstudy.solve(load=loop, **{axis: [1, 2]}, rtol=1e-2)
     assert found.s[0] == found.s[1]
+
+
+@pytest.mark.parametrize("geometry", ["axisymmetric", "plane"])
+def test_a_table_smoothed_by_much_of_its_rise_is_warned_of(geometry):
+    """Its contact at the mean load is 1 wide, where it rises by 0.5."""
+    radius, forces = (
+        np.linspace(0.0, 2.0, 200),
+        {"normal_force_amplitude": 0.2, "tangential_force_amplitude": 0.1},
+    )
+    rough = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0055, geometry)
+    with pytest.warns(
+        UserWarning, match=r"^profile pad: its smoothing is 0.011 of its rise within the contact"
+    ):
+        swtstudy.solve(profile=rough, **forces, rtol=1e-2)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        fine = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0045, geometry)
+        swtstudy.solve(profile=fine, **forces, rtol=1e-2)
 
 
 def test_arrays_of_dask_are_sequences_of_contacts():

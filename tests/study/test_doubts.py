@@ -22,6 +22,11 @@ METALS = "; metals have 0.001 to 3 mm: 1 MPa√m is 31.62 MPa√mm"
 OF_METALS = "of metals 0.0002 to 0.05: are both in MPa?"
 WRONG = "is the radius in another unit, such as metres?"
 UNLIKE = "are both of one material, and in MPa?"
+ROUGH = "s: profile cap: its smoothing is 0.039 of its rise within the contact at the mean load, so that the "
+ROUGH += (
+    "largest local values, such as s, may be off by more than that share; a mean over a critical_distance "
+)
+ROUGH += "is nearer"
 SPHERE = CONTACT.replace("radius = 50", "radius = 0.02")
 
 
@@ -113,6 +118,8 @@ def cap(factor: float, power: float, depth: float) -> str:
         (CONTACT.replace("73.1e3", "[73.1e3, 67e3]"), []),
         (CONTACT.replace("73.1e3", "[73.1e3, 7e3]").replace("= 0.5", "= 0").replace("= 60", "= 0"), []),
         (cap(0.1, 1.5, 0.05), []),
+        (cap(0.1, 1.5, 0.05) + "smoothing = 0.0001", []),
+        (cap(0.1, 1.5, 0.05) + "smoothing = 0.001", [ROUGH]),
         (
             cap(0.1, 1.5, 0.06),
             [

@@ -30,8 +30,8 @@ def mistakes_of(text: str, folder: Path) -> list[str]:
             r"found 4 cells under 2 columns \(.*cycle.csv: line 3\); allowed: as",
         ),
         (
-            "normal,tangential,Bulk\n0,1,9\n0,-1,-9\n",
-            r"found the column 'Bulk' \(.*line 1\); allowed: bulk, if",
+            "normal,tangential,Bulk 1\n0,1,9\n0,-1,-9\n",
+            r"found the column 'Bulk 1' \(.*line 1\); allowed: bulk, if",
         ),
         ("normal,tangential,bulk stress\n0,1,9\n0,-1,-9\n", "found the column 'bulk stress'"),
         ("normal,tangential,blk\n0,1,9\n0,-1,-9\n", "found the column 'blk'"),
