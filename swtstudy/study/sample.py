@@ -7,6 +7,7 @@ further points: each draw of theirs has a life at every point.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
@@ -379,22 +380,39 @@ def _root(
     covariance: Mapping[str, Any], ranges: Mapping[str, Any], report: Report
 ) -> tuple[list[str], FloatArray]:
     """Names of the constants of a covariance, and its root, shape (k, k); none of a wrong one."""
-    rows = [row if isinstance(row, dict) else {"": row} for row in covariance.values()]
-    names = [*dict.fromkeys([*covariance, *(name for row in rows for name in row)])]
-    for name in (each for each in names if each in ranges):
-        report(f"sample.covariance.{name}", f"{name}, which has a range", "one of the two")
-    if {*names} <= {*SCATTERED}:
-        either = {(i, j): value for i in covariance for j, value in covariance[i].items()}  # half is enough
-        entries = [[either.get((i, j), either.get((j, i), 0.0)) for j in names] for i in names]
-        matrix = np.array([[*map(plain_number, row)] for row in entries]).reshape(len(names), len(names))
-        deviation = np.sqrt(np.diag(matrix).clip(0.0))
-        if np.isfinite(matrix).all() and (deviation > 0.0).all():
-            correlation = matrix / np.outer(deviation, deviation)
-            values, vectors = np.linalg.eigh(correlation)
-            if np.allclose(correlation, correlation.T) and (values >= -1e-9).all():
-                return names, deviation[:, None] * vectors * np.sqrt(values.clip(0.0))
-    report("sample.covariance", literal(covariance), f"{_MATRIX}, symmetric and positive, of {_CAN_SCATTER}")
-    return [], np.empty((0, 0))
+    key, before = "sample.covariance", len(report)
+    if wrong := [name for name, row in covariance.items() if not isinstance(row, dict)]:
+        report(f"{key}.{wrong[0]}", literal(covariance[wrong[0]]), _MATRIX)
+        return [], np.empty((0, 0))
+    names = [*dict.fromkeys([*covariance, *(name for row in covariance.values() for name in row)])]
+    given = {(i, j): value for i, row in covariance.items() for j, value in row.items()}
+    for name in names:
+        if name in ranges:
+            report(f"{key}.{name}", f"{name}, which has a range", "one of the two")
+        if name not in SCATTERED:
+            report(f"{key}.{name}", literal(name), f"constants that can scatter: {_CAN_SCATTER}")
+        elif not 0.0 < plain_number(given.get((name, name), 0.0)) < math.inf:
+            found = literal(given[name, name]) if (name, name) in given else "no variance"
+            report(f"{key}.{name}.{name}", found, "its variance, a finite number > 0")
+    for i, j in itertools.combinations(names, 2):
+        twice = [given[each] for each in ((i, j), (j, i)) if each in given]
+        both = [*map(plain_number, twice)]
+        if both and not (np.isfinite(both).all() and math.isclose(both[0], both[-1], rel_tol=1e-8)):
+            allowed = "one finite number, said once or twice the same"
+            report(f"{key}.{i}.{j}", " and ".join(map(literal, twice)), allowed)
+    if len(report) > before:
+        return [], np.empty((0, 0))
+    matrix = np.array([float(given.get((i, j), given.get((j, i), 0.0))) for i in names for j in names])
+    matrix = matrix.reshape(len(names), len(names))
+    deviation = np.sqrt(np.diag(matrix))
+    correlation = matrix / np.outer(deviation, deviation)
+    values, vectors = np.linalg.eigh(correlation)
+    if values.min(initial=0.0) < -1e-9:
+        i, j = divmod(int(np.abs(np.tril(correlation, -1)).argmax()), len(names))
+        found = f"a correlation of {correlation[i, j]:.3g} between {names[i]} and {names[j]}"
+        report(key, found, "correlations within ±1 that are possible together")
+        return [], np.empty((0, 0))
+    return names, deviation[:, None] * vectors * np.sqrt(values.clip(0.0))
 
 
 #: The largest index that NumPy's random numbers can be.

@@ -225,10 +225,11 @@ def test_constants_that_make_no_life_are_refused(text: str, words: str) -> None:
     [
         (SAMPLE + "[sample.ranges]\nshear_modulus = [1, 2]\n", "constants that can: strength, strength_exp"),
         (SAMPLE + "[sample.ranges]\nstrength = 3\n", "sample.ranges.strength: found 3"),
-        (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "symmetric and positive"),
+        (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "a correlation of -7.5 between ductility and"),
         # A correlation of -1.58, in units in which the other variance is 2e9 times as large.
-        (SAMPLE + SMALL, "symmetric and positive"),
-        (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance: found"),
+        (SAMPLE + SMALL, "a correlation of -1.58 between"),
+        (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance.hardness: found"),
+        (SAMPLE + COVARIANCE.replace("900", "inf"), r"strength\.strength: found inf; allowed: its variance"),
         (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
         (SAMPLE.replace("2e5", "0") + RANGE, "sample.target_life: found 0"),
         ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "2 of strength, 1 of ductility"),
