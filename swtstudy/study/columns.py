@@ -9,6 +9,7 @@ import math
 import re
 import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -161,6 +162,8 @@ class UserTable:
         for name in names:
             texts = self.texts(name)
             values = np.array([number(text, self.decimal) for text in texts])
+            if texts and all(":" in text for text in texts):
+                values = clock(texts)
             found.append(values * self.form.scale.get(name, 1.0))
             for row in np.flatnonzero(~np.isfinite(values))[:1]:
                 text, hint = texts[row], ""  # the key that is usually missing there
@@ -327,6 +330,18 @@ class UserTable:
         for name in map(header, (*self.names, *self.known)):
             if lower.count(name.lower()) > 1:
                 raise self.refused(place, f"the column {name} twice", "each column once")
+
+
+def clock(texts: Sequence[str]) -> FloatArray:
+    """Seconds from the first of times of day or dates on; NaN if they are none."""
+    import pandas as pd
+
+    for read in (pd.to_timedelta, pd.to_datetime):
+        with suppress(ValueError), warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of dates in an unusual order
+            times = pd.Index(read([text.replace(",", ".") for text in texts]))
+            return np.asarray((times - times[0]).total_seconds())
+    return np.full(len(texts), np.nan)
 
 
 def number(cell: str, decimal: str | None) -> float:

@@ -208,7 +208,9 @@ def repeats(time: FloatArray, values: FloatArray) -> float | None:
     least = np.min(found, axis=0)
     inner = np.arange(FEWEST_IN_CYCLE, len(least))
     after = np.append(least, -np.inf)[inner + 1]
-    tops = inner[(least[inner] > REPEATS) & (least[inner] >= least[inner - 1]) & (least[inner] >= after)]
+    # Next to the first sample all is alike: a cycle later it is again.
+    again = (np.minimum.accumulate(least)[inner] < REPEATS) & (least[inner] > REPEATS)
+    tops = inner[again & (least[inner] >= least[inner - 1]) & (least[inner] >= after)]
     if not tops.size:
         return None
     # The last top is so many cycles from the first sample: it tells the length of one best.

@@ -162,7 +162,14 @@ class Study:
         if not isinstance(text, str):
             raise refused("text", literal(text), "the text of a study file")
         raw = _parsed(text, source)
-        study = study_from(raw, text, source, Path(folder))
+        try:
+            study = study_from(raw, text, source, Path(folder))
+        except StudyError as error:
+            told = [mistake.key for mistake in error.mistakes]
+            forgotten = [
+                m for m in unused(raw, None, source) if not any(key.startswith(m.key) for key in told)
+            ]
+            raise StudyError([*forgotten, *error.mistakes]) from None
         unused(raw, study.grid, source).refuse()
         odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
         for line in (*doubts(study.grid, "axes."), *odd):

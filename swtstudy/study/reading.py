@@ -281,13 +281,25 @@ def profile_from(name: str, table: ProfileTable, folder: Path, labels: Labels = 
     return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 
-def unused(raw: Mapping[str, Any], grid: Grid, source: str) -> Report:
-    """Loops or profiles that a sound study defines, and of which it uses none: a key was forgotten."""
-    report = Report(source)
+def unused(raw: Mapping[str, Any], grid: Grid | None, source: str) -> Report:
+    """Loops or profiles that a study defines, and of which it uses none: a key was forgotten.
+
+    Without a grid, of a study with mistakes, it is known where the key is nowhere.
+    """
+    report, tables = Report(source), {key: own for key, own in raw.items() if isinstance(own, dict)}
+    given = [str(key) for place in ("fixed", "axes") for key in tables.get(place, ())]
     for parameter in ("load", "profile"):
-        used, tables = [*map(str, grid.values(parameter))], raw.get(f"{parameter}s", {})
-        used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
-        for name in tables if {*used}.isdisjoint(tables) else ():
+        if grid:
+            used = [*map(str, grid.values(parameter))]
+            used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
+        elif {"sample", "blocks"} & raw.keys() or any(meant(key, [parameter], {}) for key in given):
+            continue
+        else:
+            used = []
+        names = tables.get(f"{parameter}s", {})
+        for name in names if {*used}.isdisjoint(names) else ():
             words = f"a {parameter} that is not used"
-            report(f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in the study, or none")
+            report(
+                f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in [fixed] or [axes], or none"
+            )
     return report

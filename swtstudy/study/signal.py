@@ -107,6 +107,10 @@ class Signal:
             allowed = (
                 "a mean above 0; where compression is negative: scale = { normal = -1 }, or minus its scale"
             )
+            if (least := float(self.values[:, 1].min())) > 0.0:
+                allowed = (
+                    f"a mean above 0; tangential loads are {least:.3g} and more: are the columns exchanged?"
+                )
             raise refused("absolute", f"a mean normal load of {mean:.3g}", allowed)
         return mean
 

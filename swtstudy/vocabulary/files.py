@@ -100,6 +100,10 @@ def parse_toml(text: str) -> dict[str, Any]:
     reason = re.sub(r"^Cannot declare \((.*?),?\) twice", r"the table \1 twice", reason)
     if number := re.search(r"=\s*([+-]?\d+),(\d[\de+-]*)\s*(#|$)", line):
         reason += f"; a decimal comma? Numbers have a decimal point: {number[1]}.{number[2]}"
+    elif number := re.search(r"(?<![\w.\"'])[+-]?\.\d+", line):
+        reason += f"; numbers have a digit before the decimal point: {number[0].replace('.', '0.')}"
+    elif path := re.search(r'"([^"]*\\[^"]*)"', line):
+        reason += f"; a path has / in place of \\, or single quotes: '{path[1]}'"
     start = max(0, column - 60)
     mark = " " * (min(column, len(line) + 1) - 1 - start) + "^"
     wrong = TomlError(f"a syntax error: {reason}")

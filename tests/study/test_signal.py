@@ -359,6 +359,39 @@ def test_a_study_tells_of_vertices_that_are_absolute_or_have_a_mean() -> None:
     assert about.values("normal_force") == (300.0,)
 
 
+@pytest.mark.parametrize(
+    "form", ["12:30:{:06.3f}", "2026-05-01 12:30:{:06.3f}", "01.05.2026 12:30:{:06.3f}", "0:12:30:{:06.3f}"]
+)
+def test_times_of_day_are_seconds_from_the_first(tmp_path: Path, form: str) -> None:
+    wave = np.sin(2.0 * np.pi * np.arange(40) / 20)
+    rows = [f"{form.format(0.5 * k)},{300.0 + 20.0 * each},{100.0 * each}" for k, each in enumerate(wave)]
+    (tmp_path / "rig.csv").write_text("\n".join(["clock,normal,tangential", *rows]))
+    read = {"time": "clock", "absolute": True, "period": 10.0}
+    if form.startswith("0:"):
+        words = r"line 2, clock: found '0:12:30:00.000'; allowed: a finite number"
+        refused(words, read_signal, tmp_path / "rig.csv", **read)
+        return
+    found = read_signal(tmp_path / "rig.csv", **read)
+    assert found.time.tolist() == [0.5 * k for k in range(40)]
+    assert (found.count, found.period) == (2, 10.0)
+
+
+def test_one_cycle_does_not_repeat(tmp_path: Path) -> None:
+    """Samples beside one another are alike."""
+    wave = np.sin(2.0 * np.pi * np.arange(200) / 200)
+    write(tmp_path / "rig.csv", np.stack([200.0 + 20.0 * wave, 60.0 * wave], axis=1), "normal,tangential")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_signal(tmp_path / "rig.csv", absolute=True)
+
+
+def test_exchanged_columns_are_told(tmp_path: Path) -> None:
+    wave = np.sin(2.0 * np.pi * np.arange(50) / 50)
+    write(tmp_path / "rig.csv", np.stack([60.0 * wave, 200.0 + 20.0 * wave], axis=1), "normal,tangential")
+    signal = read_signal(tmp_path / "rig.csv", absolute=True)
+    refused("tangential loads are 180 and more: are the columns exchanged", lambda: signal.mean_normal)
+
+
 def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:
     time = np.arange(400) / 2000.0
     wave = np.sin(40.0 * np.pi * time)

@@ -322,6 +322,8 @@ def test_a_syntax_error_shows_its_line():
     [
         ("friction = 0,5", "a decimal comma? Numbers have a decimal point: 0.5;"),
         ("friction = 73,1e3  # GPa", "a decimal comma? Numbers have a decimal point: 73.1e3;"),
+        ("friction = .5", "numbers have a digit before the decimal point: 0.5;"),
+        (r'load = "C:\Users\me\r.csv"', r"has / in place of \, or single quotes: 'C:\Users\me\r.csv';"),
         ("phase = 0\nphase = 1", "the key 'phase' twice (at line 4, column "),
         ("[fixed]", "the table 'fixed' twice (at line 3, column 7)"),
         ("friction = [0.5, ", "Invalid value (at end of document)"),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import real
 from told import refused
 
 import swtstudy
@@ -205,9 +206,14 @@ def test_what_is_defined_and_not_used_is_told(tmp_path: Path) -> None:
     radii, heights = ([step**power for step in range(9)] for power in (1, 2))
     worn = f"[profiles.worn]\nradius = {radii}\nheight = {heights}\n"
     assert mistakes_of(f'title = "t"\n{loop}{worn}', tmp_path) == [
-        "s: loads.mine: found a load that is not used; allowed: load = 'mine' in the study, or none",
-        "s: profiles.worn: found a profile that is not used; allowed: profile = 'worn' in the study, or none",
+        "s: loads.mine: found a load that is not used; allowed: load = 'mine' in [fixed] or [axes], or none",
+        "s: profiles.worn: found a profile that is not used; allowed: profile = 'worn' in [fixed] or [axes], "
+        "or none",
     ]
+    # Beside what is missing for want of it.
+    first, second = mistakes_of(f"{real.CONTACT}normal_force = 200\n{loop}", tmp_path)
+    assert "loads.mine: found a load that is not used" in first
+    assert "tangential_amplitude: found nothing" in second
     used = f'title = "t"\n[axes]\nprofile = ["paraboloid", "worn"]\n[fixed]\nload = "mine"\n{loop}{worn}'
     assert Study.from_text(used).grid.size == 2
     # One of several may wait for another run.
