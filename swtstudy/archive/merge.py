@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -20,6 +21,7 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import Request, error_of
@@ -171,13 +173,21 @@ def distinct(values: Sequence[Value]) -> tuple[Value, ...]:
 
 
 def _study(names: str, datasets: list[xr.Dataset], grid: Grid, asked: Request) -> Study:
-    """A study whose result the merged archive is; with the figure of the first archive, if it fits."""
+    """A study whose result the merged archive is; with the figure of the first archive, if all axes fit.
+
+    An axis that is new takes a free role: the lines, or else the panels.
+    """
     titles = dict.fromkeys(str(dataset.attrs["title"]) for dataset in datasets)
     rtol, figure = max(float(dataset.attrs["rtol"]) for dataset in datasets), None
     if "figure" in datasets[0].attrs:
         layout = read_figure(datasets[0].attrs["figure"], [str(name) for name in datasets[0].data_vars])
-        if {name for _, name in layout.roles()} - {*QUANTITY_AXES} == set(grid.dims):
-            figure = layout
+        roles = [name for _, name in layout.roles() if name not in QUANTITY_AXES]
+        new = [dim for dim in grid.dims if dim not in roles]
+        lacks = FIGURES[layout.kind].lacks
+        free = [role for role in ("hue", "panels") if role not in lacks and getattr(layout, role) is None]
+        if {*roles} <= {*grid.dims} and len(new) <= len(free):
+            placed: dict[str, Any] = dict(zip(free, new, strict=False))
+            figure = replace(layout, **placed)
     try:
         return Study.from_text(to_toml(" + ".join(titles), rtol, grid, figure, asked), "the merged study")
     except ValueError as error:

@@ -62,6 +62,8 @@ def test_what_neither_has_is_missing_and_a_fixed_value_becomes_an_axis(tmp_path)
     assert merged.sizes == {"friction": 2, "phase": 2, "frequency_ratio": 2}
     assert int((merged.status == MISSING).sum()) == 4
     assert int(np.isnan(merged.s).sum()) == 4
+    # The new axis has the role that is free.
+    assert Study.from_text(merged.attrs["study"]).figure.panels == "frequency_ratio"
     assert "one.nc, other.nc, 4 of 8 points in none of them" in merged.attrs["history"].splitlines()[0]
     # What is missing already is no new gap.
     assert int((merge(tmp_path / "merged.nc", one, name="both.nc").status == MISSING).sum()) == 4
