@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import itertools
+import math
+import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -21,6 +23,9 @@ from swtstudy.vocabulary.wording import value_words
 
 #: Bootstrap samples: the ends of a confidence interval of 95 % are then known to a tenth of its width.
 _RESAMPLES = 999
+
+#: Half of an interval above which indices are told to be rough: intervals shrink with the root of the size.
+KNOWN_TO = 0.1
 
 _MEANINGS = {
     "first_order": "share of the variance by this parameter alone",
@@ -79,6 +84,11 @@ def sensitivity(
     parts = [_of_one(each, len(names), size, float(confidence), seed) for each in values.values()]
     symbols = ("parameter", [dataset[name].attrs.get("symbol", AXES[name].symbol) for name in names])
     whole = xr.concat(parts, xr.Variable("quantity", quantities))
+    half = max(float((whole[f"{name}_high"] - whole[f"{name}_low"]).max()) for name in _MEANINGS) / 2.0
+    if half > KNOWN_TO:
+        needed = 2 ** math.ceil(math.log2(size * (half / KNOWN_TO) ** 2))
+        words = f"indices are known to ±{half:.2g} only, and may be below 0 or above 1: a sample of some "
+        warnings.warn(f"{words}size = {needed} gives ±{KNOWN_TO:g}", stacklevel=2)
     title = f"Sobol indices: {dataset.attrs['title']}" if "title" in dataset.attrs else "Sobol indices"
     found = whole.assign_coords(parameter=names, symbol=symbols)
     return found.assign_attrs(title=title, size=size, confidence=float(confidence), seed=seed)

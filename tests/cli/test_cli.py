@@ -78,10 +78,10 @@ def test_plot_needs_the_archive_alone(ran):
 
 @pytest.fixture(scope="module")
 def merged(tmp_path_factory):
-    """Two archives as one, whose axes no figure of theirs has a place for."""
+    """Two archives as one, of studies without a figure."""
     tmp_path = tmp_path_factory.mktemp("merged")
     for friction in (0.1, 0.2):
-        text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n[figure]\nx = "phase"\n'
+        text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n'
         run(Study.from_text(text), tmp_path / f"{friction}.nc", solver=stand_in.smooth)
     assert call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", tmp_path / "both.nc").exit_code == 0
     (study := tmp_path / "mine.toml").write_text("kept")

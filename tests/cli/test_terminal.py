@@ -95,6 +95,7 @@ poisson_ratio = [0, 0.5]
 """
 
 
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_tables_of_markdown_are_set_in_columns(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     (tmp_path / "mine.toml").write_text(SAMPLE)

@@ -125,6 +125,7 @@ def short(data: Any) -> Any:
 
 
 @pytest.mark.usefixtures("unwrapped")
+@pytest.mark.filterwarnings("ignore:indices are known to")
 @pytest.mark.parametrize("name", STUDIES)
 def test_pages(name: str, kept: Kept, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)

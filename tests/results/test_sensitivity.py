@@ -1,3 +1,4 @@
+import re
 import shutil
 from pathlib import Path
 
@@ -72,6 +73,18 @@ def told(monkeypatch):
 @pytest.fixture(scope="module")
 def indices(results):
     return sensitivity(results, ["s", "critical_x"])
+
+
+def test_rough_indices_are_told_with_the_size_that_is_needed(tmp_path):
+    """Of 1,024 points they are not."""
+    found = run(Study.from_text(STUDY.format(size=16)), tmp_path / "a.nc", workers=1, solver=ishigami)
+    with pytest.warns(UserWarning, match=r"known to ±(0\.\d+) only, and may be below 0 or above 1") as told:
+        indices = sensitivity(found)
+    half, size, allowed = map(float, re.findall(r"[\d.]+\d", str(told[0].message)))
+    widths = [indices[f"{name}_high"] - indices[f"{name}_low"] for name in ("first_order", "total")]
+    assert half == pytest.approx(0.5 * max(float(width.max()) for width in widths), rel=0.01)
+    assert allowed == 0.1
+    assert 1.0 <= size / (16.0 * (half / allowed) ** 2) < 2.1
 
 
 def test_the_indices_of_a_function_whose_indices_are_known(indices):

@@ -86,6 +86,7 @@ def test_optima(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     kept("told_optimum", told(found.drop_vars(["progress", "evaluations", "run"], errors="ignore")))
 
 
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_indices(kept: Kept, tmp_path: Any) -> None:
     found = swtstudy.run(
         swtstudy.Study.from_text(SALTELLI), tmp_path / "a.nc", workers=1, solver=stand_in.smooth
