@@ -35,7 +35,7 @@ _OF_MATLAB = 'writetable(table(time, normal, tangential), "record.csv") in MATLA
 FORMATS = (
     (b"\xd0\xcf\x11\xe0", "an Excel workbook before 2007", "saved as .xlsx, or the sheet as CSV UTF-8"),
     (b"MATLAB", "a MATLAB file", _OF_MATLAB),
-    (b"\x89HDF", "an HDF5 file, as of MATLAB", _OF_MATLAB),
+    (b"\x89HDF", "an HDF5 file, as of netCDF or MATLAB", _OF_MATLAB),
     (b"TDSm", "a LabVIEW TDMS file", "nptdms.TdmsFile(path).as_dataframe().to_csv(...) in Python"),
 )
 

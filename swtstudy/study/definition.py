@@ -192,7 +192,10 @@ def _text_of(file: Path, source: str) -> str:
             allowed = "a study file (TOML)"
             if not file.suffix:
                 found = "no such file"
-                allowed += f", or a study of the paper: {nearest(source, shipped_studies())}"
+                here, known = f"{source}.toml", nearest(source, shipped_studies())
+                allowed += (
+                    f": {here} is there" if Path(here).exists() else f", or a study of the paper: {known}"
+                )
     except ValueError as error:
         found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), f"{_READABLE}, saved as UTF-8"))
     raise refused("", found, allowed, source)

@@ -100,6 +100,15 @@ def test_normalised_is_s_over_s_there(dataset):
         dataset.swt.normalised("b")
 
 
+def test_a_list_of_points_is_normalised_by_one_of_them():
+    points = {"phase": [0.1, 0.2, 0.1, 0.3], "friction": [0.3, 0.4, 0.5, 0.3]}
+    listed = swtstudy.solve(rtol=1e-2, **{name: xr.DataArray(own, dims="k") for name, own in points.items()})
+    ratio = listed.swt.normalised("friction=0.4")
+    np.testing.assert_array_equal(ratio, listed.s / listed.s.values[1])
+    with pytest.raises(StudyError, match=r"found 2 points with friction = 0.3, of a list .*one such point"):
+        listed.swt.normalised("friction=0.3")
+
+
 @pytest.mark.usefixtures("without_points")
 def test_errors_of_ratios_add_up(archive, dataset, tmp_path):
     """As the report tells them behind its figure: the stand-in's s has the relative error rtol."""

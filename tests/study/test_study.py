@@ -443,6 +443,9 @@ def test_a_name_that_is_no_study_is_told_of_those_of_the_paper(tmp_path):
     assert (mistake.source, mistake.key, mistake.found) == ("figure33", "", "no such file")
     start = "a study file (TOML), or a study of the paper: did you mean figure3? known: "
     assert mistake.allowed.startswith(start)
+    (tmp_path / "mine.toml").write_text(MINIMAL)
+    (mistake,) = refused("", Study.from_toml, tmp_path / "mine").mistakes
+    assert mistake.allowed == f"a study file (TOML): {tmp_path / 'mine.toml'} is there"
     (mistake,) = refused("", Study.from_toml, tmp_path / "figure33.toml").mistakes
     assert mistake.allowed == "a study file (TOML)"
 
