@@ -16,7 +16,7 @@ import pandas as pd
 import xarray as xr
 
 from swtstudy.points.values import read_exact
-from swtstudy.results.history import FATEMI_SOCIE, FINDLEY, TINY, criterion_of_history, swt_of_history
+from swtstudy.results.history import TINY, criterion_of_history, swt_of_history
 from swtstudy.study.columns import UserTable, read_table, unknown_names, wrong_unit
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
@@ -24,7 +24,7 @@ from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.material import read_given, two_of
 from swtstudy.study.units.rows import KNOWN, OF_BODIES, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.choices import SWT
+from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 
 #: The stress components in our order, and those that plane elements lack.

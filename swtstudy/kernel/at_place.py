@@ -9,7 +9,7 @@ from math import cos, sin
 import numpy as np
 
 from swtstudy.kernel.compiled import jit
-from swtstudy.kernel.criterion import FINDLEY, SWT, lift, value_of
+from swtstudy.kernel.criterion import lift, stress_of, value_of
 from swtstudy.kernel.history import sample_cycle, write_stress
 from swtstudy.kernel.parts import COARSEST, refine_marked
 from swtstudy.kernel.planes import (
@@ -65,11 +65,7 @@ def evaluate(search, point, place, plus, minus):
         if swt > search.best:
             search.best, search.place, search.sign, search.angle = swt, place, sign, angle
             find_peaks(history, curves, ask, cos(angle), sin(angle))
-            search.tension = 0.5 * (curves.top[SWING] + curves.top[MINUS_SWING])
-            if ask.criterion == SWT:
-                search.tension = min(search.tension, curves.top[STRESS])
-            elif ask.criterion == FINDLEY:
-                search.tension = max(search.tension, ask.sensitivity * curves.top[STRESS])
+            search.tension = stress_of(ask, curves.top[STRESS], curves.top[SWING] + curves.top[MINUS_SWING])
 
 
 @jit

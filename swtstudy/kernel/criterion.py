@@ -157,6 +157,14 @@ def sensitivities(ask, T, A):
 
 
 @jit
+def stress_of(ask, T, A):
+    """The stress on whose relative error that of a value depends: of a product the smaller factor."""
+    if ask.criterion == SWT:
+        return min(0.5 * A, T)
+    return max(0.5 * A, ask.sensitivity * T) if ask.criterion == FINDLEY else 0.5 * A
+
+
+@jit
 def far_field(ask, largest, smallest, plane):
     """The criterion under a bulk stress along x alone, and 2θ of its plane (rad).
 

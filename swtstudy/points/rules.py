@@ -15,7 +15,7 @@ from swtstudy.points.values import amplitudes_of, as_number, press_steadily, val
 from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
 from swtstudy.solver.loop import Loop
 from swtstudy.solver.table import ROUGH, TabulatedProfile
-from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SHARP, SWT, families_with, family_of, is_plane
+from swtstudy.vocabulary.choices import CRITERIA, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
 from swtstudy.vocabulary.parameter import Parameter
@@ -45,7 +45,8 @@ def check_criteria(given: Iterable[str], good: Mapping[str, Sequence[Any]], repo
     if not others:
         if any(values_taken("normal_sensitivity", good)):
             found = f"a value with the criterion {SWT}"
-            report.of("normal_sensitivity", found, f"a value with {FATEMI_SOCIE} or {FINDLEY} only")
+            of_shear = " or ".join(name for name in CRITERIA if name != SWT)
+            report.of("normal_sensitivity", found, f"a value with {of_shear} only")
         return
     criteria = f"with the criterion {', '.join(others)}"
     if "normal_sensitivity" not in {*given}:

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from swtstudy.vocabulary.arrays import FloatArray
-from swtstudy.vocabulary.choices import SWT
+from swtstudy.vocabulary.choices import CRITERIA, SWT
 from swtstudy.vocabulary.definition import read_numbers
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS
 
-#: The criteria of shear, and the one that has no plane.
-FATEMI_SOCIE, FINDLEY, CROSSLAND = _KNOWN = "fatemi_socie", "findley", "crossland"
+#: The criterion that has no plane, and all but swt.
+CROSSLAND = "crossland"
+_KNOWN = (*(name for name in CRITERIA if name != SWT), CROSSLAND)
 #: γ of the Smith–Watson–Topper parameter.
 SWT_EXPONENT = 0.5
 #: No plane has a value that is higher than the largest one by more than this, relative.
@@ -160,7 +161,7 @@ def _over_all_planes(
     batch = history.shape[:-2]
     # Large powers of a stress leave the range of floats.
     size = float(np.abs(history).max(initial=0.0)) or 1.0
-    if criterion == FATEMI_SOCIE:
+    if CRITERIA[criterion].normal_unit:  # the sensitivity is one over a stress
         parameters["normal_sensitivity"] *= size
     own = ask(poisson_ratio, 0.0, TOLERANCE, criterion, **parameters)
     value, normal, unsettled = planes_of(history.reshape(-1, *history.shape[-2:]) / size, own, TOLERANCE)
@@ -168,7 +169,7 @@ def _over_all_planes(
         words = f"the search over planes ended early at {unsettled} of {len(value)} histories"
         warnings.warn(f"{words}: their values may be low", RuntimeWarning, stacklevel=3)
     normal[value == 0.0] = np.nan
-    value *= factor * size ** (2.0 if criterion == SWT else 1.0)
+    value *= factor * size ** CRITERIA[criterion].degree
     return CriticalPlane(value.reshape(batch), one_of_both(normal).reshape(*batch, 3))
 
 
