@@ -26,13 +26,11 @@ DUST = 0.02
 #: Share of the first range that is searched again with a tilt, and then so many of its steps in the lowest
 #: region.
 NEAR, STEPS_AROUND = 0.3, 2.0
-#: Misfit over the rise that is not told from none: the spline's own.
+#: Misfit over the rise that is not told from none.
 FINEST = 1e-4
-#: Knots of the even spline whose residuals tell outliers: their spacing is wider than a grain of dust.
-KNOTS = 14
-#: Steps of the robust fit, and the residual over the standard deviation from which a sample counts for
-#: nothing: 95 % efficient with normal noise (Tukey's biweight).
-STEPS, TUKEY = 8, 4.685
+#: Degree of a polynomial that is taken off first, and the part of all samples whose median an outlier is held
+#: against: more than two grains of dust.
+DEGREE, BESIDE = 8, 8
 #: Increase of the logarithm of the misfit with the tilt over the largest rise per length. A tilted parabola
 #: is a shifted one; this picks the shifted one, and is too small to move the middle of other shapes.
 TILT_PENALTY = 0.05
@@ -301,37 +299,10 @@ class _Trial(NamedTuple):
         return cls(middle, tilt, radius, even - low <= LOWEST * rise, cost)
 
 
-def _even_spline(x: FloatArray, z: FloatArray, middle: float) -> FloatArray:
-    """Heights at x of an even cubic spline about a middle, by Tukey's biweight, where there are two sides."""
-    end = float(min(middle - x.min(), x.max() - middle))
-    some = np.abs(x - middle) <= end
-    base, z, span = _basis(x[some] - middle, end), z[some], float(np.ptp(z[some])) or 1.0
-    weight = np.ones(len(z))
-    for step in range(STEPS):
-        gram = base.T @ (weight[:, None] * base)
-        gram[np.diag_indices_from(gram)] += 1e-9 * len(z) / len(gram)
-        found = np.linalg.solve(gram, base.T @ (weight * z))
-        size = np.abs(z - base @ found)
-        scale = max(float(np.median(size)) / 0.6745, FINEST * span)
-        # Absolute deviations first: squares would follow the outliers.
-        share = np.minimum(size / (TUKEY * scale), 1.0)
-        weight = scale / np.maximum(size, scale) if step < STEPS // 2 else (1.0 - share**2) ** 2
-    return np.asarray(_basis(np.clip(x - middle, -end, end), end) @ found)
-
-
-def _basis(x: FloatArray, end: float) -> FloatArray:
-    """Even cubic splines of x/end at distances x from the middle, shape (k, KNOTS + 1)."""
-    from scipy.interpolate import BSpline
-
-    knots = np.linspace(0.0, 1.0, KNOTS)
-    full = np.concatenate([[0.0] * 3, knots, [1.0] * 3])
-    found = BSpline.design_matrix(np.minimum(np.abs(x) / end, 1.0), full, 3).toarray()
-    # No slope at the middle: the first two are one.
-    return np.column_stack([found[:, 0] + found[:, 1], found[:, 2:]])
-
-
 def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolArray:
-    """Which samples stand out of an even spline, and of the samples opposite."""
+    """Which samples stand out of the samples beside them, and of the samples opposite."""
+    from scipy.ndimage import median_filter
+
     radius = np.abs(position - middle)
     left = position < middle
     differs = np.full(len(position), np.nan)
@@ -339,7 +310,9 @@ def _outliers(position: FloatArray, height: FloatArray, middle: float) -> BoolAr
         r, z = _merged(radius[~side], height[~side])
         inside = side & (radius <= r[-1]) & (radius >= r[0]) & _reached(r, radius)
         differs[inside] = height[inside] - np.interp(radius[inside], r, z)
-    residual = height - _even_spline(position, height, middle)
+    order, shape = np.argsort(position), np.polynomial.Polynomial.fit(position, height, DEGREE)
+    residual = height - shape(position)
+    residual[order] -= median_filter(residual[order], len(height) // BESIDE, mode="nearest")
     known = np.isfinite(differs)
     if not known.any():
         return np.zeros(len(position), bool)
