@@ -6,7 +6,6 @@ Users may change the style.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -22,7 +21,7 @@ from matplotlib import rcParamsDefault
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from swtstudy.vocabulary.files import read_text, replacing
+from swtstudy.vocabulary.files import replacing
 from swtstudy.vocabulary.mistakes import literal, nearest, refused
 
 #: Types that matplotlib accepts as a style: a name, a file, rcParams, or a list of these.
@@ -83,12 +82,8 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
     Raises
     ------
     StudyError
-        A ValueError, if there is no such style, or a file is none.
+        A ValueError, if there is no such style.
     """
-    for each in style if isinstance(style, list) else [style]:
-        if isinstance(each, str | Path) and each not in matplotlib.style.library and Path(each).exists():
-            _check_file(each)
-
     known: Any = matplotlib.rcParams
     wanted: Any = style_of("screen" if width is None else "print").items()
     own: Any = {name: value for name, value in wanted if known[name] == rcParamsDefault[name]}
@@ -103,19 +98,6 @@ def styled(style: Style | None = None, width: str | None = None) -> Iterator[Non
                     allowed = f"{nearest(str(style), matplotlib.style.available, {})}; or a .mplstyle file"
                 raise refused("style", literal(style), allowed) from None
         yield
-
-
-def _check_file(path: str | Path) -> None:
-    """Raise unless each line of a file is one of a style: matplotlib itself only warns of others."""
-    for number, line in enumerate(read_text(path).splitlines(), 1):
-        words = re.sub(r'("[^"]*")|#.*', r"\1", line).strip()  # without the comment
-        name, _, value = (part.strip() for part in words.partition(":"))
-        try:
-            if words:
-                matplotlib.RcParams({name: value.strip('"')})
-        except (KeyError, ValueError):
-            allowed = "a line of a matplotlib style, such as lines.linewidth: 2"
-            raise refused(f"line {number}", literal(line), allowed, str(path)) from None
 
 
 #: Time stamps, left out so that the same results give the same file.

@@ -156,26 +156,15 @@ def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.
 
 
 @pytest.mark.usefixtures("unwrapped")
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("root:x:0:0:root:/root:/bin/bash\n", "line 1: found 'root:x:0:0:root:/root:/bin/bash'"),
-        ("# a style\nlines.linewidth: 2\nlines.linewidth: wide\n", "line 3: found 'lines.linewidth: wide'"),
-        ("lines.linewidth 2\n", "line 1: found 'lines.linewidth 2'"),
-    ],
-)
-def test_a_file_that_is_no_style_is_refused(tmp_path: Path, content: str, words: str) -> None:
+def test_a_line_that_is_no_style_is_told_by_matplotlib(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
     path = computed(tmp_path, STUDY + FIGURE)
-    (tmp_path / "mine.mplstyle").write_text(content)
-    answer = refused("plot", path, "--style", tmp_path / "mine.mplstyle")
-    assert f"{words}; allowed: a line of a matplotlib style" in answer
-    assert not (tmp_path / "mine.png").exists()
-    os.mkfifo(tmp_path / "pipe")
-    assert "not a regular file" in refused("plot", path, "--style", tmp_path / "pipe")
-    sound = 'axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\ntext.color: "#ff0000"\n'
-    (tmp_path / "mine.mplstyle").write_text(sound)
-    result = call("plot", path, "--style", tmp_path / "mine.mplstyle")
+    style = tmp_path / "mine.mplstyle"
+    style.write_text('axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\nlines.linewidth 2\n')
+    result = call("plot", path, "--style", style)
     assert result.exit_code == 0, result.output
+    assert f"Missing colon in file '{style}', line 2 ('lines.linewidth 2')" in caplog.text
 
 
 def test_a_mistake_is_told_once() -> None:
