@@ -76,7 +76,7 @@ def evaluate(text: str) -> Fraction | float:
         if not math.isfinite(value):
             raise OverflowError
     except SyntaxError:
-        raise ValueError(_what_is_wrong(text)) from None
+        raise ValueError("not a number, as where a * or a parenthesis is missing") from None
     except ZeroDivisionError:
         raise ValueError("division by zero") from None
     except OverflowError:
@@ -97,18 +97,6 @@ def _value(node: ast.expr, text: str) -> Fraction | float:
         case ast.Call(func=ast.Name(id="sqrt"), args=[argument]):
             return _square_root(_value(argument, text))
     raise SyntaxError
-
-
-def _what_is_wrong(text: str) -> str:
-    if not text:
-        return "an empty text"
-    if text[-1] in "+-*/(":
-        return "not a number: the expression ends too early"
-    if re.search(r"sqrt(?! ?\()", text):
-        return "sqrt needs parentheses"
-    if text.count("(") > text.count(")"):
-        return "a parenthesis is not closed"
-    return "not a number: unexpected text, as where a * is missing"
 
 
 def _number(digits: str) -> Fraction:

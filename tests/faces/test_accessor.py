@@ -69,7 +69,7 @@ def test_values_are_told_apart_at_any_scale(dataset):
     [
         ({"phase": "pi/2"}, r"phase: found 'pi/2', which is not in these results; allowed: 0, π$"),
         ({"phase": 3.1}, "not in these results"),
-        ({"phase": "2*"}, "ends too early"),
+        ({"phase": "2*"}, "a parenthesis is missing"),
         ({"fase": 0}, "did you mean phase"),
         ({"waviness_amplitude": 0}, "not a parameter of these results"),
         ({"profile": "paraboloid"}, "allowed: rounded_punch"),

@@ -455,12 +455,13 @@ TOLD: list[tuple[dict[str, Any], list[str]]] = [
     (
         {"friction": ["sqrt(4", "2*", "1e308*pi", "sqrt(0-1)", "2 3"]},
         [
-            "friction[0]: found 'sqrt(4' (a parenthesis is not closed); allowed: a number in [0, 10]",
-            "friction[1]: found '2*' (not a number: the expression ends too early); allowed: a number "
-            "in [0, 10]",
+            "friction[0]: found 'sqrt(4' (not a number, as where a * or a parenthesis is missing); "
+            "allowed: a number in [0, 10]",
+            "friction[1]: found '2*' (not a number, as where a * or a parenthesis is missing); "
+            "allowed: a number in [0, 10]",
             "friction[2]: found '1e308*pi' (not a finite number); allowed: a number in [0, 10]",
             "friction[3]: found 'sqrt(0-1)' (square root of a negative number); allowed: a number in [0, 10]",
-            "friction[4]: found '2 3' (not a number: unexpected text, as where a * is missing); "
+            "friction[4]: found '2 3' (not a number, as where a * or a parenthesis is missing); "
             "allowed: a number in [0, 10]",
         ],
     ),

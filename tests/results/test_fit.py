@@ -352,7 +352,7 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
         ),
         (
             {"tangential_force_amplitude": ["", 60, 70], "life": [1e5, 1e6, 1e7]},
-            r"^tests.tangential_force_amplitude: found '' .an empty text. at \[0\]; allowed: a force",
+            r"^tests.tangential_force_amplitude: found '' .not a number, .*. at \[0\]; allowed: a force",
         ),
     ],
 )

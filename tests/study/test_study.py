@@ -102,7 +102,7 @@ def test_ratios_are_exact():
         ("omega_2 = 1", "did you mean frequency_ratio (ω2)?"),
         ("lambda = 7", "did you mean wavelength (λ)?"),
         ("h = 0.01", "did you mean waviness_amplitude (h)?"),
-        ('tangential_amplitude = "5 6"', "unexpected"),
+        ('tangential_amplitude = "5 6"', "is missing"),
         ("phase = 1e9", "out of range"),
     ],
 )

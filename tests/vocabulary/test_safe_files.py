@@ -156,9 +156,7 @@ def test_an_error_in_writing_names_the_file(tmp_path: Path, monkeypatch: pytest.
 
 
 @pytest.mark.usefixtures("unwrapped")
-def test_a_line_that_is_no_style_is_told_by_matplotlib(
-    tmp_path: Path, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_line_that_is_no_style_is_told(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     path = computed(tmp_path, STUDY + FIGURE)
     style = tmp_path / "mine.mplstyle"
     style.write_text('axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\nlines.linewidth 2\n')
