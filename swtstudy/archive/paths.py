@@ -15,7 +15,7 @@ from contextlib import ExitStack, contextmanager, suppress
 from os import PathLike
 from pathlib import Path
 
-from swtstudy.vocabulary.mistakes import Mistake, Report
+from swtstudy.vocabulary.mistakes import Report, refused, storable
 
 try:
     import fcntl
@@ -27,13 +27,6 @@ _log = logging.getLogger(__name__)
 
 class ArchiveError(ValueError):
     """A file that is not an archive of a study, or a damaged one."""
-
-
-#: Bytes to spare: the longest name made from ``name.nc`` is ``.name-12345678.png``, of an unfinished figure.
-_ADDED = 11
-
-#: Longest name in bytes where the file system does not report it.
-_LONGEST_NAME = 255
 
 
 def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: str = "") -> dict[str, Path]:
@@ -49,36 +42,17 @@ def archive_paths(studies: Iterable[str], folder: str | PathLike[str], prefix: s
     for path in paths.values():
         with report:
             check_archive_path(path)
-    existing = _existing(Path(folder))
-    if not existing.is_dir():
-        report.append(Mistake("", f"{existing}, which is a file", "a folder for archives", str(folder)))
     report.refuse()
     return paths
 
 
 def check_archive_path(path: Path) -> None:
-    """Raise a StudyError, a ValueError, for a path that no archive can have."""
-    whole, report = path.absolute(), Report(str(path))
-    if any("\ud800" <= c <= "\udfff" for c in str(whole)):
-        report("", "bytes that are not UTF-8", "a path in UTF-8")
-    # netCDF takes it for a slash; on Windows, where it is one, no part contains it.
-    if any("\\" in part for part in whole.parts[1:]):
-        report("", "a backslash", "a path without one")
-    if "\0" in str(whole):
-        report("", "a null character", "a path without one")
-    report.refuse()
-    length, longest = len(os.fsencode(path.name)), _LONGEST_NAME
-    with suppress(AttributeError, OSError, ValueError):
-        longest = os.pathconf(_existing(path.parent), "PC_NAME_MAX")
-    if length > longest - _ADDED:
-        report("", f"a name of {length} bytes", f"at most {longest - _ADDED}")
-    report.refuse()
-
-
-def _existing(folder: Path) -> Path:
-    """The folder, or the nearest existing one above it."""
-    absolute = folder.absolute()
-    return next(each for each in (absolute, *absolute.parents) if each.exists())
+    """Raise a StudyError, a ValueError, for a path that netCDF cannot have."""
+    whole = path.absolute()
+    # netCDF takes a backslash for a slash; on Windows, where it is one, no part contains it.
+    if not storable(str(whole)) or any("\\" in part for part in whole.parts[1:]):
+        found = "a backslash, a null character, or bytes that are not UTF-8"
+        raise refused("", found, "a path without these", str(path))
 
 
 #: Errors of file systems without locks.

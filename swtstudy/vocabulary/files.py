@@ -141,12 +141,15 @@ def check_writable(*paths: str | PathLike[str]) -> None:
     OSError
         If it cannot be written; the message names the folder.
     """
-    for folder in dict.fromkeys(_target(path).parent for path in paths):
+    for target in map(_target, paths):
+        folder = target.parent
         try:
             folder.mkdir(parents=True, exist_ok=True)
-            tempfile.TemporaryFile(dir=folder).close()
+            # A name as long as that of an unfinished file.
+            tempfile.NamedTemporaryFile(suffix=target.suffix, prefix=f".{target.stem}-", dir=folder).close()
         except OSError as error:
-            raise type(error)(f"cannot write into the folder {folder}: {error.strerror}") from error
+            words = f"cannot write {target.name} into the folder {folder}"
+            raise type(error)(f"{words}: {error.strerror}") from error
 
 
 @contextmanager
