@@ -16,13 +16,10 @@ from matplotlib import colormaps, rcParams
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import BoundaryNorm, LogNorm, Normalize
-from matplotlib.contour import ContourSet
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
-from matplotlib.transforms import BboxBase
 from numpy.typing import NDArray
 
 from swtstudy.figures.lines import mark_points
@@ -142,9 +139,6 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
     up, at = (surface[dim].values for dim in surface.dims)
     filled = axes.contourf(at, up, surface, levels=levels, **look)
     lines = axes.contour(at, up, surface, levels=levels, colors="black", linewidths=0.5, alpha=0.6)
-    if bool(surface.notnull().all()):
-        for contours in (filled, lines):
-            _leave_out_islands(contours, axes.dataLim)
     if surface.name == "s":
         _draw_extrema(axes, at, up, surface)
     shown = levels if life else levels[::2]
@@ -157,22 +151,6 @@ def draw_contours(axes: Axes, surface: xr.DataArray, look: dict[str, Any]) -> Sc
         for words in axes.clabel(lines, shown, manual=places, **labels):
             words.set(color=words.get_color()[:3], alpha=1.0)  # not as pale as the lines
     return filled
-
-
-def _leave_out_islands(contours: ContourSet, panel: BboxBase) -> None:
-    """Remove what is too small to be labelled: between two points of a grid a level may come and go."""
-
-    def is_island(part: FloatArray) -> bool:
-        low, high = part.min(axis=0), part.max(axis=0)
-        small = np.all(high - low < 0.05 * np.array([panel.width, panel.height]))
-        return bool(small and np.all((panel.min < low) & (high < panel.max)))
-
-    kept = []
-    for path in contours.get_paths():
-        begins = np.flatnonzero(np.asarray(path.codes) == Path.MOVETO)[1:]
-        parts = [part for part in np.split(np.asarray(path.vertices), begins) if len(part) > 2]
-        kept.append(Path.make_compound_path(*(Path(part) for part in parts if not is_island(part))))
-    contours.set_paths(kept)
 
 
 def _apart(axes: Axes, tried: list[Text]) -> list[tuple[float, float]]:

@@ -238,32 +238,6 @@ def test_a_flat_row_and_a_few_rows_have_no_optimum():
     np.testing.assert_allclose(path[:, 0], 0.5)
 
 
-def test_a_tiny_island_is_left_out_and_a_corner_is_not():
-    """One point of 41 × 41 in the middle, and one in a corner, beyond a level each."""
-    dataset = results(
-        lambda friction, phase: 1 + 0.3 * phase + 0 * friction,
-        friction=np.linspace(0.0, 1.0, 41),
-        phase=np.linspace(0.0, 1.0, 41),
-    )
-    dataset.s[20, 20] += 0.03
-    dataset.s[40, 0] += 0.1
-    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
-    for contours in axes.collections[:2]:
-        places = np.concatenate([path.vertices for path in contours.get_paths() if len(path)])
-        near = np.hypot(places[:, 0] - 0.5, places[:, 1] - 0.5) < 0.03
-        across = np.ptp(places[near, 1]) if near.any() else 0.0
-        assert across == pytest.approx(0.05, abs=0.03) or not across
-        assert (np.hypot(places[:, 0], places[:, 1] - 1.0) < 0.03).any()
-    closed = [
-        part
-        for contours in axes.collections[:2]
-        for path in contours.get_paths()
-        for part in path.to_polygons(closed_only=False)
-        if np.ptp(part, axis=0).max() < 0.05 and (part > 0.03).all() and (part < 0.97).all()
-    ]
-    assert not closed
-
-
 @pytest.mark.parametrize("kind", ["contour", "heatmap"])
 def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
     def scales(factor):
