@@ -246,12 +246,6 @@ class Search:
         Shapes (n, d) and (n,): all points that were solved, in the unit cube, and the values times the sign.
     best
         Shape (d,): the point with the least of these values.
-    searched
-        Value of the quantity at the best point before the polish.
-    progress
-        The least value so far after each generation; infinite before there was a finite one.
-    converged
-        True if the population of the search has converged.
 
     Raises
     ------
@@ -266,15 +260,8 @@ class Search:
 
         self._solve, self._quantity, self._sign = solve, quantity, sign
         self.points, self.values = np.empty((0, dimensions)), np.empty(0)
-        generations: list[float] = []
-
-        def generation(columns: FloatArray) -> FloatArray:
-            values = self._at(np.clip(columns.T, 0.0, 1.0))
-            generations.append(float(values.min()))
-            return values
-
-        found = differential_evolution(
-            generation,
+        differential_evolution(
+            lambda columns: self._at(np.clip(columns.T, 0.0, 1.0)),
             # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
             # sends what leaves its bounds back to anywhere inside.
             [(-0.1, 1.1)] * dimensions,
@@ -287,12 +274,9 @@ class Search:
             updating="deferred",
             vectorized=True,
         )
-        searched = float(self.values.min())
-        if not np.isfinite(searched):
+        if not np.isfinite(self.values.min()):
             words = f"no finite value at any of {len(self.values)} points"
             raise refused("over", words, "ranges in which the quantity is finite somewhere")
-        self.searched, self.converged = sign * searched, bool(found.success)
-        self.progress = sign * np.minimum.accumulate(generations)
         self._polish(seed)
         self.best = self.points[self.values.argmin()]
 
@@ -332,8 +316,6 @@ class Search:
 
 #: The data variables that may be minimised: values that all results have, and quantities on request.
 MINIMISED = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
-#: Steps of the neighbourhood, as fractions of a range.
-_STEPS = np.linspace(-0.1, 0.1, 41)
 
 
 @with_parameters(PARAMETERS.values())
@@ -369,11 +351,9 @@ def optimise(
     -------
     xarray.Dataset
         Along ``case``, "best" and "worst": the data variables of `swtstudy.solve` at the smallest and at the
-        largest value of the quantity, with the parameters of ``over`` as coordinates; and how they were
-        found: ``evaluations``, ``converged``, ``searched`` (the value before the polish) and ``progress``
-        over ``generation``. The neighbourhood is ``nearby``, the quantity along each ``parameter`` through
-        the point, at ``nearby_value``, ``step`` of its range away; NaN outside of the range.
-        Points where the quantity is not finite are left out; ``without_value`` counts them.
+        largest value of the quantity, with the parameters of ``over`` as coordinates; ``evaluations`` is the
+        number of points that were solved. Points where the quantity is not finite are left out;
+        ``without_value`` counts them.
 
     Raises
     ------
@@ -413,33 +393,10 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
         found = {case: Search(solve, d, minimise, sign, seed) for case, sign in signs.items()}
         units = np.array([each.best for each in found.values()])
         cases = solve(units).drop_vars(SAMPLE).rename({SAMPLE: "case"})
-        # The neighbourhood, shape (cases, d, steps, d): every parameter is stepped by itself.
-        places = units[:, None, None, :] + np.eye(d)[:, None, :] * _STEPS[:, None]
-        inside = ((places >= 0.0) & (places <= 1.0)).all(axis=-1)
-        nearby = np.full(inside.shape, np.nan)
-        nearby[inside] = worst(solve(places[inside])[minimise])
-    stepped = np.moveaxis(np.diagonal(box.values(places), axis1=1, axis2=3), -1, 1)
-    own = {key: words for key, words in cases[minimise].attrs.items() if key in ("units", "symbol")}
-    searches, along = [*found.values()], ("case", "parameter", "step")
-    rows = [*itertools.zip_longest(*(each.progress for each in searches), fillvalue=np.nan)]
-    searched = {"long_name": f"{minimise} before the polish", **own}
-    progress = {"long_name": f"{minimise} after each generation", **own}
-    converged = np.array([each.converged for each in searches], np.int8)
+    searches = [*found.values()]
     evaluations = [len(each.values) for each in searches]
-    cases = cases.assign(
-        searched=("case", [each.searched for each in searches], searched),
-        progress=(("case", "generation"), np.array(rows).T, progress),
-        converged=("case", converged, {"long_name": "whether the search converged"}),
-        evaluations=("case", evaluations, {"long_name": "number of points solved"}),
-        nearby=(along, nearby, {"long_name": f"{minimise} along each parameter", **own}),
-    )
-    words = {"long_name": "value of the parameter", "comment": "the other parameters are as in the case"}
-    cases = cases.assign_coords(
-        case=[*found],
-        nearby_value=(along, np.where(inside, stepped, np.nan), words),
-        parameter=list(box.names),
-        step=("step", _STEPS, {"long_name": "step as a fraction of the range"}),
-    )
+    words = {"long_name": "number of points solved"}
+    cases = cases.assign(evaluations=("case", evaluations, words)).assign_coords(case=[*found])
     without = sum(int(np.isinf(each.values).sum()) for each in searches)
     return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 

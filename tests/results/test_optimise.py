@@ -82,34 +82,14 @@ def test_the_values_are_those_of_the_solver(found, valley):
 def test_how_it_was_found(found):
     assert found.attrs["minimise"] == "s"
     assert found.attrs["without_value"] == 0
-    progress = found.progress.values
-    assert (np.diff(progress[0][np.isfinite(progress[0])]) <= 0.0).all()
-    assert (np.diff(progress[1][np.isfinite(progress[1])]) >= 0.0).all()
-    best, worst = found.sel(case="best"), found.sel(case="worst")
-    assert best.s <= best.searched == best.progress.min()
-    assert worst.s >= worst.searched == worst.progress.max()
     assert (found.evaluations > 200).all()
     assert found.evaluations.long_name == "number of points solved"
 
 
 def test_each_case_has_its_own_numbers(found):
     assert found.case.values.tolist() == ["best", "worst"]
-    for name in ("s", "converged", "evaluations"):
+    for name in ("s", "evaluations"):
         assert found[name].dims == ("case",), name
-
-
-def test_the_neighbourhood_is_along_each_parameter(found, valley):
-    best = found.sel(case="best")
-    assert np.allclose(best.nearby.sel(step=0.0, method="nearest"), best.s, rtol=1e-9)
-    along = best.sel(parameter="phase").dropna("step")
-    grid = swtstudy.solve(
-        phase=along.nearby_value.values, normal_amplitude=best.normal_amplitude.item(), rtol=1e-3
-    )
-    assert np.allclose(along.nearby, grid.s, rtol=1e-6)
-    # The best amplitude is the largest: there is nothing beyond.
-    assert best.normal_amplitude == 0.9
-    beyond = best.nearby.sel(parameter="normal_amplitude").where(best.step > 1e-9, drop=True)
-    assert np.isnan(beyond).all()
 
 
 @pytest.mark.slow
@@ -235,7 +215,6 @@ def test_kinks_are_followed_to_their_lowest_point(dimensions, seed, monkeypatch)
     monkeypatch.setattr(stand_in.SOLVER, highest)
     best = optimise(over=over, seed=3, rtol=1e-3).sel(case="best")
     assert float(best.s) == pytest.approx(1.0, abs=1e-5)
-    assert best.s < best.searched
     np.testing.assert_allclose([float(best[name]) for name in over], kink, atol=1e-3)
 
 

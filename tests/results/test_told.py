@@ -83,7 +83,7 @@ def test_what_follows_from_results(kept: Kept) -> None:
 def test_optima(kept: Kept, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     found = swtstudy.optimise(over={"phase": (0, 4)}, rtol=1e-3)
-    kept("told_optimum", told(found.drop_vars(["progress", "evaluations", "run"], errors="ignore")))
+    kept("told_optimum", told(found.drop_vars(["evaluations", "run"], errors="ignore")))
 
 
 @pytest.mark.filterwarnings("ignore:indices are known to")
