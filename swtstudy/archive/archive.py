@@ -101,8 +101,6 @@ def open_results(path: str | PathLike[str], partial: bool = False) -> xr.Dataset
     ------
     FileNotFoundError
         If there is no such file.
-    LockedError
-        An OSError, if another program has it open for writing.
     ArchiveError
         A ValueError, if the file is not a sound archive of swtstudy; the message names the file and
         everything that is wrong in it.

@@ -20,7 +20,7 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.paths import ArchiveError, LockedError, is_locked
+from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import check_archive, lacking
 from swtstudy.vocabulary.files import replacing
 from swtstudy.vocabulary.mistakes import StudyError
@@ -76,8 +76,6 @@ def load_file(path: Path) -> xr.Dataset:
 
     Raises
     ------
-    LockedError
-        An OSError, if another program has it open for writing.
     ArchiveError
         If it cannot be read or is damaged.
     """
@@ -85,8 +83,6 @@ def load_file(path: Path) -> xr.Dataset:
         raise ArchiveError(f"{path}: a folder; give an archive in it, {path}/NAME.nc")
     if path.exists() and not path.is_file():
         raise ArchiveError(f"{path}: not a regular file")
-    if is_locked(path):
-        raise LockedError(f"{path} is locked: another program has it open for writing")
     try:
         content = path.read_bytes()
         # From memory: xarray and netCDF4 crash if a file is opened twice in one process.

@@ -112,18 +112,6 @@ def refuse_link(folder: Path) -> None:
         raise OSError(f"{folder} is a link; allowed: a folder that swtstudy makes")
 
 
-def is_locked(path: Path) -> bool:
-    """Return whether a program has a file open for writing: HDF5 then holds a lock on it."""
-    if fcntl is None:
-        return False
-    try:
-        with open(path, "rb") as file:
-            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except OSError as error:
-        return isinstance(error, BlockingIOError)  # others are not even readable
-    return False
-
-
 def _lock(handle: int, path: Path) -> None:
     """Lock an open file, as far as the file system has locks."""
     if not stat.S_ISREG(os.fstat(handle).st_mode):
