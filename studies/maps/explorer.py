@@ -22,11 +22,10 @@ WIDTH, SHAPE = 13.5, 4.2 / 13.5
 def main() -> None:
     arguments = argparse.ArgumentParser()
     arguments.add_argument("--results", type=Path, default=Path("results"), help="folder for the figure")
-    arguments.add_argument("--quick", action="store_true", help="the coarse curve, to see that it runs")
+    arguments.add_argument("--quick", action="store_true", help="few dots, to see that it runs")
     given = arguments.parse_args()
     live = Explorer()
-    if not given.quick:
-        live.refine()
+    dots = 0.2 * DOTS if given.quick else DOTS
     shown = [each for each in live.controls.values() if each.layout.display != "none"]
     rows = -(-len(shown) // 2)
     with styled():
@@ -41,12 +40,12 @@ def main() -> None:
         controls.text(0.02, rows + 0.8, words, va="center", weight="bold")
         panels = figure.add_axes((0.0, 0.0, 1.0, 1.0 - high))
         picture = BytesIO()
-        live.live.figure.savefig(picture, format="png", dpi=DOTS)
+        live.live.figure.savefig(picture, format="png", dpi=dots)
         picture.seek(0)
         panels.imshow(imread(picture), aspect="auto", interpolation="none")
         for axes in (controls, panels):
             axes.axis("off")
-        save_figure(figure, given.results / "explorer.png", {"savefig.dpi": DOTS})
+        save_figure(figure, given.results / "explorer.png", {"savefig.dpi": dots})
 
 
 def draw(axes, control, column: int, row: float) -> None:

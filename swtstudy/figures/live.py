@@ -5,8 +5,6 @@ The sliders need the extra "live".
 
 from __future__ import annotations
 
-import asyncio
-from contextlib import suppress
 from fractions import Fraction
 from io import BytesIO
 from math import pi
@@ -31,9 +29,7 @@ from swtstudy.vocabulary.parameters import CONTROLS, PAIRS, PARAMETERS
 from swtstudy.vocabulary.wording import axis_words
 
 #: Phases from 0 to 2π, no fewer in a period of s(ψ), and the accuracy asked of s: what a picture shows.
-_PHASES, _LEAST, _RTOL = 24, 12, 1e-3
-#: Times as many phases for the curve when nothing moves: few of them miss its least value by some per cent.
-_FINER = 8
+_PHASES, _LEAST, _RTOL = 72, 36, 1e-3
 
 
 class LiveFigure:
@@ -53,13 +49,11 @@ class LiveFigure:
             self.figure.subplots_adjust(left=0.055, right=0.99, bottom=0.13, top=0.93, wspace=0.25)
         self._canvas = FigureCanvasAgg(self.figure)
 
-    def redraw(self, fine: bool = False, **parameters: object) -> xr.Dataset:
+    def redraw(self, **parameters: object) -> xr.Dataset:
         """Draw the point of some parameters; what is not given has the values of Table 1.
 
         Parameters
         ----------
-        fine
-            Whether the curve of s has all phases that it needs, which takes longer than a slider moves.
         **parameters
             Single values, as for `swtstudy.solve`.
 
@@ -76,7 +70,7 @@ class LiveFigure:
         dataset = load_and_springs(**parameters)  # names what is wrong
         row = PARAMETERS["phase"]
         phase = float(read_value(row, parameters.get("phase", row.default)))  # type: ignore[arg-type]
-        curve = phases(parameters.get("frequency_ratio", 1), _FINER if fine else 1)
+        curve = phases(parameters.get("frequency_ratio", 1))
         # A phase that is one of these but for rounding takes its place.
         over = {"phase": np.union1d(curve[np.abs(curve - phase) > 1e-6], phase)}
         solved = solve(rtol=_RTOL, **{**parameters, **over})  # type: ignore[arg-type]
@@ -104,12 +98,12 @@ class LiveFigure:
         save_figure(self.figure, path, {"savefig.dpi": 300.0})
 
 
-def phases(frequency_ratio: object, finer: int = 1) -> FloatArray:
+def phases(frequency_ratio: object) -> FloatArray:
     """Phases from 0 to 2π for the curve; phases with the same s by symmetry are solved once."""
     ratio = read_value(PARAMETERS["frequency_ratio"], frequency_ratio)
     assert isinstance(ratio, Fraction)
     periods = ratio.numerator * (2 if ratio.denominator % 2 else 1)
-    return np.linspace(0.0, 2.0 * pi, periods * max(_LEAST, _PHASES // periods) * finer + 1)
+    return np.linspace(0.0, 2.0 * pi, periods * max(_LEAST, _PHASES // periods) + 1)
 
 
 def _draw_over_phase(axes: Axes, s: xr.DataArray, phase: float) -> None:
@@ -148,8 +142,6 @@ SLIDERS: dict[str, tuple[float, float, float, float]] = {
 }
 #: Ratios of the frequencies to choose from.
 RATIOS = ("1/3", "1/2", "2/3", "3/4", "1", "4/3", "3/2", "2", "3")
-#: Seconds without a movement after which the curve is drawn with all phases that it needs.
-_IDLE = 0.4
 
 
 class Explorer:
@@ -197,7 +189,6 @@ class Explorer:
         controls, half = list(self.controls.values()), -(-len(self.controls) // 2)
         wide = widgets.Layout(width="50%")
         columns = [widgets.VBox(part, layout=wide) for part in (controls[:half], controls[half:])]
-        self._idle: asyncio.TimerHandle | None = None
         self.box = widgets.VBox([widgets.HBox(columns), self.caption, self.picture])
         self._follow(None)
 
@@ -219,30 +210,18 @@ class Explorer:
         for force, displacement in PAIRS.items():
             name = force if force in parameters else displacement
             self.controls[displacement].description = _words(name)
-        self._draw(False)
-        if self._idle is not None:
-            self._idle.cancel()
-        with suppress(RuntimeError):  # without an event loop, outside of notebooks, nothing is ever idle
-            self._idle = asyncio.get_running_loop().call_later(_IDLE, self.refine)
-
-    def refine(self) -> None:
-        """Draw the curve with all phases that it needs, as is done when no slider moves."""
-        self._draw(True)
-
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the figure, its curve fine: see `LiveFigure.save`."""
-        self.refine()
-        self.live.save(path)
-
-    def _draw(self, fine: bool) -> None:
         try:
-            self.point = self.live.redraw(fine, **self.parameters)
+            self.point = self.live.redraw(**parameters)
         except ValueError as error:
             self.caption.value = f"<b>{error}</b>"
             return
         regime = REGIMES[int(self.point.regime)].replace("_", " ")
         self.caption.value = f"<b>s = {float(self.point.s):.4f}</b>, {regime}"
         self.picture.value = self.live.png()
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the figure: see `LiveFigure.save`."""
+        self.live.save(path)
 
 
 def _words(name: str) -> str:
