@@ -413,20 +413,13 @@ def _observed(
 
 def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
     """The columns of a table of tests by name, and the lines of a file's rows."""
-    if isinstance(tests, pd.DataFrame):
-        tests = {name: tests[name].tolist() for name in tests}
-    if isinstance(tests, Mapping):
-        lone = [name for name, values in tests.items() if isinstance(values, str) or np.ndim(values) != 1]
-        if lone:
-            allowed = "a list, with a value for each test"
-            raise StudyError([Mistake(f"tests.{name}", literal(tests[name]), allowed) for name in lone])
-        columns = {str(name): list(values) for name, values in tests.items()}
-        if len({*map(len, columns.values())}) > 1:
-            found = ", ".join(f"{len(values)} of {name}" for name, values in columns.items())
-            raise refused("tests", found, "as many values in each column: one for each test")
-        return columns, []
     if not isinstance(tests, str | PathLike):
-        raise refused("tests", literal(tests), "a CSV file, or columns by name")
+        try:
+            frame = pd.DataFrame(tests)
+        except (TypeError, ValueError) as error:
+            allowed = "a CSV file, or columns by name, with a value for each test"
+            raise refused("tests", f"{literal(tests)} ({error})", allowed) from None
+        return {str(name): frame[name].tolist() for name in frame}, []
     table = read_table(Path(tests), (LIFE,), AXES, None, LONGEST_AXIS)
     if not table.cells:
         raise refused("", "no tests", "a row for each test", str(tests))

@@ -337,18 +337,14 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
         ({"tangential_force_amplitude": [30.0, 60.0]}, "tests: found the columns tangential_"),
         ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 test; allowed: 2 at least"),
         ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
-        ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1 of test 2; allowed: positive"),
+        ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1.0 of test 2; allowed"),
         ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),
         ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
         ("nowhere.csv", r"nowhere.csv: found no such file in the folder"),
-        (3, "tests: found 3; allowed: a CSV file"),
-        (
-            {"friction": 0.3, "life": [1e5, 1e6]},
-            "tests.friction: found 0.3; allowed: a list, with a value for",
-        ),
+        (3, r"tests: found 3 \(.*\); allowed: a CSV file"),
         (
             {"tangential_force_amplitude": [30, 60, 70], "life": [1e5, 1e6]},
-            "^tests: found 3 of tangential_force_amplitude, 2 of life; allowed: as many values in each",
+            "^tests: found .*same length.*; allowed: a CSV file, or columns by name, with a value for each",
         ),
         (
             {"tangential_force_amplitude": ["", 60, 70], "life": [1e5, 1e6, 1e7]},
