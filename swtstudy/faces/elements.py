@@ -35,9 +35,11 @@ ORDERS = {
     "abaqus": ("S11", "S22", "S33", "S12", "S13", "S23"),
     "ansys": ("SX", "SY", "SZ", "SXY", "SYZ", "SXZ"),
 }
-#: What stands before the axes of a component in a header; a normal stress may have one axis behind it.
-_STRESS = r"(?:s|sig|sigma|t|tau|stress)"
-_COMPONENT = re.compile(rf"{_STRESS}*([xyz123])([xyz123])|{_STRESS}+([xyz])")
+#: Axes of a component in a header, in small letters, and what stands before them; a normal stress may have
+#: one axis alone.
+_COMPONENT = re.compile(
+    r"(?:s|sig|sigma|t|tau|stress)*([xyz]{2})|(?:s|sig|sigma|t|tau|stress)+([123]{2}|[xyz])"
+)
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
 _ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
@@ -113,8 +115,8 @@ def component_of(header: str) -> str | None:
     plain = re.sub(r"[\[(].*|[^a-z0-9]", "", header.lower())
     if not (found := _COMPONENT.fullmatch(plain)):
         return None
-    axes = (found[3] * 2 if found[3] else found[1] + found[2]).translate(str.maketrans("123", "xyz"))
-    return "".join(sorted(axes))
+    axes = (found[1] or found[2]).translate(str.maketrans("123", "xyz"))
+    return "".join(sorted(axes * 2 if len(axes) == 1 else axes))
 
 
 def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
@@ -129,10 +131,11 @@ def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
             raise refused(place, f"{' and '.join(twice)}, each {component}", "one of them", table.source)
     if {*own.values()} not in ({*COMPONENTS}, {*COMPONENTS} - {*ACROSS}):
         if order is None:
+            known = " or ".join(map(", ".join, ORDERS.values()))
             allowed = (
-                f"columns {' or '.join(map(', '.join, ORDERS.values()))}; of plane elements without the two"
+                f"columns {known}; of plane elements without the two across; with other headers an order "
             )
-            allowed += f" across; with other headers an order of the last six columns, {' or '.join(ORDERS)}"
+            allowed += f"of the last six columns, {' or '.join(ORDERS)}"
             raise refused(place, ", ".join(table.headers), allowed, table.source)
         if len(names) < len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"

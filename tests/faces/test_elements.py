@@ -322,6 +322,12 @@ def test_headers_say_the_components(tmp_path: Path, headers: str, places: list[i
         read_history(file)
 
 
+def test_coordinates_of_two_kinds_are_no_components(tmp_path: Path) -> None:
+    rows = ["step,x1,y1,z1,T,xx,yy,zz,yz,xz,xy", *(f"{step},9,9,9,20,1,2,3,4,5,6" for step in (0, 1))]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows))
+    assert read_history(tmp_path / "stresses.csv").stress.values.tolist() == [[[1, 2, 3, 4, 5, 6]] * 2]
+
+
 def test_the_command_takes_other_headers(tmp_path: Path) -> None:
     rows = ["Frame,Node,a,b,c,d,e,f", *(f"{step},7,{100 * step},0,0,0,0,0" for step in (0, 1))]
     (tmp_path / "stresses.csv").write_text("\n".join(rows))
