@@ -41,7 +41,6 @@ _COMPONENT = re.compile(
     r"(?:s|sig|sigma|t|tau|stress)*([xyz]{2})|(?:s|sig|sigma|t|tau|stress)+([123]{2}|[xyz])"
 )
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
-_ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
 #: How the files end that results at points are written to.
 ENDINGS = (".csv", ".vtu", ".nc")
 
@@ -57,7 +56,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     order
         "swtstudy" for xx, yy, zz, yz, xz, xy, "abaqus" for S11, S22, S33, S12, S13, S23 or "ansys" for SX,
         SY, SZ, SXY, SYZ, SXZ. Found from the headers unless given: S12, SXY, sigma_xy and xy are one. With
-        headers that do not say it the last six columns are taken in that order.
+        headers that do not say it the other six columns are taken in that order.
     columns, separator, decimal, encoding, scale, skip_rows, units_row, sheet
         As of `swtstudy.read_signal`.
 
@@ -90,24 +89,19 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
         where = f" at the point {labels[point]}" * (len(labels) > 1)
         allowed = f"each step once at a point; {ID}, or {', '.join(POSITION)}, of each point"
         raise refused("", f"step {steps[rows[point, k]]:g} in several rows{where}", allowed, table.source)
+    one_id = f"rows of one point have the same {ID}, whatever its coordinates"
+    if rows.shape[1] == 1:
+        words = "one step at each point, which is no load cycle"
+        warnings.warn(f"{path}: {words}: {one_id}", stacklevel=2)
+    elif (other := np.flatnonzero((steps[rows] != steps[rows[0]]).any(axis=1))).size:
+        found = f"other steps at the point {labels[other[0]]} than at {labels[0]}"
+        raise refused("", found, f"the same steps at each point; {one_id}", table.source)
     coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
     if table.has(ID):
         coords[ID] = "point", labels
-    else:
-        _doubt_positions(place[rows[:, 0]], rows.shape[1], table.source)
-    words = {"units": unit} if unit else {}
-    variables = {"stress": (("point", STEP, "component"), stress[rows], words)}
+    unit_of = {"units": unit} if unit else {}
+    variables = {"stress": (("point", STEP, "component"), stress[rows], unit_of)}
     return xr.Dataset(variables, {"component": [*COMPONENTS], **coords}, {"source": str(path)})
-
-
-def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
-    """Warn where coordinates, shape (points, 3), may tell rows of one point apart."""
-    if steps == 1:
-        warnings.warn(f"{source}: one step at each point, which is no load cycle: {_ONE_ID}", stacklevel=4)
-        return
-    largest = max(np.abs(place).max(initial=0.0), 1e-300)
-    if len(np.unique(np.round(place / largest, 6), axis=0)) < len(place):
-        warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
 def component_of(header: str) -> str | None:
@@ -135,13 +129,12 @@ def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
             allowed = (
                 f"columns {known}; of plane elements without the two across; with other headers an order "
             )
-            allowed += f"of the last six columns, {' or '.join(ORDERS)}"
+            allowed += f"of six columns, {' or '.join(ORDERS)}"
             raise refused(place, ", ".join(table.headers), allowed, table.source)
-        if len(names) < len(COMPONENTS):
+        if len(names) != len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
             raise refused(place, ", ".join(names), allowed, table.source)
-        last = names[-len(COMPONENTS) :]
-        own = dict(zip(last, map(str, map(component_of, ORDERS[order])), strict=True))
+        own = dict(zip(names, map(str, map(component_of, ORDERS[order])), strict=True))
     elif order is not None and [*own.values()] != [*map(component_of, ORDERS[order])]:
         allowed = f"no order: the headers {', '.join(own)} name the components"
         raise refused("order", literal(order), allowed, table.source)

@@ -13,6 +13,8 @@ from swtstudy import FatigueConstants, StudyError, evaluate_history, read_histor
 
 NU = 0.3
 NAMES = ("xx", "yy", "zz", "yz", "xz", "xy")
+#: Points that have other steps than one another.
+STEPS = ((1, 0), (1, 1), (1, 2), (2, 0), (2, 2), (2, 3))
 #: With E = 1 − ν² the SWT of stress_field is s.
 STUDY = """
 [units]
@@ -134,7 +136,7 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
     [
         (
             "id,step,xx\n1,0,0\n",
-            r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*last six columns, swtstudy or",
+            r"line 1: found id, step, xx; allowed: columns xx, .* or S11, .*order of six columns, swtstudy",
         ),
         ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
         (
@@ -142,6 +144,10 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
             "1 steps at the point 2, 2",
         ),
         ("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,-\n", "line 2, xy: found '-'"),
+        (
+            f"id,step,xx,yy,zz,yz,xz,xy\n{''.join(f'{k},{step},0,0,0,0,0,0' + chr(10) for k, step in STEPS)}",
+            "other steps at the point 2 than at 1; allowed: the same steps at each point",
+        ),
     ],
 )
 def test_wrong_tables_are_named(tmp_path: Path, table: str, words: str) -> None:
@@ -290,6 +296,9 @@ def test_other_headers_have_units_and_places_of_their_own(tmp_path: Path) -> Non
     history = read_history(tmp_path / "other.csv", order="abaqus")
     assert history.stress.attrs == {"units": "Pa"}
     assert history.stress.values[0].tolist() == [[1, 2, 3, k, 5, 4] for k in (6e6, 7e6)]
+    (tmp_path / "other.csv").write_text("\n".join(f"Mises,{row}" for row in rows))
+    with pytest.raises(StudyError, match=r"Mises, a \[Pa\], .*; allowed: six columns of components beside"):
+        read_history(tmp_path / "other.csv", order="abaqus")
     (tmp_path / "other.csv").write_text("\n".join(row.partition(",")[2] for row in rows))
     with pytest.raises(StudyError, match=r"found .*; allowed: six columns of components beside step"):
         read_history(tmp_path / "other.csv", order="abaqus")
@@ -322,6 +331,13 @@ def test_headers_say_the_components(tmp_path: Path, headers: str, places: list[i
         read_history(file)
 
 
+def test_an_id_of_each_row_is_told(tmp_path: Path) -> None:
+    rows = ["id,step,xx,yy,zz,yz,xz,xy", *(f"{k},{k},{100 * k},0,0,0,0,0" for k in range(3))]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows))
+    with pytest.warns(UserWarning, match="one step at each point, .* have the same id"):
+        read_history(tmp_path / "stresses.csv")
+
+
 def test_coordinates_of_two_kinds_are_no_components(tmp_path: Path) -> None:
     rows = ["step,x1,y1,z1,T,xx,yy,zz,yz,xz,xy", *(f"{step},9,9,9,20,1,2,3,4,5,6" for step in (0, 1))]
     (tmp_path / "stresses.csv").write_text("\n".join(rows))
@@ -343,10 +359,18 @@ def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
         evaluate_history(_written(tmp_path, np.zeros((1, 2, 6))), rig)
 
 
-@pytest.mark.parametrize(("shift", "words"), [(1e-3, "one step at each point"), (1e-12, "a millionth apart")])
-def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float, words: str) -> None:
+@pytest.mark.parametrize("shift", [1e-3, 1e-12])
+def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float) -> None:
+    """All steps at places of their own, and steps at one of two places."""
     count = 4 if shift > 1e-6 else 2
     rows = [f"{1.0 + shift * (step % count)!r},0,0,{step},{step},0,0,0,0,0" for step in range(4)]
     (tmp_path / "moves.csv").write_text("\n".join(["x,y,z,step,xx,yy,zz,yz,xz,xy", *rows]))
-    with pytest.warns(UserWarning, match=f"{words}.*a column id keeps the steps of a point together"):
+    words = "rows of one point have the same id, whatever its coordinates"
+    if count == 4:
+        with pytest.warns(UserWarning, match=f"one step at each point, which is no load cycle: {words}"):
+            read_history(tmp_path / "moves.csv")
+        return
+    with pytest.raises(
+        StudyError, match=rf"found other steps at the point \(1.0\d+1, 0.0, 0.0\) .*; {words}"
+    ):
         read_history(tmp_path / "moves.csv")

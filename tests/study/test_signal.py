@@ -478,6 +478,24 @@ def test_a_single_spike_is_told_in_any_number_of_cycles(cycles: int, height: flo
     assert np.count_nonzero(found.values != expected.values) == 1
 
 
+@pytest.mark.parametrize("cycles", [1, 2])
+@pytest.mark.parametrize("shape", ["trapezoid", "triangle", "sine"])
+def test_a_spike_anywhere_leaves_the_samples_beside_it(shape: str, cycles: int, tmp_path: Path) -> None:
+    """The first and the last sample, too: a cycle goes on with itself."""
+    phase = 2.0 * np.pi * np.arange(40 * cycles) / 40 + 0.2
+    steep = {"trapezoid": np.clip(3.0 * np.sin(phase), -1.0, 1.0), "sine": np.sin(phase)}
+    clean = 60.0 * steep.get(shape, 2.0 / np.pi * np.arcsin(np.sin(phase)))
+    for place in [*range(0, len(clean), 1 if (shape, cycles) == ("trapezoid", 1) else 7), len(clean) - 1]:
+        spoilt = clean.copy()
+        spoilt[place] += 300.0 if place % 2 else -300.0
+        write(tmp_path / "rig.csv", np.stack([20.0 * np.cos(phase), spoilt], axis=1), "normal,tangential")
+        with pytest.warns(UserWarning, match="rig: 1 spike replaced, tangential"):
+            found = read_signal(tmp_path / "rig.csv", recorded_cycles=cycles, despike=True).values[:, 1]
+        assert np.flatnonzero(found != spoilt).tolist() == [place]
+        # A corner of the trapezoid is off the line beside it by half of a step.
+        assert abs(found[place] - clean[place]) < 15.0
+
+
 def test_sharp_tips_steps_and_pulses_of_every_cycle_are_no_spikes(tmp_path: Path) -> None:
     turn = np.arange(64) / 64
     triangle = 60.0 * np.abs(4.0 * turn - 2.0) - 60.0

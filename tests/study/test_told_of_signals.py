@@ -104,7 +104,16 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
         ],
     ),
     (spoilt(wave(15, 15), (5, 1, 80.0)), {"recorded_cycles": 1}, "1 cycle of 15 samples", 3080.0, []),
-    (spoilt(wave(16, 16), (1, 1, 80.0)), {"recorded_cycles": 1}, "1 cycle of 16 samples", 3280.0, []),
+    (
+        spoilt(wave(16, 16), (1, 1, 80.0)),
+        {"recorded_cycles": 1},
+        "1 cycle of 16 samples",
+        3280.0,
+        [
+            "tangential 102.961 in cycle 1, line 3 of the file, where the other samples suggest 21.21: "
+            "a spike? despike = true takes it out"
+        ],
+    ),
     (
         spoilt(wave(16, 16, 1e-3), (2, 1, 80.0)),
         {"recorded_cycles": 1},
@@ -125,7 +134,16 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
             "a spike? despike = true takes it out"
         ],
     ),
-    (spoilt(wave(16, 16), (14, 1, -80.0)), {"recorded_cycles": 1}, "1 cycle of 16 samples", 3120.0, []),
+    (
+        spoilt(wave(16, 16), (14, 1, -80.0)),
+        {"recorded_cycles": 1},
+        "1 cycle of 16 samples",
+        3120.0,
+        [
+            "tangential -122.426 in cycle 1, line 16 of the file, where the other samples suggest -39.2: "
+            "a spike? despike = true takes it out"
+        ],
+    ),
     (
         spoilt(wave(200, 50, 0.3), *SPIKES),
         {"recorded_cycles": 4, "despike": True},
