@@ -420,6 +420,7 @@ def test_both_loads_turn_at_nearly_one_instant(beside: float) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:the search over planes ended early")
 def test_fields_of_swt_are_as_near_as_said():
     """At places in and beneath the surface, near edges of the contact and far from it."""
     rng, names = np.random.default_rng(5), ("poisson_ratio", "friction", "phase")
