@@ -233,13 +233,6 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
     ),
     (
         wave(400, 40, 0.5),
-        {"period": 31},
-        "12 cycles of 31 samples; the cycles scatter by 4.4 (normal), 44 (tangential)",
-        6241.25617,
-        ["its 12 cycles differ by more than their mean moves; is period right?"],
-    ),
-    (
-        wave(400, 40, 0.5),
         {"recorded_cycles": 5},
         "5 cycles of 80 samples; the cycles scatter by 0.5 (normal), 0.51 (tangential)",
         15994.5372,
