@@ -41,6 +41,13 @@ _COMPONENT = re.compile(
     r"(?:s|sig|sigma|t|tau|stress)*([xyz]{2})|(?:s|sig|sigma|t|tau|stress)+([123]{2}|[xyz])"
 )
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
+#: Stress over Young's modulus that no metal sustains.
+MOST_STRAIN = 0.05
+#: Other headers of steps and points, in small letters, as finite elements write them.
+ALIASES = {
+    **dict.fromkeys(("frame", "increment", "substep"), STEP),
+    **dict.fromkeys(("node", "node label", "node number", "element", "element label"), ID),
+}
 #: How the files end that results at points are written to.
 ENDINGS = (".csv", ".vtu", ".nc")
 
@@ -73,7 +80,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     given = FileTable.of(form)
     if order not in (None, *ORDERS):
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
-    table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given)
+    table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given, aliases=ALIASES)
     stress, unit = _components(table, order)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
@@ -199,6 +206,13 @@ def evaluate_history(
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = _in_our_order(given, details.units.stress)
     unit = {"units": details.units.stress}
+    if (largest := float(np.abs(stress).max(initial=0.0))) > MOST_STRAIN * young:
+        words = (
+            f"stresses up to {largest:.4g} {details.units.stress} are {largest / young:.3g} of young_modulus"
+        )
+        warnings.warn(
+            f"{words}: are they in another unit? A row of units, or a header, says it", stacklevel=2
+        )
     found = given.drop_dims("component")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 

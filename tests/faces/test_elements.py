@@ -47,6 +47,7 @@ def study(folder: Path, material: str = STEEL, young: float = 2e5) -> Path:
     return folder / "rig.toml"
 
 
+@pytest.mark.filterwarnings("ignore:stresses up to")
 def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
     """In either order of the components, and by the command."""
     parameters = {"friction": 0.4, "phase": 1.0}
@@ -350,6 +351,29 @@ def test_the_command_takes_other_headers(tmp_path: Path) -> None:
     own = "history", study(tmp_path), tmp_path / "stresses.csv", "--order", "ansys"
     assert "largest SWT = 0.025 MPa" in call(*own, "--column", "step=Frame", "--column", "id = Node").stdout
     assert "--column: found 'step'; allowed: a name and a header" in call(*own, "--column", "step").output
+
+
+def test_the_command_takes_other_encodings_and_units(tmp_path: Path) -> None:
+    """Stresses of a size that no metal has are in another unit."""
+    rows = ["Node Label,Frame,Größe,SX,SY,SZ,SXY,SYZ,SXZ"]
+    rows += [f"7,{step},1,{1e8 * step},0,0,0,0,0" for step in (0, 1)]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows), "latin-1")
+    own = "history", study(tmp_path), tmp_path / "stresses.csv", "--encoding", "latin-1"
+    assert "largest SWT = 0.025 MPa" in call(*own, "--unit", "Pa").stdout
+    with pytest.warns(UserWarning, match=r"stresses up to 1e\+08 MPa are 500 of young_modulus: are they in"):
+        call(*own)
+    assert "--unit: found 'kPsi'; allowed: one of Pa, " in call(*own, "--unit", "kPsi").output
+
+
+def test_labels_of_nodes_and_elements_are_ids_where_there_is_one(tmp_path: Path) -> None:
+    rows = ["Element Label,Step,xx,yy,zz,yz,xz,xy", "7,0,0,0,0,0,0,0", "7,1,1,0,0,0,0,0"]
+    (tmp_path / "one.csv").write_text("\n".join(rows))
+    assert read_history(tmp_path / "one.csv").id.values.tolist() == ["7"]
+    both = [f"{node},{row}" for node, row in zip(("Node", "1", "1"), rows, strict=True)]
+    (tmp_path / "both.csv").write_text("\n".join(both))
+    assert "id" not in read_history(tmp_path / "both.csv").coords
+    named = read_history(tmp_path / "both.csv", columns={"id": "Node"})
+    assert named.id.values.tolist() == ["1"]
 
 
 def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
