@@ -25,7 +25,7 @@ from swtstudy.vocabulary.wording import value_words
 _RESAMPLES = 999
 
 #: Half of an interval above which indices are told to be rough: intervals shrink with the root of the size.
-KNOWN_TO = 0.1
+KNOWN_TO = 0.2
 
 _MEANINGS = {
     "first_order": "share of the variance by this parameter alone",

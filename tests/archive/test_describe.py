@@ -17,6 +17,8 @@ from made_up import having
 from real import CONTACT, CRITERIA, STUDY
 from stand_in import Points, Solution
 
+from swtstudy import Study, open_results, run
+
 PLAIN = """title = "Plain"
 rtol = 1e-3
 quantities = ["dissipation", "stick_left"]
@@ -326,3 +328,18 @@ def test_changed_results_say_what_they_are_now(
     before, after = parts(results[name]), parts(change(results[name]))
     gone = [f"no {label}" for label in labels(before) if label not in labels(after)]
     assert gone + [part for part in after if part not in before] == new
+
+
+@pytest.mark.filterwarnings("always:.*has no effect")
+def test_what_is_told_of_a_study_is_kept(tmp_path: Path) -> None:
+    """In its archive, and so in what `info` says."""
+    text = 'title = "t"\naxes.phase = [0, 1]\n[fixed]\nnormal_amplitude = 0\n'
+    line = "s: axes.phase has no effect: what it is of does not oscillate"
+    with pytest.warns(UserWarning, match=line):
+        study = Study.from_text(text, "s")
+    assert study.told == (line,)
+    run(study, tmp_path / "a.nc", solver=stand_in.smooth)
+    assert f"  told           {line}\n" in call("info", tmp_path / "a.nc").output
+    assert open_results(tmp_path / "a.nc").isel(phase=[0]).attrs["told"] == line
+    quiet = run(Study.from_text(text.replace("= 0\n", "= 0.5\n")), tmp_path / "b.nc", solver=stand_in.smooth)
+    assert "told" not in quiet.attrs

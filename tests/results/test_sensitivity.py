@@ -83,7 +83,7 @@ def test_rough_indices_are_told_with_the_size_that_is_needed(tmp_path):
     half, size, allowed = map(float, re.findall(r"[\d.]+\d", str(told[0].message)))
     widths = [indices[f"{name}_high"] - indices[f"{name}_low"] for name in ("first_order", "total")]
     assert half == pytest.approx(0.5 * max(float(width.max()) for width in widths), rel=0.01)
-    assert allowed == 0.1
+    assert allowed == 0.2
     assert 1.0 <= size / (16.0 * (half / allowed) ** 2) < 2.1
 
 
@@ -213,6 +213,7 @@ def test_the_table_has_what_the_paper_says(tmp_path):
     assert line.endswith("| weak but intricate (section 4.1) |")
 
 
+@pytest.mark.filterwarnings("ignore:indices are known to")
 @pytest.mark.slow
 def test_the_command_computes_and_writes(tmp_path):
     text = STUDY.format(size=2).replace("tangential_amplitude = [0, 2]", "").replace("[0.25, 0.5]", "[0.25]")
@@ -248,6 +249,7 @@ normal_force_amplitude = [0, 20]
 """
 
 
+@pytest.mark.filterwarnings("ignore:indices are known to")
 @pytest.mark.slow
 def test_a_study_with_units_has_its_own_symbols(tmp_path, told):
     (tmp_path / "mine.toml").write_text(RIG)

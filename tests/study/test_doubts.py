@@ -96,6 +96,12 @@ def cap(factor: float, power: float, depth: float) -> str:
             + CONTACT.replace("= 200\n", "= 2e5\n").replace("= 50\n", "= 5e3\n"),
             [f"critical_distance = 7.958 mm, {DISTANCE.format('the load ratio 0.1', 1000)}{METALS}"],
         ),
+        (CONTACT.replace("friction = 0.5", "friction = 5"), ["s: friction 5: metals have some 0.1 to 1.5"]),
+        (
+            CONTACT.replace("normal_force = 200\n", "load = 'rig'\n")
+            + "[loads.rig]\nvertices = [[190, -50], [210, 50]]\nabsolute = true\n",
+            ["s: tangential_force_amplitude 60 multiplies the column tangential of rig: 1 takes it as it is"],
+        ),
         (SPHERE, [f"s: radius 0.02 mm is smaller than the contact (0.0418 mm): {WRONG}"]),
         (
             f'{SPHERE}profile = "rounded_punch"\nflat_radius = 0.02\n',

@@ -42,6 +42,8 @@ MOST_CONTACTS = 300_000
 _SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
 #: Pressure over E* that no metal sustains.
 LARGEST_PRESSURE = 0.1
+#: Friction of no metal, and a factor of a measured load that is probably a load itself.
+MOST_FRICTION, MOST_TIMES = 2.0, 10.0
 
 
 def read_contacts(
@@ -303,7 +305,19 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
 
 
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
-    """Contacts at rest that hint at a wrong unit: one larger than its radius, or pressed beyond any metal."""
+    """What hints at a wrong unit or number.
+
+    Contacts larger than their radius or pressed beyond any metal, friction of no metal, and forces that
+    multiply a measured load.
+    """
+    if (most := max(map(as_number, grid.values("friction")))) > MOST_FRICTION:
+        yield f"friction {most:g}: metals have some 0.1 to 1.5"
+    measured = [str(load) for load in grid.loops if load.mean_normal is not None]
+    for amplitude in rules.AMPLITUDES if measured else ():
+        name = grid.control.given_for(amplitude)
+        if (most := max(map(as_number, grid.values(name)), default=0.0)) > MOST_TIMES:
+            column = f"the column {name.partition('_')[0]} of {', '.join(measured)}"
+            yield f"{name} {most:g} multiplies {column}: 1 takes it as it is"
     lines: dict[str, str] = {}
     unit = unit_words(grid.labels.length)
     for contact in grid.distinct:
