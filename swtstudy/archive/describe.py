@@ -97,7 +97,7 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 
 def told(dataset: xr.Dataset) -> list[str]:
-    """What was warned of when the study of these results was read."""
+    """The warnings of the study of these results when it was read."""
     return str(dataset.attrs.get("told", "")).splitlines()
 
 

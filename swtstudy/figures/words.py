@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.font_manager import FontProperties
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
 from swtstudy.figures.labels import Labels
@@ -21,6 +23,9 @@ from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.variables import ATTRIBUTES
 from swtstudy.vocabulary.wording import as_text, pi_words, place_words
+
+#: Width of a letter of a tick over the size of its font.
+LETTER = 0.65
 
 
 def quantity_words(values: xr.DataArray, y: str) -> str:
@@ -156,9 +161,11 @@ def tick_names(axis: Axis, words: Sequence[str], most: int) -> None:
 
     The step with the shortest words is taken among steps that are about as long.
     """
-    count, across = len(words), axis.axis_name == "x"  # type: ignore[attr-defined]
+    count, across, axes = len(words), axis.axis_name == "x", axis.axes  # type: ignore[attr-defined]
+    width = 72.0 * axes.bbox.width / axes.figure.dpi  # of the layout so far, in points
+    letters = int(width / (LETTER * FontProperties(size=rcParams["xtick.labelsize"]).get_size_in_points()))
     longest = {step: max(map(len, words[::step])) for step in range(1, 2 * count + 1)}
-    room = {step: min(most, 50 // (longest[step] + 2)) if across else most for step in longest}
+    room = {step: min(most, letters // (longest[step] + 2)) if across else most for step in longest}
     least = next((step for step in range(1, count) if -(-count // step) <= room[step]), count)
     step = min(range(least, 2 * least), key=longest.__getitem__)
     axis.set_ticks(range(0, count, step), labels=words[::step])
