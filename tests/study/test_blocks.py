@@ -127,36 +127,6 @@ def test_recorded_cycles_are_blocks_one_by_one_if_they_are_kept(tmp_path: Path) 
     run(again, tmp_path / "rig.nc", solver=stand_in.none)
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        (RUNNING + block("running", 0), r"blocks\[0\].rounds: found 0; allowed: a positive number of rounds"),
-        (RUNNING + block("running", '"many"'), r"blocks\[0\].rounds: found 'many'; allowed: a positive n"),
-        (RUNNING + block("runing", 1), r"blocks.load: found 'runing' .*; allowed: did you mean running"),
-        (RUNNING + '[[blocks]]\nload = "running"\n', r"blocks\[0\].rounds: found nothing; allowed: "),
-        (RUNNING + block("running", 1) + "times = 2\n", r"blocks\[0\].times: found unknown key 'times'"),
-        (
-            "[axes]\nload = ['running']\n" + RUNNING + block("running", 1),
-            r"axes.load: found \['running'\]; allowed: nothing: \[\[blocks\]\] give the loads",
-        ),
-    ],
-)
-def test_one_message_for_each_mistake_in_blocks(text: str, words: str) -> None:
-    assert len(refused(f"^s: {words}", Study.from_text, RIG + text, "s").mistakes) == 1
-
-
-def test_blocks_need_lives() -> None:
-    for material, words in (
-        ("", r"found blocks without \[units\] and \[material\]"),
-        (
-            "[material]\nyield_strength = 350\n",
-            r"found blocks with a \[material\] without lives; allowed: constants of lives: Miner's sum needs",
-        ),
-    ):
-        text = re.sub(r"\[material\][^\[]*", material, RIG) + RUNNING + block("running", 1)
-        assert len(refused(f"^s: blocks: {words}", Study.from_text, text, "s").mistakes) == 1
-
-
 def test_a_figure_shows_the_share_of_each_load(tmp_path: Path) -> None:
     text = RIG + "[axes]\nwalker_exponent = [0.4, 0.5]\n" + START + RUNNING
     text += block("start-up", 10) + block("running", 1e3)

@@ -127,15 +127,6 @@ def test_a_shape_and_no_axis_of_the_contact() -> None:
         physical(**{n: v for n, v in wide.items() if n != "flat_radius"} | waves)
 
 
-def test_an_axis_that_is_none_is_one_mistake() -> None:
-    units = 'title = "t"\nunits = {length = "mm", force = "N", stress = "MPa"}\n'
-    fixed = "[fixed]\nyoung_modulus = 7e4\npoisson_ratio = 0.3\nradius = 50\ndepth = 0.01\n"
-    fixed += "tangential_amplitude = 1e-3\n"
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(f"{units}{fixed}[axes]\nfriction = 3\n")
-    assert [mistake.key for mistake in caught.value.mistakes] == ["axes.friction"]
-
-
 def test_an_amplitude_of_a_loop_is_asked_for() -> None:
     """0, as of sines, would leave its normal load out."""
     square = swtstudy.LoadPath("square", [[-20, -60], [20, -60], [20, 60], [-20, 60]])

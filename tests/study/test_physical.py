@@ -271,29 +271,6 @@ def test_a_contact_without_friction_does_not_move():
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        (
-            {"young_modulus": (210e3, 70e3), "poisson_ratio": (0.3, 0.33), "friction": 0.3},
-            r"Dundurs' β = -0.117.*\|β\|/μ ≤ 0.3",
-        ),
-        ({"young_modulus": -1}, "young_modulus: found -1"),
-        ({"poisson_ratio": 0.6}, "poisson_ratio: found 0.6"),
-        ({"normal_force": 1.0}, "depth, normal_force: found both; allowed: one of the two: it says how deep"),
-        ({"depth": None}, "neither"),
-        ({"friction": -1}, "friction"),
-        ({"frequency_ratio": math.pi}, "irrational"),
-        ({"profile": "rounded_punch"}, "flat_radius: found nothing"),
-        ({"profile": "cone"}, "no such profile"),
-        ({"radius": math.nan}, "radius"),
-        ({"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 0.1}, "compact"),
-    ],
-)
-def test_mistakes_are_named(changes, words):
-    refused(words, physical, **ALUMINIUM | LOADED | changes)
-
-
-@pytest.mark.parametrize(
     ("changes", "messages"),
     [
         (

@@ -8,7 +8,6 @@ import stand_in
 import told
 from command import merged
 from real import ALUMINIUM, BODIES, STUDY, plain, without
-from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run
@@ -215,10 +214,3 @@ def test_of_two_profiles_one_has_a_wavelength():
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")
     study = Study.from_text(text.replace("[axes]", '[axes]\nprofile = ["paraboloid", "wavy_paraboloid"]'))
     assert stand_in.distinct(study) == study.grid.size == 16
-
-
-@pytest.mark.parametrize("name", ["body", "critical_distance"])
-def test_what_is_no_parameter_of_a_contact_is_not_sampled(name):
-    text = plain("quantities", "critical_distance", "phase")
-    sample = f'\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{name} = [0.1, 1]\n'
-    refused(f"sample.ranges.{name}: found unknown parameter '{name}'", Study.from_text, text + sample)

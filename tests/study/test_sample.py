@@ -1,5 +1,3 @@
-import re
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -303,84 +301,6 @@ def test_a_histogram_counts_and_has_percentiles(results):
     plt.close("all")
 
 
-@pytest.mark.parametrize(
-    ("layout", "words"),
-    [
-        ({"x": "phase", "kind": "scatter"}, 'figure.x: found .phase.; allowed: "sample"'),
-        ({"x": "sample", "hue": "profile"}, "figure.x: found 'sample'; allowed: an axis"),
-        ({"x": "sample", "kind": "scatter", "panels": "profile"}, "figure.panels: found 'profile'"),
-        ({"x": "sample", "kind": "histogram", "vertical": "profile"}, "figure.vertical: found 'profile'"),
-        ({"x": "sample", "kind": "scatter", "hue": "profile", "regimes": True}, "figure.regimes: found true"),
-        ({"x": "sample", "kind": "scatter"}, "no place for the axis profile"),
-        ({"x": "profile", "kind": "heatmap", "vertical": "sample"}, "figure.vertical: found 'sample'"),
-    ],
-)
-def test_layouts_that_do_not_fit_a_sample(results, layout, words):
-    refused(words, draw, results, keys(**layout))
-
-
-DRAWN = "\nsample.ranges.phase=[0,1]"
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("sample.file = 'a.csv'\nsample.size=2", "size: found 2 beside file; allowed: only with a design"),
-        ("sample.file = 'a.csv'" + DRAWN, "sample.ranges: found .* beside file; allowed: only with a design"),
-        ("sample.file = 'none.csv'", "sample.file: found .*no such file"),
-        ("sample.points = {phase=[1,2], friction=[0.1]}", "sample.points: found 2 of phase, 1 of friction"),
-        ("sample.points = {phas=[1]}", "sample.points.phas: .*did you mean phase"),
-        ("sample.desgin = 'sobol'", "sample.desgin: found unknown key 'desgin'; allowed: did you mean des"),
-    ],
-)
-def test_wrong_samples_are_named(text, words):
-    refused(words, Study.from_text, HEAD + text)
-
-
-@pytest.mark.parametrize(
-    ("entry", "words"),
-    [
-        ("phas = [0, 1]", "sample.ranges.phas: found unknown parameter 'phas'; allowed: did you mean phase"),
-        ("flat_radius = [0.1, 1]", "flat_radius: found an axis, which no profile here has"),
-    ],
-)
-def test_wrong_ranges_are_named(entry, words):
-    text = f"{HEAD}[sample]\ndesign = 'random'\nsize = 2\n[sample.ranges]\n{entry}\n"
-    refused(f"a.toml: .*{words}", Study.from_text, text, "a.toml")
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("fixed.phase = 1", "phase: found both a fixed value and sampled"),
-        ("axes.phase = [1, 2]", "phase: found both an axis and sampled"),
-        ("fixed.normal_force_amplitude = 0.1", "normal_amplitude.*found both; allowed: one of the two"),
-    ],
-)
-def test_a_parameter_is_given_once(text, words):
-    sample = "sample.points = {phase = [1, 2], normal_amplitude = [0.1, 0.2]}\n"
-    refused(words, Study.from_text, HEAD + sample + text)
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("", "sample.file: found an empty file"),
-        ("phase,friction\n", "without points"),
-        ("phase,phase\n1,2\n", "the column phase twice .*line 1"),
-        ("phase,friction\n1,0.1\n2\n3,4,5\n", r"sample.file: found 3 cells under 2 columns .*line 4"),
-        ("phase,frictoin\n1,0.1\n", "sample.file.frictoin: .*did you mean friction"),
-        ("phase,strength\n1,900\n", "sample.file: found the column strength, a constant"),
-        ("phase,friction\n1,0.1\n1,x\n", r"sample.file.friction: found 'x' .* at \[1\]"),
-        (b"\xff\xfe\x00", "sample.file: found"),
-    ],
-)
-def test_wrong_files_are_named(tmp_path, content, words):
-    (tmp_path / "points.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
-    (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
-    refused(words, Study.from_toml, tmp_path / "mine.toml")
-
-
 def test_forces_may_be_sampled():
     text = f"{HEAD}[sample]\ndesign='sobol'\nsize=4\n[sample.ranges]\nnormal_force_amplitude=[0.1, 0.5]\n"
     grid = Study.from_text(text).grid
@@ -401,24 +321,6 @@ def test_the_sample_of_the_template_is_a_study(tmp_path):
     assert all(name in text for name in DESIGNS)
 
 
-def test_a_sample_in_words(tmp_path):
-    points = "[sample.points]\nphase = [0, 1, 0, 1]\nfriction = [0.1, 0.2, 0.3, 0.2]\n"
-    study = Study.from_text(f'title = "Four points"\n[sample]\n{points}')
-    found = run(study, tmp_path / "a.nc", workers=1)
-    lines = [" ".join(line.split()) for line in repr(found.swt).splitlines()]
-    # Two values are listed, three are a range.
-    assert "sampled phase: 0, 1" in lines
-    assert "sampled friction: from 0.1 to 0.3" in lines
-
-
-@pytest.mark.parametrize(("deviation", "factor"), [(5, "148"), (800, "inf")])
-def test_the_deviation_of_a_logarithm_is_no_length(deviation, factor):
-    entry = f"friction = {{distribution='lognormal', median=0.3, deviation={deviation}}}\n"
-    text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\nphase = [0, 1]\n{entry}'
-    words = f"friction.deviation: found {deviation}, as a factor {factor}; allowed: that of the nat"
-    refused(words, Study.from_text, text)
-
-
 RIG_POINTS = """title = "points"
 units = { length = "mm", force = "N", stress = "MPa" }
 [fixed]
@@ -431,25 +333,6 @@ normal_force_amplitude = 0
 file = "points.csv"
 columns = { normal_force = "P", tangential_force_amplitude = "Q" }
 """
-
-
-@pytest.mark.parametrize(
-    ("rows", "more", "words"),
-    [
-        ("P [kN],Q [kN]\n0.2,0.05", "", "'P [kN]' in kN as normal_force, while [units] has force in N"),
-        ("P,Q\nkN,kN\n0.2,0.05", "", "'P' in kN as normal_force"),
-        ("P,Q\nkN,kN\n0.2,0.05", "units_row = true", "'Q' in kN as tangential_force_amplitude"),
-        ("P,Q\n200,50", "scale = { normal = 1000 }", "scale.normal: found 'normal'"),
-        ("P [mm],Q\n200,50", "", "'P [mm]' in mm as normal_force, which is a force"),
-    ],
-)
-@pytest.mark.filterwarnings("ignore:.*read as units")
-def test_points_of_a_file_have_the_units_of_the_study(tmp_path, rows, more, words):
-    header = rows.partition("\n")[0].split(",")
-    text = RIG_POINTS.replace('"P"', f'"{header[0]}"').replace('"Q"', f'"{header[1]}"')
-    (tmp_path / "points.csv").write_text(rows)
-    (tmp_path / "mine.toml").write_text(f"{text}{more}\n")
-    refused(re.escape(words), Study.from_toml, tmp_path / "mine.toml")
 
 
 @pytest.mark.filterwarnings("ignore:.*read as units")

@@ -47,21 +47,12 @@ def test_extrema_of_any_quantity(solved):
     np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
     assert "cycles" in found.minimum.attrs["long_name"]
     assert solved.swt.extrema("normal_force").maximum.attrs["units"] == "unit of stress"
-    for dim, y, words in (
-        ("normal_force", "regime", "whose values are flags"),
-        ("phase", "SWT", "not a dimension of SWT"),
-        ("normal_force", "SWOT", "not a quantity"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            solved.swt.extrema(dim, y)
 
 
 def test_the_stress_field_is_in_lengths_and_stresses(rig):
     """Hertz's pressure, in MPa, at places in mm."""
     a, p0 = rig.contact_radius, rig.peak_pressure
     x = np.array([0.0, 0.5 * a])
-    refused("z: found -0.1; allowed: depths z ≥ 0", rig.stress_field, x, 0.0, -0.1)
-    refused("x: found 'a'; allowed: finite positions, which are lengths", rig.swt_field, "a", 0.0, 0.0)
     field = rig.stress_field(x, 0.0, 0.0, time=0.0)
     np.testing.assert_allclose(field.x, x, rtol=1e-12)
     np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
@@ -82,7 +73,6 @@ def test_a_point_of_a_study_is_a_contact(solved):
     contact = point.swt.contact()
     assert contact.grid.fixed["normal_force"] == 200.0
     assert contact.parameters() == physical(**RIG).parameters()
-    refused("results without units", swtstudy.solve(rtol=1e-2).swt.contact)
 
 
 def test_an_inspected_contact_is_in_forces_and_stresses(rig):
@@ -116,15 +106,8 @@ def test_the_best_life_is_the_longest(rig):
     assert (lives.cycles.sel(case="best") > lives.cycles.sel(case="worst")).all()
 
 
-def test_wrong_optima_are_named(rig):
-    refused("minimise: found 'cycles'", rig.optimise, {"phase": (0, 1)}, "cycles")
-    refused("over.phasee: found not a parameter that is a number", rig.optimise, {"phasee": (0, 1)})
+def test_an_end_of_a_range_that_cannot_be_is_named(rig):
     refused(r"over.radius\[0\]: found -1", rig.optimise, {"radius": (-1, 1)})
-    words = r"over.radius: found \(60, 40\); allowed: the lower end first"
-    refused(words, rig.optimise, {"radius": (60, 40)})
-    words = "critical_distance: found several"
-    refused(words, rig.optimise, {"radius": (40, 60)}, critical_distance=[0.1, 0.2])
-    refused("several contacts", physical(**RIG | {"radius": [40.0, 50.0]}).optimise, {"phase": (0, 1)})
 
 
 STUDY = f"""
@@ -165,20 +148,11 @@ def test_bodies_have_names(tmp_path):
     first = found.swt.slice(body="test piece")
     assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
     refused("body: found 'rod' .*; allowed: test piece, pad", found.swt.slice, body="rod")
-    rod = STUDY.replace("bodies =", 'body = "rod"\nbodies =')
-    refused("fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'", Study.from_text, rod)
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0
     again = written(one, tmp_path)
     assert (again.grid.body_names, again.grid.fixed["body"]) == (("test piece", "pad"), 2.0)
-
-
-@pytest.mark.parametrize("bodies", ['["pad"]', '"pad"', '["pad", "pad"]', '["pad", 2]', '["", "pad"]'])
-def test_wrong_names_are_refused(bodies):
-    wrong = STUDY.replace('["test piece", "pad"]', bodies)
-    refused("fixed.bodies: found .*; allowed: two names", Study.from_text, wrong)
-    refused("unknown parameter", Study.from_text, 'title = "t"\n[fixed]\nbodies = ["a", "b"]')
 
 
 def test_names_in_python():
@@ -240,9 +214,6 @@ def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path, s
 def test_the_command_shows_a_study(tmp_path, shown):
     file = tmp_path / "pad.toml"
     file.write_text(STUDY, encoding="utf-8")
-    done = call("show", file, "-o", tmp_path / "pad.png")
-    assert done.exit_code == 2
-    assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
     words = shown(file, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2")
     for given in (r"$\psi$ = π/2", "$u_A$ = 0.001 mm", "pad"):
         assert given in words
@@ -250,8 +221,6 @@ def test_the_command_shows_a_study(tmp_path, shown):
     assert "pad" in shown(file, "--phase", "90 deg", "--body", "pad")
     done = call("show", file, "--phase", "90 deg", "--body", "rod")
     assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
-    done = call("show", "plane_contacts", "--profile", "paraboloid", "--body", "1")
-    assert "body: found '1'; allowed: no body in a study without units" in done.stderr
 
 
 def title(contact, body=1):
