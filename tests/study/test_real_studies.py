@@ -190,25 +190,6 @@ def test_a_study_with_units_in_words(tmp_path):
 
 
 @pytest.mark.slow
-def test_figures_have_the_units(solved):
-    figure = solved.swt.figure()
-    assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [r"$\psi$ (rad)"] * 2
-    assert [axes.get_ylabel().replace("\n", " ") for axes in figure.axes[::2]] == [
-        *(
-            r"$\mathrm{SWT}$ (MPa)",
-            "load cycles to a crack, $N$",
-            r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
-            "position of the critical point, $x$ (mm)",
-        )
-    ]
-    assert "$F_0$ = 150 N" in figure.axes[0].get_title(loc="left")
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels == ["$u_A$ = 0.001 mm", "$u_A$ = 0.0025 mm"]
-    over = solved.swt.panels(x="normal_force", hue="tangential_amplitude", panels="phase", y="SWT")
-    assert over.axes[0].get_xlabel() == "$F_0$ (N)"
-
-
-@pytest.mark.slow
 def test_of_two_profiles_one_has_a_wavelength():
     text = plain("quantities", "critical_distance")
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")

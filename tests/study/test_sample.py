@@ -1,10 +1,7 @@
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import stand_in
 from command import call, merged
-from drawn import draw, keys
-from matplotlib.colors import to_rgb
 from scipy import stats
 from told import refused, written
 
@@ -238,67 +235,6 @@ def test_shapes_are_checked_row_by_row():
     assert Study.from_text(rows.format([0, 0.9])).grid.size == 2
     words = "sample.waviness_amplitude, sample.wavelength: found .* = 3.52"
     assert "more like it" not in str(refused(words, Study.from_text, rows.format([0.9, 0])))
-
-
-@pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    return run(sampled(), tmp_path_factory.mktemp("r") / "a.nc", workers=1, solver=stand_in.smooth)
-
-
-def with_points(axes):
-    """The lines of a panel, without those that the legend shows in their place."""
-    return [line for line in axes.lines if len(line.get_xdata())]
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_a_scatter_has_a_panel_for_each_parameter(results):
-    figure = draw(results)
-    assert [axes.get_xlabel() for axes in figure.axes] == [r"$\psi$ (rad)", r"$\mu$"]
-    for axes, name in zip(figure.axes, ("phase", "friction"), strict=True):
-        for line, profile in zip(with_points(axes), ("paraboloid", "rounded_punch"), strict=True):
-            assert line.get_xdata().tolist() == results[name].values.tolist()
-            assert line.get_ydata().tolist() == results.s.sel(profile=profile).values.tolist()
-    assert [text.get_text() for text in figure.legends[0].texts] == [
-        "paraboloid",
-        "rounded punch, $b/a_H$ = 0.5",
-    ]
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
-    (axes, *_), (legend,) = (lambda figure: (figure.axes, figure.legends))(draw(results))
-    first, second = with_points(axes)
-    assert first.get_marker() != second.get_marker()
-    grey = [np.dot(to_rgb(line.get_color()), [0.299, 0.587, 0.114]) for line in (first, second)]
-    assert abs(grey[0] - grey[1]) > 0.25
-    for handle, line in zip(legend.legend_handles, (first, second), strict=True):
-        assert handle.get_marker() == line.get_marker()
-        assert handle.get_markersize() > 2.0 * line.get_markersize()
-        assert handle.get_alpha() in (None, 1.0)
-
-
-def test_a_scatter_of_regimes_has_a_row_for_each(results):
-    (axes, _) = draw(results, keys("sample", y=("regime",), kind="scatter", hue="profile")).axes
-    assert [text.get_text() for text in axes.get_yticklabels()] == [
-        *("stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium")
-    ]
-    assert axes.get_ylim() == (-0.5, 5.5)
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_a_histogram_counts_and_has_percentiles(results):
-    figure = draw(results, keys("sample", panels="profile", kind="histogram"))
-    for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):
-        values = results.s.sel(profile=profile).values
-        assert [line.get_xdata()[0] for line in axes.lines] == np.percentile(values, [5, 50, 95]).tolist()
-        assert f"50 %: {np.median(values):.3g}" in axes.get_title(loc="left")
-        top = max(path.get_extents().y1 for path in (patch.get_path() for patch in axes.patches))
-        counts, _ = np.histogram(values, np.histogram_bin_edges(results.s.values, "auto"))
-        assert top == counts.max()
-    (axes,) = draw(results.isel(profile=0), keys("sample", y=("regime",), kind="histogram")).axes
-    ticks = dict(zip([label.get_text() for label in axes.get_xticklabels()], axes.get_xticks(), strict=True))
-    assert {words: ticks[words] for words in ("stick", "no equilibrium")} == {"stick": 0, "no equilibrium": 5}
-    plt.close("all")
 
 
 def test_forces_may_be_sampled():
