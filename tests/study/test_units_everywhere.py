@@ -160,44 +160,6 @@ def test_names_in_python():
     assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
 
 
-def shown_numbers(axis):
-    """What the ticks of an axis stand for, over where they are."""
-    words = [label.get_text().replace("−", "-") for label in axis.get_ticklabels()]
-    return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
-
-
-@pytest.mark.slow
-def test_all_panels_of_a_contact_have_its_units(rig):
-    figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
-    panels = {each.get_title("left")[5:].replace("\n", " "): each for each in figure.axes}
-    at = f"on the critical plane at $x$ = {float(point.shown_x):.4g} unit of length"
-    plane = next(each for each in figure.axes if "load plane" in each.get_title("left"))
-    assert plane.get_xlabel() == "$F_x$ (unit of force)"
-    # Where 50 is written there are 50 of the 100 that friction bears.
-    numbers, places = shown_numbers(plane.xaxis)
-    np.testing.assert_allclose(places, numbers / 100.0)
-    assert 50.0 in numbers
-    (strain,) = [each for each in figure.axes if each.get_ylabel() == r"$\varepsilon_n$"]
-    assert at in panels
-    # Where 0.002 is written there is a strain of 0.002: that of the line drawn.
-    numbers, places = shown_numbers(strain.yaxis)
-    (drawn,) = [line for line in strain.lines if line.get_label() == r"$\varepsilon_n$"]
-    scale = point.normal_strain.values / np.where(drawn.get_ydata(), drawn.get_ydata(), np.nan)
-    np.testing.assert_allclose(numbers, places * np.nanmedian(scale), atol=1e-12)
-    forces = panels[r"forces over the cycle, dotted: $\pm\mu F_N$"]
-    assert forces.get_ylabel() == "force (unit of force)"
-    normal, tangential, *bounds = (line.get_ydata() for line in forces.lines[:4])
-    np.testing.assert_allclose(normal, 200.0)
-    assert tangential.max() == pytest.approx(60.0, rel=1e-3)
-    np.testing.assert_allclose(bounds, [[100.0] * len(normal), [-100.0] * len(normal)])
-    # The area of the loop, as a polygon.
-    u, force = point.displacement.values, point.tangential_force.values
-    area = 0.5 * abs(np.sum(u[:-1] * np.diff(force) - force[:-1] * np.diff(u)))
-    (words,) = [title for title in panels if title.startswith("fretting loop, dissipation ")]
-    assert float(words.split()[3]) == pytest.approx(area, rel=2e-2)
-    assert words.endswith(" unit of work")
-
-
 def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path, shown):
     file = tmp_path / "pad.toml"
     strength = "[material]\nyield_strength = 150\n[fixed]"
