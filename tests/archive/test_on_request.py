@@ -13,7 +13,7 @@ import pytest
 import stand_in
 import xarray as xr
 from asking import EVERY, VARIABLES, study
-from command import merged, saved
+from command import saved
 
 import swtstudy
 from swtstudy import Study, open_results, run
@@ -104,25 +104,6 @@ def test_a_point_at_which_one_fails_is_told_and_keeps_its_s(tmp_path: Path, monk
     monkeypatch.undo()
     mended = run(study(quantities=("dissipation",)), path, workers=1, retry_failed=True)
     assert np.isfinite(mended.dissipation).all()
-
-
-@pytest.mark.slow
-def test_merged_archives_have_what_all_have_or_say_what_lacks(tmp_path: Path) -> None:
-    for name, phase, asked in (
-        ("a", "0.5, 1.0", EVERY[:1]),
-        ("b", "1.0, 2.0", EVERY[:1]),
-        ("c", "1.0, 4.0", ()),
-    ):
-        run(study(axes=f"phase = [{phase}]", quantities=asked), tmp_path / f"{name}.nc", workers=1)
-    both = merged(tmp_path / "a.nc", tmp_path / "b.nc")
-    assert np.isfinite(both.dissipation).all()
-    assert Study.from_text(both.attrs["study"]).asked.names == EVERY[:1]
-    with pytest.raises(ValueError, match=r"dissipation is known of some points .* not of 1 others"):
-        merged(tmp_path / "a.nc", tmp_path / "c.nc")
-    sparse = merged(tmp_path / "a.nc", tmp_path / "c.nc", sparse=True)
-    assert np.isnan(sparse.dissipation.values).tolist() == [False, False, True]
-    filled = run(Study.from_text(sparse.attrs["study"]), tmp_path / "merged.nc", workers=1)
-    assert np.isfinite(filled.dissipation).all()
 
 
 @pytest.mark.usefixtures("unwrapped")

@@ -11,7 +11,6 @@ from matplotlib.transforms import Bbox
 from words import PROFILES
 
 import swtstudy
-from swtstudy import Study
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
@@ -130,18 +129,3 @@ def test_commands(tmp_path):
         assert call(*command).exit_code == 0
         picture = (tmp_path / command[command.index("-o") + 1]).read_bytes()
         assert int.from_bytes(picture[16:20], "big") == pytest.approx(8.5 / CM * 300, abs=1)
-
-
-def test_a_width_that_there_is_not():
-    dataset = made_up(wave, **FIGURES["lines"][0])
-    words = 'width: found 12; allowed: "column", "page", or None for a screen'
-    with pytest.raises(ValueError, match=words):
-        dataset.swt.panels("phase", "friction", width=12)
-    with pytest.raises(ValueError, match="width: found"):
-        swtstudy.inspect(width="poster")
-    with pytest.raises(ValueError, match="width: found"):
-        swtstudy.draw_profile(profile="paraboloid", width="poster")
-    result = call("plot", "any.nc", "--width", "poster")
-    assert result.exit_code == 2
-    assert "'column', 'page'" in result.output
-    assert Study.from_text(PANELS).figure is not None

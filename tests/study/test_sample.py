@@ -199,10 +199,6 @@ def test_samples_of_the_same_parameters_are_merged(tmp_path):
     both = merged(tmp_path / "16.nc", tmp_path / "32.nc")
     assert both.s.shape == (32, 2)
     assert (both.status == 0).all()
-    plain = Study.from_text('title = "t"\naxes.phase = [0, 1]\n')
-    run(plain, tmp_path / "plain.nc", workers=1, solver=stand_in.smooth)
-    done = call("merge", tmp_path / "16.nc", tmp_path / "plain.nc", "-o", tmp_path / "both.nc")
-    assert "samples of different parameters" in done.stderr
 
 
 def test_results_of_a_sample_are_sliced_listed_and_searched(tmp_path):
