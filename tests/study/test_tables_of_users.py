@@ -60,15 +60,9 @@ def test_a_normal_column_that_is_no_deviation_is_refused(kind: str) -> None:
     """In newtons about 150 N, with 150 N given as the mean: half of the load would be counted twice."""
     moving = {f"normal_{kind}amplitude": 1e-2, f"tangential_{kind}amplitude": 1e-2}
     far = LoadPath("rig", [[140, -60], [160, -60], [160, 60], [140, 60]])
-    (mistake,) = refused("", swtstudy.solve, load=far, **moving).mistakes
-    assert mistake.key == "load"
-    assert mistake.found == "'rig' with a normal column from 140 to 160, far from 0"
-    assert mistake.allowed.startswith(
-        "deviations from the mean normal load: take its mean, 150, off (absolute"
-    )
     smooth = LoadPath.harmonic_sum("smooth", [(0, 150, np.pi / 2), (1, 10, 0)], [(1, 60, 0)])
     beyond = LoadPath("just", [[0.26, -0.5], [0.75, 0.5]])
-    for loop in (smooth, beyond, LoadPath("still", [[150, -60], [150, 60]])):
+    for loop in (far, smooth, beyond, LoadPath("still", [[150, -60], [150, 60]])):
         refused("far from 0; allowed: deviations from the mean", swtstudy.solve, load=loop, **moving)
     # At twice half of the range it still may be meant; and without an amplitude it does not matter.
     swtstudy.solve(load=LoadPath("one", [[0.25, -0.5], [0.75, 0.5]]), rtol=1e-2)
