@@ -157,13 +157,6 @@ def test_a_stopped_run_goes_on(tmp_path):
     assert np.array_equal(found.s, undisturbed.s)
 
 
-@pytest.mark.slow
-def test_worker_processes_give_the_same(tmp_path):
-    study = sampled("sobol", 256)
-    here, there = (run(study, tmp_path / f"{n}.nc", workers=n, solver=stand_in.slow).s.values for n in (1, 2))
-    assert np.array_equal(here, there)
-
-
 def test_points_from_a_file(tmp_path):
     (tmp_path / "points.csv").write_text(
         "profile, frequency_ratio, phase, flat_radius\n"
