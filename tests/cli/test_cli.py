@@ -184,15 +184,11 @@ def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
     assert f"'{typed.removesuffix('=0')}'. Did you mean '{meant}'?" in result.stderr
 
 
-@pytest.mark.parametrize(
-    ("arguments", "line"),
-    [(["show", "-o", "a.png", "--output", "b.png"], "--output: found 2 times; allowed: once")],
-)
-def test_an_option_given_twice_is_refused(tmp_path, monkeypatch, arguments, line):
+def test_an_option_given_twice_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    result = call(*arguments)
+    result = call("show", "-o", "a.png", "--output", "b.png")
     assert result.exit_code == 2
-    assert result.stderr == f"Error: {line}\n"
+    assert result.stderr == "Error: --output: found 2 times; allowed: once\n"
     assert not list(tmp_path.iterdir())
 
 
