@@ -389,6 +389,7 @@ def test_the_sentence_of_odd_studies(
         ("life", "^The amplitude of the tangential oscillation uA changes the life Nvolume"),
     ],
 )
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_the_headline_has_no_name_as_a_place(name: str, said: str) -> None:
     dataset = swtstudy.open_results(RESULTS / f"{name}.nc")
     found = re.sub("<.*?>", "", " ".join(sentences(dataset, indices_of(dataset))))
@@ -420,6 +421,7 @@ def test_the_page_of_a_figure_of_the_paper_holds_it_against_the_paper(without_po
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", ["life", "figure4", "sensitivity"])
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_what_keeps_to_one_line_is_marked_once(name: str, without_points: None) -> None:
     text = page(swtstudy.open_results(RESULTS / f"{name}.nc"), name)
     tied = re.findall(r'<span class="tied">.*?</span>', text)

@@ -176,6 +176,7 @@ normal_force_amplitude = [0, 20]
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_a_study_with_units_has_its_own_symbols(tmp_path, told):
     (tmp_path / "mine.toml").write_text(RIG)
     text, figure = told(tmp_path / "mine.toml")
