@@ -66,6 +66,7 @@ def build(study: Study, points: Distinct, found: Found, history: str, seconds: f
         "wall_time_seconds": round(seconds, 3),
         "computing_time_seconds": round(float(of_runs.sum()), 3),
         "study": study.text,
+        "told": "\n".join(study.told) or None,
         "runs": json.dumps(runs),
         "definitions": definitions_text(study.grid.given) if study.grid.given else None,
         "figure": study.figure and study.figure.to_json(),

@@ -80,6 +80,7 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         yield "accurate", accuracy(dataset)
     yield "regimes", ", ".join(f"{count} {name}" for name, count in regime_counts(dataset).items())
     yield from (("validity", line) for line in validity_lines(dataset, inside=True))
+    yield from (("told", line) for line in told(dataset))
     for number, run in enumerate(read_runs(attributes.get("runs", "[]"))):
         words = number_of(int((dataset.run == number).sum()), "point")
         words += f", rtol {run.rtol:g}, solver version {run.solver_version}"
@@ -93,6 +94,11 @@ def facts(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         drawn = [f"{', '.join(layout.y)} over {layout.x}"]
         drawn += [f"{role} {name}" for role, name in roles.items() if name]
         yield "figure", ("" if layout.kind == "lines" else f"{layout.kind}: ") + ", ".join(drawn)
+
+
+def told(dataset: xr.Dataset) -> list[str]:
+    """What was warned of when the study of these results was read."""
+    return str(dataset.attrs.get("told", "")).splitlines()
 
 
 def _parameters(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:

@@ -13,7 +13,7 @@ from swtstudy.archive.paths import archive_paths
 from swtstudy.cli import terminal
 from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.vocabulary.files import check_writable, write_text
-from swtstudy.vocabulary.mistakes import refused
+from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_words, unit_words
 
 
@@ -185,12 +185,21 @@ def audit(studies: tuple[str, ...], points: int, seed: int, results: str, worker
 @click.argument("file")
 @click.option("--order", help="Order of components with other headers: swtstudy, abaqus or ansys.")
 @click.option("--column", multiple=True, metavar="NAME=HEADER", help="A column with another header; repeat.")
+@click.option("--encoding", help="Encoding of FILE, such as cp1252.  [default: UTF-8]")
+@click.option("--unit", help="Unit of the stresses, unless FILE says it.  [default: that of STUDY]")
 @click.option("--body", default=1, show_default=True, type=click.IntRange(1, 2), help="Whose properties.")
 @click.option(
     "--output", "-o", help="CSV, .vtu (ParaView) or .nc file; by default NAME_lives.csv beside FILE."
 )
 def history(
-    study: str, file: str, order: str | None, column: tuple[str, ...], body: int, output: str | None
+    study: str,
+    file: str,
+    order: str | None,
+    column: tuple[str, ...],
+    encoding: str | None,
+    unit: str | None,
+    body: int,
+    output: str | None,
 ) -> None:
     """Evaluate the stress histories in FILE, as from finite elements: criteria, critical planes and lives.
 
@@ -202,10 +211,11 @@ def history(
     \b
     Examples:
       swtstudy history rig.toml stresses.csv -o lives.vtu
-      swtstudy history rig.toml stresses.csv --column step=Frame --column id=Node
+      swtstudy history rig.toml stresses.csv --column step=Time --column id=Point
     """
     from swtstudy.faces.elements import ENDINGS, write_history
     from swtstudy.study.definition import tables_of
+    from swtstudy.study.units.rows import KNOWN
 
     target = Path(output) if output else Path(file).with_name(f"{Path(file).stem}_lives.csv")
     if target.suffix not in ENDINGS:
@@ -213,7 +223,12 @@ def history(
     check_writable(target)
     tables_of(study)  # wrong or not, it is told before a large table is read
     columns = terminal.pairs("--column", column, "a name and a header, such as step=Frame")
-    found = swtstudy.evaluate_history(swtstudy.read_history(file, order=order, columns=columns), study, body)
+    read = swtstudy.read_history(file, order=order, columns=columns, encoding=encoding)
+    if unit is not None:
+        if unit not in KNOWN["stress"]:
+            raise refused("--unit", literal(unit), f"one of {', '.join(KNOWN['stress'])}")
+        read.stress.attrs.setdefault("units", unit)
+    found = swtstudy.evaluate_history(read, study, body)
     write_history(found, target)
     for name, lives in (("SWT", "cycles"), ("FS", "FS_cycles"), ("findley_stress", "findley_usage")):
         if name in found:

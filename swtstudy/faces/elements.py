@@ -35,11 +35,19 @@ ORDERS = {
     "abaqus": ("S11", "S22", "S33", "S12", "S13", "S23"),
     "ansys": ("SX", "SY", "SZ", "SXY", "SYZ", "SXZ"),
 }
-#: What stands before the axes of a component in a header; a normal stress may have one axis behind it.
-_STRESS = r"(?:s|sig|sigma|t|tau|stress)"
-_COMPONENT = re.compile(rf"{_STRESS}*([xyz123])([xyz123])|{_STRESS}+([xyz])")
+#: Axes of a component in a header, in small letters, and what stands before them; a normal stress may have
+#: one axis alone.
+_COMPONENT = re.compile(
+    r"(?:s|sig|sigma|t|tau|stress)*([xyz]{2})|(?:s|sig|sigma|t|tau|stress)+([123]{2}|[xyz])"
+)
 STEP, ID, POSITION = "step", "id", ("x", "y", "z")
-_ONE_ID = f"a column {ID} keeps the steps of a point together, whatever its coordinates"
+#: Stress over Young's modulus that no metal sustains.
+MOST_STRAIN = 0.05
+#: Other headers of steps and points, in small letters, as finite elements write them.
+ALIASES = {
+    **dict.fromkeys(("frame", "increment", "substep"), STEP),
+    **dict.fromkeys(("node", "node label", "node number", "element", "element label"), ID),
+}
 #: How the files end that results at points are written to.
 ENDINGS = (".csv", ".vtu", ".nc")
 
@@ -55,7 +63,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     order
         "swtstudy" for xx, yy, zz, yz, xz, xy, "abaqus" for S11, S22, S33, S12, S13, S23 or "ansys" for SX,
         SY, SZ, SXY, SYZ, SXZ. Found from the headers unless given: S12, SXY, sigma_xy and xy are one. With
-        headers that do not say it the last six columns are taken in that order.
+        headers that do not say it the other six columns are taken in that order.
     columns, separator, decimal, encoding, scale, skip_rows, units_row, sheet
         As of `swtstudy.read_signal`.
 
@@ -72,7 +80,7 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
     given = FileTable.of(form)
     if order not in (None, *ORDERS):
         raise refused("order", literal(order), nearest(str(order), ORDERS, {}))
-    table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given)
+    table = read_table(Path(path), (STEP,), (ID, *POSITION, *chain(*ORDERS.values())), given, aliases=ALIASES)
     stress, unit = _components(table, order)
     positions = [name for name in POSITION if table.has(name)]
     place = table.numbers(positions) if positions else np.zeros((len(stress), 0))
@@ -88,24 +96,19 @@ def read_history(path: str | PathLike[str], *, order: str | None = None, **form:
         where = f" at the point {labels[point]}" * (len(labels) > 1)
         allowed = f"each step once at a point; {ID}, or {', '.join(POSITION)}, of each point"
         raise refused("", f"step {steps[rows[point, k]]:g} in several rows{where}", allowed, table.source)
+    one_id = f"rows of one point have the same {ID}, whatever its coordinates"
+    if rows.shape[1] == 1:
+        words = "one step at each point, which is no load cycle"
+        warnings.warn(f"{path}: {words}: {one_id}", stacklevel=2)
+    elif (other := np.flatnonzero((steps[rows] != steps[rows[0]]).any(axis=1))).size:
+        found = f"other steps at the point {labels[other[0]]} than at {labels[0]}"
+        raise refused("", found, f"the same steps at each point; {one_id}", table.source)
     coords: dict[str, Any] = {name: ("point", place[rows[:, 0], k]) for k, name in enumerate(positions)}
     if table.has(ID):
         coords[ID] = "point", labels
-    else:
-        _doubt_positions(place[rows[:, 0]], rows.shape[1], table.source)
-    words = {"units": unit} if unit else {}
-    variables = {"stress": (("point", STEP, "component"), stress[rows], words)}
+    unit_of = {"units": unit} if unit else {}
+    variables = {"stress": (("point", STEP, "component"), stress[rows], unit_of)}
     return xr.Dataset(variables, {"component": [*COMPONENTS], **coords}, {"source": str(path)})
-
-
-def _doubt_positions(place: FloatArray, steps: int, source: str) -> None:
-    """Warn where coordinates, shape (points, 3), may tell rows of one point apart."""
-    if steps == 1:
-        warnings.warn(f"{source}: one step at each point, which is no load cycle: {_ONE_ID}", stacklevel=4)
-        return
-    largest = max(np.abs(place).max(initial=0.0), 1e-300)
-    if len(np.unique(np.round(place / largest, 6), axis=0)) < len(place):
-        warnings.warn(f"{source}: points a millionth apart are points of their own: {_ONE_ID}", stacklevel=4)
 
 
 def component_of(header: str) -> str | None:
@@ -113,8 +116,8 @@ def component_of(header: str) -> str | None:
     plain = re.sub(r"[\[(].*|[^a-z0-9]", "", header.lower())
     if not (found := _COMPONENT.fullmatch(plain)):
         return None
-    axes = (found[3] * 2 if found[3] else found[1] + found[2]).translate(str.maketrans("123", "xyz"))
-    return "".join(sorted(axes))
+    axes = (found[1] or found[2]).translate(str.maketrans("123", "xyz"))
+    return "".join(sorted(axes * 2 if len(axes) == 1 else axes))
 
 
 def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
@@ -129,16 +132,16 @@ def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
             raise refused(place, f"{' and '.join(twice)}, each {component}", "one of them", table.source)
     if {*own.values()} not in ({*COMPONENTS}, {*COMPONENTS} - {*ACROSS}):
         if order is None:
+            known = " or ".join(map(", ".join, ORDERS.values()))
             allowed = (
-                f"columns {' or '.join(map(', '.join, ORDERS.values()))}; of plane elements without the two"
+                f"columns {known}; of plane elements without the two across; with other headers an order "
             )
-            allowed += f" across; with other headers an order of the last six columns, {' or '.join(ORDERS)}"
+            allowed += f"of six columns, {' or '.join(ORDERS)}"
             raise refused(place, ", ".join(table.headers), allowed, table.source)
-        if len(names) < len(COMPONENTS):
+        if len(names) != len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
             raise refused(place, ", ".join(names), allowed, table.source)
-        last = names[-len(COMPONENTS) :]
-        own = dict(zip(last, map(str, map(component_of, ORDERS[order])), strict=True))
+        own = dict(zip(names, map(str, map(component_of, ORDERS[order])), strict=True))
     elif order is not None and [*own.values()] != [*map(component_of, ORDERS[order])]:
         allowed = f"no order: the headers {', '.join(own)} name the components"
         raise refused("order", literal(order), allowed, table.source)
@@ -203,6 +206,13 @@ def evaluate_history(
     young, poisson = own["young_modulus"], own["poisson_ratio"]
     stress = _in_our_order(given, details.units.stress)
     unit = {"units": details.units.stress}
+    if (largest := float(np.abs(stress).max(initial=0.0))) > MOST_STRAIN * young:
+        words = (
+            f"stresses up to {largest:.4g} {details.units.stress} are {largest / young:.3g} of young_modulus"
+        )
+        warnings.warn(
+            f"{words}: are they in another unit? A row of units, or a header, says it", stacklevel=2
+        )
     found = given.drop_dims("component")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 

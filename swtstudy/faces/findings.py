@@ -15,6 +15,7 @@ from swtstudy.faces.html import rendered, symbol_html, value_text
 from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life
 from swtstudy.points.grid import SAMPLE
+from swtstudy.points.validity import KNOWN_LIVES
 from swtstudy.points.values import index_at
 from swtstudy.results.evaluate import extrema
 from swtstudy.results.sensitivity import sensitivity
@@ -96,6 +97,9 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
             continue
         table = extrema(dataset.assign(measured=values), name, "measured")
         ratio = table.ratio.where(np.isfinite(table.ratio))
+        if is_life(values.attrs):  # of lives that constants are known for, if there are some
+            known = ratio.where((table.minimum >= KNOWN_LIVES[0]) & (table.maximum <= KNOWN_LIVES[1]))
+            ratio = known if known.notnull().any() else ratio
         if ratio.notnull().any():
             there = table.isel(index_at(ratio, int(np.nanargmax(ratio.values))))
             found.append(Lever(name, table, there, float(there.ratio)))

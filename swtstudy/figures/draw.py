@@ -165,6 +165,8 @@ def _shown(dataset: xr.Dataset, y: str, values: xr.DataArray, validity: bool) ->
         shown |= {"early": dataset[f"{y}_10"], "late": dataset[f"{y}_90"]}
     if "regime" in dataset:
         shown["regime"] = known_regime(dataset).assign_attrs(dataset.regime.attrs)
+    if "stick_zone" in dataset:
+        shown["zone"] = dataset.stick_zone.broadcast_like(values)
     if validity:
         require(dataset, "s")
         shown["outside"] = outside(dataset, values)

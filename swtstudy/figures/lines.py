@@ -61,7 +61,8 @@ def draw_lines(
         The panel.
     panel
         Over x and hue: ``value``; ``error``, which is a band around a curve where it is visible; ``early``
-        and ``late``, the ends of a band of lives; and ``regime`` and ``outside``, if these are to be marked.
+        and ``late``, the ends of a band of lives; ``zone``, where the stick zone is, with a gap where that
+        changes; and ``regime`` and ``outside``, if these are to be marked.
     y
         The quantity, as the layout names it.
     layout
@@ -97,6 +98,8 @@ def _draw_line(
     elif may_jump(y):
         with np.errstate(divide="ignore"):
             gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y)
+    if "zone" in part:  # of another model
+        gaps = np.union1d(gaps, np.flatnonzero(np.diff(part.zone.values)) + 1)
 
     def turned(one: Any, other: Any) -> tuple[Any, Any]:
         return (other, one) if upright else (one, other)

@@ -1,6 +1,6 @@
 """Climbing over planes of every orientation: instants for the plane, plane for the instants, by turns."""
 
-from math import acos, cos, sin, sqrt
+from math import acos, atan2, cos, sin, sqrt
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from swtstudy.kernel.on_plane import ends_along, longest_chord, set_path, set_ta
 
 #: Tolerance of chords while climbing.
 CLIMBING = 1e-4
+#: Share of the curvature below which it is rounding.
+FLAT = 1e-9
 #: Largest principal value of a deviator over √J2.
 OF_J2 = 2.0 / np.sqrt(3.0)
 
@@ -129,15 +131,7 @@ def ascend(planes, ask):
             both = of_TT * J[i] * J[j] + of_TA * (J[i] * K[j] + J[j] * K[i]) + of_AA * K[i] * K[j]
             planes.bend[k] = h * (both + of_T * J[3 + k] + of_A * K[3 + k])
             planes.bend[k] -= (of_T * J[i] + of_A * K[i]) * (of_T * J[j] + of_A * K[j])
-        h11, h22, h12 = planes.bend[0], planes.bend[1], planes.bend[2]
-        det = h11 * h22 - h12 * h12
-        size = sqrt(g1 * g1 + g2 * g2)
-        if h11 < 0.0 and det > 0.0:
-            a, b = (g2 * h12 - g1 * h22) / det, (g1 * h12 - g2 * h11) / det
-        elif size > 0.0:
-            a, b = 0.2 * g1 / size, 0.2 * g2 / size
-        else:
-            return
+        a, b = uphill(g1, g2, planes.bend[0], planes.bend[1], planes.bend[2])
         step = sqrt(a * a + b * b)
         if step > 0.3:
             a, b = 0.3 * a / step, 0.3 * b / step
@@ -148,6 +142,27 @@ def ascend(planes, ask):
             n[c] *= shrink
         if step < 1e-6:
             return
+
+
+@jit
+def uphill(g1, g2, h11, h22, h12):
+    """A step towards a maximum from the slopes there: Newton's along the axes of the curvature that fall off.
+
+    Along the others it is a share of the slope's direction. Planes around an axis of symmetry are all alike:
+    there is no curvature along that ring.
+    """
+    size = sqrt(g1 * g1 + g2 * g2)
+    if size == 0.0:
+        return 0.0, 0.0
+    mean, half = 0.5 * (h11 + h22), 0.5 * (h11 - h22)
+    radius = sqrt(half * half + h12 * h12)
+    turn = 0.5 * atan2(h12, half)
+    C, S = cos(turn), sin(turn)
+    flat = FLAT * (abs(mean) + radius)
+    one, other = C * g1 + S * g2, C * g2 - S * g1
+    along = -one / (mean + radius) if mean + radius < -flat else 0.2 * one / size
+    across = -other / (mean - radius) if mean - radius < -flat else 0.2 * other / size
+    return C * along - S * across, S * along + C * across
 
 
 @jit

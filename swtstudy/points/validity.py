@@ -134,7 +134,7 @@ def _found(dataset: xr.Dataset) -> Iterator[Finding]:
         zone = _values(dataset, "stick_zone")
         moved, left = zone != IN_PLACE, (zone == IN_PLACE) & (_values(dataset, "bulk_shift_ratio") > 0.0)
         if moved.any() and left.any():
-            words = f"stick zone moved by the bulk stress{_where(moved)}, left in place{_where(left)}"
+            words = f"stick zone left in place{_where(left)}, moved by the bulk stress{_where(moved)}"
             yield words, words
         if (some := zone == APPROXIMATE).any():
             words = "the rise of the stress at the edge in tension is right within 4 %"
@@ -223,8 +223,8 @@ def outside(dataset: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
         of_points = dataset.s.copy(data=each).drop_attrs()
         found = found | of_points.any([dim for dim in of_points.dims if dim not in values.dims])
     if _is_life(dataset, str(values.name)):
-        limits["known lives"] = _beyond(values.values)
-        found = found | limits["known lives"]
+        limits["extrapolated life"] = _beyond(values.values)
+        found = found | limits["extrapolated life"]
     words = ", ".join(name for name, each in limits.items() if each.any())
     return found.transpose(*values.dims).assign_attrs(long_name=f"outside: {words}")
 

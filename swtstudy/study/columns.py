@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -65,6 +66,8 @@ class UserTable:
         Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
     most
         Largest number of rows.
+    aliases
+        Other headers of some columns, in small letters, where no header is given for these.
 
     Attributes
     ----------
@@ -90,13 +93,20 @@ class UserTable:
     """
 
     def __init__(
-        self, path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int
+        self,
+        path: Path,
+        names: Sequence[str],
+        known: Collection[str],
+        form: FileTable | None,
+        most: int,
+        aliases: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self.source, self.names, self.known = str(path), names, known
         self.form, self.has_keys = form or FileTable(), form is not None
         self.report = Report()
         # The names by small letters, where no headers are given for them: rigs write Step or TIME.
         self._names = {name.lower(): name for name in (*names, *known) if name not in self.form.columns}
+        self._aliases = {each: name for each, name in aliases.items() if name.lower() in self._names}
         try:
             data = read_file(path, LARGEST_TABLE)
         except OSError as error:
@@ -140,8 +150,13 @@ class UserTable:
             warnings.warn(f"{Path(self.source).name}: {words}", stacklevel=3)
 
     def _named(self, headers: list[str]) -> list[str]:
-        """Headers, each as the name that it is but for capital letters."""
-        return [self._names.get(header.lower(), header) for header in headers]
+        """Headers, each as the name that it is but for capital letters, or whose only alias it is."""
+        named = [self._names.get(header.lower(), header) for header in headers]
+        meant = [self._aliases.get(header.lower(), "") for header in headers]
+        return [
+            other if other and other not in named and meant.count(other) == 1 else name
+            for name, other in zip(named, meant, strict=True)
+        ]
 
     def column(self, name: str) -> int:
         """The place of a column."""
@@ -443,10 +458,15 @@ def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mista
 
 
 def read_table(
-    path: Path, names: Sequence[str], known: Collection[str], form: FileTable | None, most: int = MOST_ROWS
+    path: Path,
+    names: Sequence[str],
+    known: Collection[str],
+    form: FileTable | None,
+    most: int = MOST_ROWS,
+    aliases: Mapping[str, str] = MappingProxyType({}),
 ) -> UserTable:
     """The table in a file, see `UserTable`; a StudyError with all that is wrong."""
-    table = UserTable(path, names, known, form, most)
+    table = UserTable(path, names, known, form, most, aliases)
     table.report.refuse()
     return table
 

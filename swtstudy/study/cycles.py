@@ -137,7 +137,7 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
         Shape (k, d): the value that the other samples suggest, which is on the line between the samples
         beside a single spike, and the median of the cycles at the phase of any other sample.
     """
-    out, usual = _single_spikes(time, values)
+    out, usual = _single_spikes(time, values, period * count)
     if count < FEWEST_CYCLES:
         return out, usual
     cycle = np.median(folded(time, values, period, count), axis=0)
@@ -158,25 +158,31 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
     return out | apart, np.where(out, usual, median)
 
 
-def _single_spikes(time: FloatArray, values: FloatArray) -> tuple[BoolArray, FloatArray]:
+def _single_spikes(time: FloatArray, values: FloatArray, length: float) -> tuple[BoolArray, FloatArray]:
     """Single samples off the line between the samples beside them, and the values on these lines.
 
     A spike of height h is h above the line between the samples beside it, and takes each of these samples
     below its own line, by h times the share of the spike in it. All three must give the same sign, and the
     smallest of the three heights counts: the tip of a triangle leaves the samples beside it on their lines,
-    and a smooth tip takes all three to one side.
+    and a smooth tip takes all three to one side. Of two samples in a row the higher one is the spike. The
+    record goes on with itself after the length of its cycles: two samples more at each end.
     """
-    out, usual = np.zeros_like(values, bool), values.copy()
     if len(values) < FEWEST_SAMPLES:
-        return out, usual
+        return np.zeros_like(values, bool), values.copy()
+    least = 1e-6 * (time[-1] - time[0]) / (len(time) - 1)
+    first, last = np.searchsorted(time, [time[-1] - length + least, time[0] + length - least])
+    rows = np.concatenate([[last - 2, last - 1], np.arange(len(time)), [first, first + 1]])
+    turns = np.repeat([-1.0, 0.0, 1.0], [2, len(time), 2])
+    time, values = time[rows] + turns * length, values[rows]
     share = ((time[1:-1] - time[:-2]) / (time[2:] - time[:-2]))[:, None]  # of the later sample in a line
-    usual[1:-1] = (1.0 - share) * values[:-2] + share * values[2:]
-    off = values - usual
-    sign = np.sign(off[2:-2])
-    before, after = -off[1:-3] / share[:-2], -off[3:-1] / (1.0 - share[2:])
-    height = np.min([sign * off[2:-2], sign * before, sign * after], axis=0)
-    out[2:-2] = height > _least_spike(np.abs(off), SINGLE_SHARE * np.ptp(values, axis=0))
-    return out, usual
+    usual = (1.0 - share) * values[:-2] + share * values[2:]
+    off = values[1:-1] - usual
+    sign = np.sign(off[1:-1])
+    before, after = -off[:-2] / share[:-2], -off[2:] / (1.0 - share[2:])
+    height = np.min([sign * off[1:-1], sign * before, sign * after], axis=0)
+    out = height > _least_spike(np.abs(off), SINGLE_SHARE * np.ptp(values, axis=0))
+    beside = np.pad(height, ((1, 1), (0, 0)), mode="wrap")
+    return out & (height >= np.maximum(beside[:-2], beside[2:])), usual[1:-1]
 
 
 def _least_spike(off: FloatArray, share: FloatArray) -> FloatArray:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from html import escape
 from os import PathLike
 from pathlib import Path
@@ -67,6 +68,8 @@ class Study:
         is stored in the archive.
     design
         The design of its sample, or None.
+    told
+        What was warned of when it was read, such as spikes in a file: archives and reports keep it.
 
     Examples
     --------
@@ -87,6 +90,7 @@ class Study:
     figure: FigureLayout | None
     text: str
     design: Design | None = None
+    told: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Study {self.title!r}: {self._size}, rtol {self.rtol:g}>"
@@ -162,19 +166,33 @@ class Study:
         if not isinstance(text, str):
             raise refused("text", literal(text), "the text of a study file")
         raw = _parsed(text, source)
-        try:
-            study = study_from(raw, text, source, Path(folder))
-        except StudyError as error:
-            told = [mistake.key for mistake in error.mistakes]
-            forgotten = [
-                m for m in unused(raw, None, source) if not any(key.startswith(m.key) for key in told)
-            ]
-            raise StudyError([*forgotten, *error.mistakes]) from None
-        unused(raw, study.grid, source).refuse()
-        odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
-        for line in (*doubts(study.grid, "axes."), *odd):
-            warnings.warn(f"{source}: {line}", stacklevel=2)
-        return study
+        with _telling() as told:
+            try:
+                study = study_from(raw, text, source, Path(folder))
+            except StudyError as error:
+                keys = [mistake.key for mistake in error.mistakes]
+                unsaid = unused(raw, None, source)
+                forgotten = [m for m in unsaid if not any(key.startswith(m.key) for key in keys)]
+                raise StudyError([*forgotten, *error.mistakes]) from None
+            unused(raw, study.grid, source).refuse()
+            odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
+            for line in (*doubts(study.grid, "axes."), *odd):
+                warnings.warn(f"{source}: {line}", stacklevel=2)
+        return replace(study, told=tuple(told))
+
+
+@contextmanager
+def _telling() -> Iterator[list[str]]:
+    """Collect the words of warnings, which are warned of at the end."""
+    caught, words = [], list[str]()
+    try:
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            yield words
+    finally:
+        words += [str(each.message) for each in caught]
+        for each in caught:
+            warnings.warn(each.message, stacklevel=4)
 
 
 def tables_of(path: str | PathLike[str]) -> dict[str, Any]:

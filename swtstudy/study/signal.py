@@ -278,6 +278,11 @@ def signal_from(
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
+    # Cycles have less in common than what tells them apart, in each column: their mean is not the load.
+    kept = getattr(given, "keep_cycles", False)
+    if signal.count > 1 and not kept and np.all(signal.scatter > signal.mean_cycle.std(axis=0)):
+        found = f"{getattr(given, key):g}: its {signal.count} cycles differ by more than their mean moves"
+        raise refused(key, found, "that of the record; keep_cycles = true for single cycles")
     for line in _doubts(signal, key, given):  # without spikes, which are told already
         warnings.warn(f"{name}: {line}", stacklevel=2)
     return signal if given.despike else raw
@@ -303,10 +308,7 @@ def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
-    # Cycles have less in common than what tells them apart, in each column.
-    if np.all(signal.scatter > signal.mean_cycle.std(axis=0)):
-        yield f"its {count} cycles differ by more than their mean moves; is {key} right?"
-    elif abs(shift := cycles.drift(signal.cycles)) * count > MOST_DRIFT:
+    if abs(shift := cycles.drift(signal.cycles)) * count > MOST_DRIFT:
         found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
         late = "late" if shift > 0.0 else "early"
         yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"

@@ -197,7 +197,7 @@ def test_history_says_where_each_criterion_is_largest(called: Callable) -> None:
         "largest findley_stress = 250 MPa, findley_usage = 1.5 at id = 9, x = 1.5, z = 10⁻⁷",
         "deeper/stresses_lives.csv",
     ]
-    assert read == [(("deeper/stresses.csv",), {"order": "abaqus", "columns": {}})]
+    assert read == [(("deeper/stresses.csv",), {"order": "abaqus", "columns": {}, "encoding": None})]
     assert found == [(("table", "rig.toml", 2), {})]
     assert written[0][0][1] == Path("deeper/stresses_lives.csv")
     alone = POINTS[["SWT"]].isel(point=[0]).drop_vars(["id", "x", "z"])

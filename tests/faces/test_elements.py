@@ -13,6 +13,8 @@ from swtstudy import FatigueConstants, StudyError, evaluate_history, read_histor
 
 NU = 0.3
 NAMES = ("xx", "yy", "zz", "yz", "xz", "xy")
+#: Points that have other steps than one another.
+STEPS = ((1, 0), (1, 1), (1, 2), (2, 0), (2, 2), (2, 3))
 #: With E = 1 − ν² the SWT of stress_field is s.
 STUDY = """
 [units]
@@ -45,6 +47,7 @@ def study(folder: Path, material: str = STEEL, young: float = 2e5) -> Path:
     return folder / "rig.toml"
 
 
+@pytest.mark.filterwarnings("ignore:stresses up to")
 def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
     """In either order of the components, and by the command."""
     parameters = {"friction": 0.4, "phase": 1.0}
@@ -134,6 +137,10 @@ def test_a_single_point_needs_no_place(tmp_path: Path) -> None:
     [
         ("id,xx,yy,zz,yz,xz,xy\n1,0,0,0,0,0,0\n", "the columns id, xx, .*; allowed: a header with step"),
         ("step,xx,yy,zz,yz,xz,xy\n0,0,0,0,0,0,-\n", "line 2, xy: found '-'"),
+        (
+            f"id,step,xx,yy,zz,yz,xz,xy\n{''.join(f'{k},{step},0,0,0,0,0,0' + chr(10) for k, step in STEPS)}",
+            "other steps at the point 2 than at 1; allowed: the same steps at each point",
+        ),
     ],
 )
 def test_wrong_tables_are_named(tmp_path: Path, table: str, words: str) -> None:
@@ -252,6 +259,9 @@ def test_other_headers_have_units_and_places_of_their_own(tmp_path: Path) -> Non
     history = read_history(tmp_path / "other.csv", order="abaqus")
     assert history.stress.attrs == {"units": "Pa"}
     assert history.stress.values[0].tolist() == [[1, 2, 3, k, 5, 4] for k in (6e6, 7e6)]
+    (tmp_path / "other.csv").write_text("\n".join(f"Mises,{row}" for row in rows))
+    with pytest.raises(StudyError, match=r"Mises, a \[Pa\], .*; allowed: six columns of components beside"):
+        read_history(tmp_path / "other.csv", order="abaqus")
     (tmp_path / "other.csv").write_text("\n".join(row.partition(",")[2] for row in rows))
     with pytest.raises(StudyError, match=r"found .*; allowed: six columns of components beside step"):
         read_history(tmp_path / "other.csv", order="abaqus")
@@ -284,12 +294,48 @@ def test_headers_say_the_components(tmp_path: Path, headers: str, places: list[i
         read_history(file)
 
 
+def test_an_id_of_each_row_is_told(tmp_path: Path) -> None:
+    rows = ["id,step,xx,yy,zz,yz,xz,xy", *(f"{k},{k},{100 * k},0,0,0,0,0" for k in range(3))]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows))
+    with pytest.warns(UserWarning, match="one step at each point, .* have the same id"):
+        read_history(tmp_path / "stresses.csv")
+
+
+def test_coordinates_of_two_kinds_are_no_components(tmp_path: Path) -> None:
+    rows = ["step,x1,y1,z1,T,xx,yy,zz,yz,xz,xy", *(f"{step},9,9,9,20,1,2,3,4,5,6" for step in (0, 1))]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows))
+    assert read_history(tmp_path / "stresses.csv").stress.values.tolist() == [[[1, 2, 3, 4, 5, 6]] * 2]
+
+
 def test_the_command_takes_other_headers(tmp_path: Path) -> None:
     rows = ["Frame,Node,a,b,c,d,e,f", *(f"{step},7,{100 * step},0,0,0,0,0" for step in (0, 1))]
     (tmp_path / "stresses.csv").write_text("\n".join(rows))
     own = "history", study(tmp_path), tmp_path / "stresses.csv", "--order", "ansys"
     assert "largest SWT = 0.025 MPa" in call(*own, "--column", "step=Frame", "--column", "id = Node").stdout
     assert "--column: found 'step'; allowed: a name and a header" in call(*own, "--column", "step").output
+
+
+def test_the_command_takes_other_encodings_and_units(tmp_path: Path) -> None:
+    """Stresses of a size that no metal has are in another unit."""
+    rows = ["Node Label,Frame,Größe,SX,SY,SZ,SXY,SYZ,SXZ"]
+    rows += [f"7,{step},1,{1e8 * step},0,0,0,0,0" for step in (0, 1)]
+    (tmp_path / "stresses.csv").write_text("\n".join(rows), "latin-1")
+    own = "history", study(tmp_path), tmp_path / "stresses.csv", "--encoding", "latin-1"
+    assert "largest SWT = 0.025 MPa" in call(*own, "--unit", "Pa").stdout
+    with pytest.warns(UserWarning, match=r"stresses up to 1e\+08 MPa are 500 of young_modulus: are they in"):
+        call(*own)
+    assert "--unit: found 'kPsi'; allowed: one of Pa, " in call(*own, "--unit", "kPsi").output
+
+
+def test_labels_of_nodes_and_elements_are_ids_where_there_is_one(tmp_path: Path) -> None:
+    rows = ["Element Label,Step,xx,yy,zz,yz,xz,xy", "7,0,0,0,0,0,0,0", "7,1,1,0,0,0,0,0"]
+    (tmp_path / "one.csv").write_text("\n".join(rows))
+    assert read_history(tmp_path / "one.csv").id.values.tolist() == ["7"]
+    both = [f"{node},{row}" for node, row in zip(("Node", "1", "1"), rows, strict=True)]
+    (tmp_path / "both.csv").write_text("\n".join(both))
+    assert "id" not in read_history(tmp_path / "both.csv").coords
+    named = read_history(tmp_path / "both.csv", columns={"id": "Node"})
+    assert named.id.values.tolist() == ["1"]
 
 
 def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
@@ -299,10 +345,18 @@ def test_an_axis_is_not_a_property_of_a_history(tmp_path: Path) -> None:
         evaluate_history(_written(tmp_path, np.zeros((1, 2, 6))), rig)
 
 
-@pytest.mark.parametrize(("shift", "words"), [(1e-3, "one step at each point"), (1e-12, "a millionth apart")])
-def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float, words: str) -> None:
+@pytest.mark.parametrize("shift", [1e-3, 1e-12])
+def test_coordinates_that_change_from_step_to_step_are_told(tmp_path: Path, shift: float) -> None:
+    """All steps at places of their own, and steps at one of two places."""
     count = 4 if shift > 1e-6 else 2
     rows = [f"{1.0 + shift * (step % count)!r},0,0,{step},{step},0,0,0,0,0" for step in range(4)]
     (tmp_path / "moves.csv").write_text("\n".join(["x,y,z,step,xx,yy,zz,yz,xz,xy", *rows]))
-    with pytest.warns(UserWarning, match=f"{words}.*a column id keeps the steps of a point together"):
+    words = "rows of one point have the same id, whatever its coordinates"
+    if count == 4:
+        with pytest.warns(UserWarning, match=f"one step at each point, which is no load cycle: {words}"):
+            read_history(tmp_path / "moves.csv")
+        return
+    with pytest.raises(
+        StudyError, match=rf"found other steps at the point \(1.0\d+1, 0.0, 0.0\) .*; {words}"
+    ):
         read_history(tmp_path / "moves.csv")

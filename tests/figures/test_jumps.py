@@ -218,6 +218,20 @@ def test_a_map_of_a_ratio_is_pale_where_it_is_1() -> None:
     assert max(luminance(mesh.to_rgba(end)[:3]) for end in mesh.get_clim()) < 0.15
 
 
+@pytest.mark.parametrize("over", [("phase",), ()])
+def test_a_line_breaks_where_the_stick_zone_is_of_another_model(over: tuple[str, ...]) -> None:
+    dataset = made_up(lambda phase: np.cos(phase), phase=X)
+    zone = np.where(X < 2.0, 1, 0).astype("i1") if over else np.int8(1)
+    dataset["stick_zone"] = over, zone
+    line, *marks = draw(dataset, keys("phase")).axes[0].lines
+    assert int(np.isnan(line.get_ydata()).sum()) == len(marks) == len(over)
+    for mark in marks:
+        assert np.searchsorted(X, mark.get_xdata()).tolist() == [
+            int(np.argmax(X >= 2.0)) - 1,
+            int(np.argmax(X >= 2.0)),
+        ]
+
+
 def test_a_steep_first_step_of_few_is_no_jump() -> None:
     """Lives that saturate, after lives without end or from the first point on."""
     for before in ([], [np.inf, np.inf]):

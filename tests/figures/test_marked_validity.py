@@ -40,7 +40,7 @@ def marks(axes, words):
 def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
     layout = keys("tangential_amplitude", "friction", y=("cycles",), kind=kind, validity=True)
     axes = draw(results, layout).axes[0]
-    bands = marks(axes, "outside: first yield, known lives")
+    bands = marks(axes, "outside: first yield, extrapolated life")
     assert len(bands) == len(FRICTION)
     for band, row in zip(bands, BEYOND | LONG, strict=True):
         x = np.asarray(band.get_ydata() if kind == "life" else band.get_xdata())
@@ -51,7 +51,7 @@ def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
         assert (x[1::2] != x[::2]).all()
         assert band.get_zorder() < min(line.get_zorder() for line in axes.lines if line not in bands)
     plain = draw(results, keys("tangential_amplitude", "friction", y=("cycles",), kind=kind))
-    assert not marks(plain.axes[0], "outside: first yield, known lives")
+    assert not marks(plain.axes[0], "outside: first yield, extrapolated life")
 
 
 def test_nothing_outside_has_no_mark(results):

@@ -114,6 +114,19 @@ def test_no_plane_of_a_dense_grid_is_higher(kind, criterion):
         assert np.isnan(normal).all()
 
 
+@pytest.mark.filterwarnings("ignore:the search over planes ended early")
+@pytest.mark.parametrize("k", [0.01, 0.1, 0.3, 1.0, 3.0])
+@pytest.mark.parametrize("swing", [1e-4, 1e-2, 0.1, 0.3])
+def test_findley_under_compression_has_a_ring_of_equal_planes(k, swing):
+    """Of a stress -1 ± swing along x: all planes at one angle to x are alike, and nearly along it."""
+    history = np.zeros((2, 6))
+    history[:, 0] = -1.0 - swing, -1.0 + swing
+    value, normal = swtstudy.criterion_of_history(history, "findley", k)
+    pull = k * (1.0 - swing)
+    assert value == pytest.approx(0.5 * swing**2 / (np.hypot(swing, pull) + pull), rel=1e-5)
+    assert abs(normal[0]) == pytest.approx(np.sqrt(0.5 - 0.5 * pull / np.hypot(swing, pull)), rel=1e-3)
+
+
 @pytest.mark.parametrize("unit", [1e-9, 1.0, 1e9])
 def test_the_unit_of_stress_does_not_matter(unit):
     """Also where a stress to a high power would leave the range of floats."""

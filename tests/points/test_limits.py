@@ -34,7 +34,7 @@ TOO_LARGE = "shift of the stick zone by bulk strain too large to be left out at 
 TOO_LARGE += f" up to 0.2, limit 0.1, at phase = 1{TOO_LOW}for Q ≥ 0.2 μP"
 SHIFT_WORDS = "stick-zone shift at 1 of 3 points (0.2 of the slip zone)"
 UNKNOWN = "shift of the stick zone by bulk strain unknown at 1 of 3 points"
-MOVED = "stick zone moved by the bulk stress at 1 of 3 points, left in place at 1 of 3 points"
+MOVED = "stick zone left in place at 1 of 3 points, moved by the bulk stress at 1 of 3 points"
 ROUGHLY = "stick zone moved approximately at 1 of 3 points: the rise of the stress at the edge in tension is "
 ROUGHLY += "right within 4 %"
 LOST = "no equilibrium at 2 of 3 points"
@@ -236,7 +236,7 @@ def test_which_values_are_outside() -> None:
     for name, expected, words in (
         ("s", [True, True, True], everything),
         ("s_surface", [False, True, True], "outside: first yield, slide"),
-        ("cycles", [[True] * 3, [True] * 3], f"{everything}, known lives"),
+        ("cycles", [[True] * 3, [True] * 3], f"{everything}, extrapolated life"),
         ("worst", True, everything),
     ):
         told = outside(found, found[name])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from oracles import hertz
-from scenes import each_profile, random_points
+from scenes import PROFILE_NAMES, each_profile, random_points
 from scipy.integrate import simpson
 from told import refused
 
@@ -390,3 +390,32 @@ def test_both_loads_turn_at_nearly_one_instant(beside: float) -> None:
         for phase in (given["phase"], 0.375 * np.pi)
     )
     np.testing.assert_allclose(found, at_once, rtol=1e-3, atol=1e-8)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:the search over planes ended early")
+def test_fields_of_swt_are_as_near_as_said():
+    """At places in and beneath the surface, near edges of the contact and far from it."""
+    rng, names = np.random.default_rng(5), ("poisson_ratio", "friction", "phase")
+    missing, sizes = [], []
+    for profile in PROFILE_NAMES:
+        for point in range(80):
+            batch = random_points(100 + point, 1, profile, 3)
+            given = {name: float(getattr(batch, name)[0]) for name in (*names, "tangential_amplitude")}
+            given |= {"frequency_ratio": Fraction(int(batch.p[0]), int(batch.q[0])), "profile": profile}
+            given |= {name: float(values[0]) for name, values in batch.shape.items()}
+            given |= {"normal_amplitude": float(batch.normal_amplitude[0])}
+            near = rng.choice([-1.0, 1.0], (3, 6)) * 10.0 ** rng.uniform(-4.0, 1.0, (3, 6))
+            x, y, z = np.where(rng.random((3, 6)) < 0.5, rng.normal(size=(3, 6)), near)
+            places = [xr.DataArray(each, dims="place") for each in (x, y * (rng.random(6) < 0.5), abs(z))]
+            stress = swtstudy.stress_field(*places, **given).transpose("instant", "place")
+            known = swt_of(stress, given["poisson_ratio"])
+            found = swtstudy.swt_field(*places, **given).s_local.values
+            largest = max(float(abs(stress[name]).max()) for name in stress if name != "contact_radius")
+            sizes.append(known / largest**2)
+            missing.append(1.0 - found / np.maximum(known, 1e-300))
+    missing, sizes = np.ravel(missing), np.ravel(sizes)
+    counted = sizes > 1e-9
+    assert counted.sum() > 1000
+    assert (missing[counted] < 1e-3).mean() > 0.99
+    assert missing[sizes > 1e-3].max() < 0.01

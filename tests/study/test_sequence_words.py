@@ -56,6 +56,14 @@ def at_points(*values: float) -> xr.DataArray:
             f"{ROUNDS}: no crack; repeated 30 to 40 times to a crack{FS}; running does 75% of the damage",
         ),
         ({"FS_repetitions": at_points(INF, INF), "FS_damage_share": SHARES}, f"{ROUNDS}: no crack{FS}"),
+        (
+            {
+                "repetitions": at_points(20.0, 30.0),
+                "damage_share": SHARES[:, 0].drop_vars("load"),
+                "repetitions_volume": at_points(4e3, INF),
+            },
+            f"{ROUNDS}, repeated 20 to 30 times to a crack (worst point), 4000 (mean over a volume)",
+        ),
     ],
 )
 def test_words_on_a_sequence(variables: dict[str, Any], words: str) -> None:
@@ -71,3 +79,10 @@ def test_each_criterion_has_its_own_points() -> None:
     found = xr.Dataset({"repetitions": times, "damage_share": shares})
     words = "repeated 20 to 30 times to a crack; running does 75% of the damage"
     assert sequence_words(found, BLOCKS) == f"{ROUNDS}, {words}"
+
+
+def test_many_blocks_are_counted() -> None:
+    found = xr.Dataset({"repetitions": at_points(20.0), "damage_share": SHARES[:1, 0].drop_vars("load")})
+    blocks = [Block(f"rig {k}", 1.0) for k in range(1, 8)]
+    assert sequence_words(found, blocks) == "7, the first of rig 1, repeated 20 times to a crack"
+    assert sequence_words(found, blocks[:6]).startswith("1 of rig 1, 1 of rig 2, 1 of rig 3, 1 of rig 4")

@@ -131,6 +131,19 @@ def test_a_period_in_time_folds_a_record_that_ends_within_a_cycle(tmp_path: Path
     assert fit.mean_normal == pytest.approx(200.0, abs=1e-9)
 
 
+@pytest.mark.parametrize(("recorded_cycles", "is_told"), [(20, False), (7, True), (21, True)])
+def test_cycles_that_are_no_cycles_are_refused(tmp_path: Path, recorded_cycles: int, is_told: bool) -> None:
+    """Folded at a wrong period loads vanish from the mean; a constant one leaves noise at the right one."""
+    noise = np.random.default_rng(1).normal(size=(8000, 3)) * [2.0, 0.6, 0.3]
+    signal = smooth(2.0 * np.pi * np.arange(8000) / 400) * [0.0, 1.0, 1.0] + noise
+    write(tmp_path / "rig.csv", signal, "normal,tangential,bulk")
+    if is_told:
+        words = f"recorded_cycles: found {recorded_cycles}: its {recorded_cycles} cycles differ by more than"
+        refused(words, read_signal, tmp_path / "rig.csv", recorded_cycles=recorded_cycles)
+    else:
+        assert told_of(tmp_path / "rig.csv", recorded_cycles=recorded_cycles) == []
+
+
 @pytest.mark.parametrize(
     ("given", "words"),
     [
@@ -313,6 +326,24 @@ def test_a_single_spike_is_told_in_any_number_of_cycles(cycles: int, height: flo
     # A phase of 2π/200 changes the load by 2 N, the noise by three times 0.5 N.
     np.testing.assert_allclose(found.values, expected.values, atol=3.5)
     assert np.count_nonzero(found.values != expected.values) == 1
+
+
+@pytest.mark.parametrize("cycles", [1, 2])
+@pytest.mark.parametrize("shape", ["trapezoid", "triangle", "sine"])
+def test_a_spike_anywhere_leaves_the_samples_beside_it(shape: str, cycles: int, tmp_path: Path) -> None:
+    """The first and the last sample, too: a cycle goes on with itself."""
+    phase = 2.0 * np.pi * np.arange(40 * cycles) / 40 + 0.2
+    steep = {"trapezoid": np.clip(3.0 * np.sin(phase), -1.0, 1.0), "sine": np.sin(phase)}
+    clean = 60.0 * steep.get(shape, 2.0 / np.pi * np.arcsin(np.sin(phase)))
+    for place in [*range(0, len(clean), 1 if (shape, cycles) == ("trapezoid", 1) else 7), len(clean) - 1]:
+        spoilt = clean.copy()
+        spoilt[place] += 300.0 if place % 2 else -300.0
+        write(tmp_path / "rig.csv", np.stack([20.0 * np.cos(phase), spoilt], axis=1), "normal,tangential")
+        with pytest.warns(UserWarning, match="rig: 1 spike replaced, tangential"):
+            found = read_signal(tmp_path / "rig.csv", recorded_cycles=cycles, despike=True).values[:, 1]
+        assert np.flatnonzero(found != spoilt).tolist() == [place]
+        # A corner of the trapezoid is off the line beside it by half of a step.
+        assert abs(found[place] - clean[place]) < 15.0
 
 
 def test_sharp_tips_steps_and_pulses_of_every_cycle_are_no_spikes(tmp_path: Path) -> None:

@@ -343,7 +343,7 @@ def _check_range(grid: PhysicalGrid, column: str, report: Report) -> None:
         source = "bulk_stress_ratio"
     low, high = (values < row.lower).values, ~(values <= row.upper).values
     wrong = low | high | ((values == row.lower).values & row.open_lower & bool(grid.values(source)))
-    if column in SHAPE_COLUMNS and row.open_lower:
+    if column in SHAPE_COLUMNS:
         wrong &= values.values != 0.0  # the profile has none of it
     if not wrong.any() or not row.scale:
         return

@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 #: Facts that an archive has even where there are none; others are left out then.
 _ALWAYS = ("pairs", "materials", "similar", "bulk_stress_body")
+#: More blocks than these are not named one by one.
+MOST_BLOCKS = 6
 #: Most lives in memory at once.
 _AT_ONCE = 1_000_000
 #: Comments of data variables by their kinds, and of lives without counted cycles.
@@ -199,10 +201,12 @@ def _of_blocks(life: xr.DataArray, kind: str, grid: PhysicalGrid) -> xr.DataArra
 def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     """Say how often a sequence is repeated to a crack, and which load does most of the damage.
 
-    By each criterion that has lives, without means over a critical distance, at the worst place; empty if
-    there are none.
+    By each criterion that has lives, at the worst place, and by the mean over a volume where that is known;
+    empty if there are none.
     """
     rounds = ", ".join(f"{number_words(each.rounds)} of {each.load}" for each in blocks)
+    if len(blocks) > MOST_BLOCKS:
+        rounds = f"{len(blocks)}, the first of {blocks[0].load}"
     several = []
     for row in CRITERIA.values() if rounds else ():
         start = row.life.removesuffix(LIFE)
@@ -216,8 +220,10 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
         if not known.size:
             several.append(f"no crack{by}")
             continue
-        ends = dict.fromkeys(numbers_words((known.min(), known.max()), 2))
-        words = f"repeated {' to '.join(ends)} times to a crack{by}"
+        words = f"repeated {_ends(known)} times to a crack{by}"
+        means = dataset.get(f"{start}{REPETITIONS}_volume", xr.DataArray([])).values
+        if np.isfinite(means).any():
+            words += f" (worst point), {_ends(means[np.isfinite(means)])} (mean over a volume)"
         if lost := times.size - known.size:
             words += f", unknown at {lost} of {times.size} points"
         share = shares.isel(index_at(times, int(np.nanargmin(times.values))))
@@ -228,6 +234,11 @@ def sequence_words(dataset: xr.Dataset, blocks: Sequence[Block]) -> str:
     if not several:
         return ""
     return f"{rounds}{':' if several[0].startswith('no crack') else ','} {'; '.join(several)}"
+
+
+def _ends(values: FloatArray) -> str:
+    """The least and the largest of some numbers, in words."""
+    return " to ".join(dict.fromkeys(numbers_words((values.min(), values.max()), 2)))
 
 
 def _ranks(curve: LifeCurve, values: FloatArray, counted: list[FloatArray], target: float) -> FloatArray:
