@@ -68,6 +68,8 @@ def without(*names: str) -> Callable:
     return lambda dataset: dataset.drop_vars(names)
 
 
+DEEP = "[" * 100_000 + "]" * 100_000
+RUN = '[{"solver_version": "3", "rtol": "1e-3", "study": "", "versions": ""}]'
 CHANGES: list[tuple[str, Callable, str]] = [
     ("plain", lambda found: found, ("")),
     (
@@ -429,6 +431,31 @@ CHANGES: list[tuple[str, Callable, str]] = [
         lambda found: found.assign(mine=found.s).assign_attrs(figure='{"x": "phase", "y": ["mine"]}'),
         'attribute figure: found \'{"x": "phase", "y": ["mine"]}\' (\'mine\' is not a quantity); '
         "allowed: JSON as swtstudy writes it",
+    ),
+    *(
+        ("plain", attribute(value, name), f"attribute {name}: found {value}; allowed: a text")
+        for name, value in (("history", 3), ("study", 1.5), ("versions", 1.5))
+    ),
+    *(
+        (
+            "plain",
+            attribute(value, name),
+            f"attribute {name}: found {words}; allowed: JSON as swtstudy writes it",
+        )
+        for name, value, words in (
+            ("figure", 3, "3 (JSON input should be string, bytes or bytearray)"),
+            ("figure", '{"x": null}', """'{"x": null}' (x: Input should be a valid string)"""),
+            (
+                "figure",
+                '{"x": "phase", "y": ["s"], "kind": ["lines"]}',
+                """'{"x": "phase", "y": ["s"], "kind": ["lines"]}' (kind: Input should be a valid string)""",
+            ),
+            ("runs", DEEP, f"'{DEEP[:58]}… (Invalid JSON: recursion limit exceeded at line 1 column 202)"),
+            ("runs", "[1]", "'[1]' (0: Input should be an object)"),
+            ("runs", "no", "'no' (Invalid JSON: expected ident at line 1 column 2)"),
+            ("runs", RUN, f"'{RUN[:58]}… (0: rtol: Input should be a valid number)"),
+            ("runs", '[{"rtol": 1e-3}]', """'[{"rtol": 1e-3}]' (0: solver_version: Field required)"""),
+        )
     ),
 ]
 

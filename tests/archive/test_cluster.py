@@ -58,23 +58,6 @@ def test_a_cluster_that_loses_a_worker_gives_what_one_process_gives(client, tmp_
     xr.testing.assert_equal(dataset.drop_vars("run"), expected.drop_vars("run"))
 
 
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        (
-            "import swtstudy.vocabulary.version as v; v.SOLVER_VERSION = 'other'",
-            "has version other of the solver",
-        ),
-        ("sys.modules['swtstudy.points.chunk'] = None", "cannot solve anything .*swtstudy.points.chunk"),
-    ],
-)
-def test_workers_that_do_not_fit_are_refused_in_one_line(client, tmp_path, change, words):
-    client.run(exec, f"import sys; {change}")
-    with pytest.raises(OSError, match=f"a worker {words}.*; 0 of 400 distinct points are saved") as error:
-        run(Study.from_text(WIDE), tmp_path / "there.nc", client=client, solver=stand_in.smooth)
-    assert "\n" not in str(error.value)
-
-
 def test_a_point_that_kills_the_workers_of_a_cluster_fails(client, tmp_path):
     study = Study.from_text('title = "t"\n[fixed]\nfriction = 0.3')
     client.run_on_scheduler(lambda dask_scheduler: setattr(dask_scheduler, "allowed_failures", 0))

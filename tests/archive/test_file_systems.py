@@ -124,16 +124,6 @@ def test_results_of_solve_are_no_archive(tmp_path):
         open_results(tmp_path / "s.nc")
 
 
-def test_archives_and_studies_are_told_apart(tmp_path):
-    run(STUDY, tmp_path / "t.nc", solver=stand_in.smooth)
-    (tmp_path / "t.toml").write_text('title = "t"\n')
-    found = call("info", tmp_path / "t.toml")
-    assert "t.toml: a study, not an archive; swtstudy run" in found.stderr
-    assert found.exit_code == 2
-    found = call("sensitivity", tmp_path / "t.nc")
-    assert "t.nc: found an archive; allowed: a readable study file (TOML)" in found.stderr
-
-
 @pytest.mark.parametrize("encoding", ["cp1252", "cp437"])
 @pytest.mark.parametrize(
     "words", [("--help",), ("list",), ("schema",), ("solve", "--help"), ("validate", "figure3")]

@@ -44,13 +44,6 @@ def test_two_halves_are_the_whole(tmp_path):
     xr.testing.assert_equal(again, merged)
 
 
-def test_a_quantity_of_some_points_is_a_gap(tmp_path):
-    one = made(tmp_path, "one", [0.1], [0, 1], 'quantities = ["dissipation"]\n')
-    other = made(tmp_path, "other", [0.2], [0, 1])
-    with pytest.raises(ValueError, match=r"dissipation is known of some points .* but not of 2 others, such"):
-        merge(one, other)
-
-
 def test_what_neither_has_is_missing_and_a_fixed_value_becomes_an_axis(tmp_path):
     one = made(tmp_path, "one", [0.1], [0, 1], '[fixed]\nfrequency_ratio = "1/2"\n')
     other = made(tmp_path, "other", [0.2], [0, 1], "[fixed]\nfrequency_ratio = 1\n")

@@ -1,6 +1,5 @@
 import json
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -65,9 +64,6 @@ def test_run_leaves_archive_and_figures(study, tmp_path):
     assert {path.name for path in (tmp_path / "results").iterdir()} == {"small.nc", "small.png", "small.svg"}
     dataset = swtstudy.open_results(tmp_path / "results" / "small.nc")
     assert (dataset.s > 0).all()
-    assert f"{dataset.s.size} points in " in result.output
-    again = call("run", study, "--results", tmp_path / "results")
-    assert f"{dataset.s.size} points already computed" in again.output
 
 
 def test_plot_needs_the_archive_alone(ran):
@@ -84,10 +80,6 @@ def merged(tmp_path_factory):
         text = f'title = "t"\naxes.phase = [0, 1, 2]\nfixed.friction = {friction}\n'
         run(Study.from_text(text), tmp_path / f"{friction}.nc", solver=stand_in.smooth)
     assert call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", tmp_path / "both.nc").exit_code == 0
-    (study := tmp_path / "mine.toml").write_text("kept")
-    refused = call("merge", tmp_path / "0.1.nc", tmp_path / "0.2.nc", "-o", study)
-    assert "allowed: a file that ends with .nc" in refused.output
-    assert study.read_text() == "kept"
     return tmp_path / "both.nc"
 
 
@@ -159,14 +151,6 @@ def test_plot_says_what_an_unfinished_archive_lacks(ran):
     assert result.stdout == f"{archive.with_suffix('.png')}\n"
 
 
-def test_solve_prints_a_table():
-    result = call("solve", "--phase", "0, pi/2", "--rtol", "1e-2")
-    assert result.exit_code == 0, result.output
-    lines = result.output.splitlines()
-    assert lines[0].split("\t")[:3] == ["phase", "s", "s_error"]
-    assert len(lines) == 3
-
-
 def test_a_study_without_finite_values_says_so(tmp_path):
     path = tmp_path / "edge.toml"
     path.write_text(
@@ -192,15 +176,7 @@ def test_a_style_is_the_users(ran, tmp_path):
     assert len(result.stderr.splitlines()) == 1
 
 
-@pytest.mark.parametrize(
-    ("typed", "meant"),
-    [
-        ("--mu", "--friction"),
-        ("--psi=0", "--phase"),
-        ("--frictoin", "--friction"),
-        ("--u-a", "--tangential-amplitude"),
-    ],
-)
+@pytest.mark.parametrize(("typed", "meant"), [("--psi=0", "--phase"), ("--u-a", "--tangential-amplitude")])
 def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
     result = call("solve", typed)
     assert result.exit_code == 2
@@ -208,120 +184,33 @@ def test_an_unknown_option_names_the_one_that_was_meant(typed, meant):
     assert f"'{typed.removesuffix('=0')}'. Did you mean '{meant}'?" in result.stderr
 
 
-@pytest.mark.parametrize(
-    ("arguments", "line"),
-    [
-        (
-            ["solve", "--friction", "0.3", "--friction=0.6"],
-            "--friction: found 2 times; allowed: once, with values separated by commas",
-        ),
-        (["show", "--phase", "0", "--phase", "0"], "--phase: found 2 times; allowed: once"),
-        (["show", "-o", "a.png", "--output", "b.png"], "--output: found 2 times; allowed: once"),
-        (["run", "figure3", "--workers", "1", "--workers", "2"], "--workers: found 2 times; allowed: once"),
-        (["schema", "-o", "a.json", "-o", "b.json"], "--output: found 2 times; allowed: once"),
-    ],
-)
-def test_an_option_given_twice_is_refused(tmp_path, monkeypatch, arguments, line):
+def test_an_option_given_twice_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    result = call(*arguments)
+    result = call("show", "-o", "a.png", "--output", "b.png")
     assert result.exit_code == 2
-    assert result.stderr == f"Error: {line}\n"
+    assert result.stderr == "Error: --output: found 2 times; allowed: once\n"
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.slow
-def test_show_draws_one_point(tmp_path):
-    target = tmp_path / "point.pdf"
-    result = call("show", "--phase", "pi/6", "--frequency-ratio", "3/2", "-o", target)
-    assert result.exit_code == 0, result.output
-    assert target.read_bytes().startswith(b"%PDF")
-    assert "phase: found '0,1'" in call("show", "--phase", "0,1").stderr
-    assert "found .docx; allowed: .png" in call("show", "-o", tmp_path / "point.docx").stderr
-
-
-@pytest.mark.slow
-def test_a_picture_for_a_column_that_is_higher_than_a_page_says_so_beside_its_path(tmp_path):
-    target = tmp_path / "point.svg"
-    result = call("show", "--width", "column", "-o", target)
-    assert result.stdout == f"{target}\n"
-    said = r"point\.svg is \d+ cm high, more than a page: --width page draws it lower"
-    assert re.search(said, result.stderr)
-    assert "cm high" not in call("show", "--width", "page", "-o", target).stderr
-
-
-@pytest.mark.slow
-def test_show_draws_a_profile_alone(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    drawn = []
-    own = swtstudy.draw_profile
-    monkeypatch.setattr("swtstudy.draw_profile", lambda **given: drawn.append(given) or own(**given))
-    rows = "".join(f"{r / 10},{(r / 10) ** 2 / 2}\n" for r in range(20))
-    Path("worn.csv").write_text(f"radius,height\n{rows}")
-    for words in (["rounded_punch", "--flat-radius", "0.5"], ["worn.csv"]):
-        result = call("show", "--profile", *words, "-o", "profile.svg")
-        assert result.exit_code == 0, result.output
-        assert "<svg" in Path("profile.svg").read_text()
-    assert drawn[0]["flat_radius"] == "0.5"
-    assert drawn[1]["profile"].name == "worn"
-    assert call("show", "--profile", "rounded_punch", "--flat-radius", "0.5", "--phase", "1").exit_code == 0
-    assert len(drawn) == 2
-    # Of a study its shape alone, whatever else is fixed there.
-    Path("own.toml").write_text('title = "t"\n[fixed]\nfriction = 0.4\n[axes]\nphase = [0, 1]\n')
-    words = ("own.toml", "--profile", "rounded_punch", "--flat-radius", "0.5", "-o", "profile.svg")
-    result = call("show", *words)
-    assert result.exit_code == 0, result.output
-    assert drawn[2]["flat_radius"] == 0.5
-    assert "friction" not in drawn[2]
-    assert "flat_radius: found nothing" in call("show", "--profile", "rounded_punch").stderr
-
-
-def test_plan_counts_and_writes_nothing(study, finished, tmp_path):
+def test_plan_writes_nothing(study, tmp_path):
     result = call("plan", study, "--results", tmp_path / "results")
     assert result.exit_code == 0, result.output
-    assert "points             18\n" in result.output
-    assert "distinct points    8 (10 saved by symmetry)" in result.output
-    assert "to be computed     8" in result.output
-    assert re.search(r"from \d+ points? timed", result.output)
     assert not (tmp_path / "results").exists()
-    study.write_text(study.read_text().replace("hue =", "panels ="))
-    done = call("plan", study, "--results", finished).output
-    assert "points             18 in 2 panels" in done
-    assert "already computed   8" in done
 
 
 @pytest.mark.parametrize(
     ("seconds", "parts", "words"),
     [
         (0.04, 1, "0.0 s"),
-        (9.9, 1, "9.9 s"),
-        (10, 1, "10 s"),
         # Only workers that have something to do count.
         (10, 2, "5.0 s"),
         (10, 9, "5.0 s"),
-        (59.4, 1, "59 s"),
-        (59.6, 1, "1 min 0 s"),
-        (3599, 1, "59 min 59 s"),
-        (3600, 1, "1 h 0 min"),
-        (7379, 1, "2 h 2 min"),
         (360_000, 1, "100 h 0 min"),
     ],
 )
 def test_plan_tells_the_time_of_the_workers(study, tmp_path, monkeypatch, seconds, parts, words):
     monkeypatch.setattr("swtstudy.archive.work.estimate", lambda work, rtol: (seconds, 1, parts))
     assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
-
-
-def test_info_says_what_an_archive_is(finished):
-    result = call("info", finished / "small.nc")
-    assert result.exit_code == 0, result.output
-    for words in (
-        "A small study",
-        "18 computed",
-        "rtol 0.001",
-        "solver version",
-        "normal_amplitude: 0.25, 8/9",
-    ):
-        assert words in result.output
 
 
 def test_a_reader_that_has_enough_is_no_mistake():
@@ -349,36 +238,13 @@ def test_merge_keeps_what_another_archive_in_its_place_had(merged, tmp_path):
     np.testing.assert_allclose(again.s, before.s, rtol=1e-12)
 
 
-def test_merge_leaves_gaps_only_when_told(tmp_path):
-    for name, axis in (("one", "friction = [0.1, 0.2]"), ("two", "phase = [1, 2, 3]")):
-        (tmp_path / f"{name}.toml").write_text(f'title = "t"\nrtol = 1e-2\naxes.{axis}\n')
-        assert call("run", tmp_path / f"{name}.toml", "--results", tmp_path).exit_code == 0
-    arguments = ("merge", tmp_path / "one.nc", tmp_path / "two.nc", "-o", tmp_path / "merged.nc")
-    result = call(*arguments)
-    assert result.exit_code == 2
-    assert "7 of 12 points in none of them" in result.stderr
-    assert "--sparse" in result.stderr
-    assert not (tmp_path / "merged.nc").exists()
-    result = call(*arguments, "--sparse")
-    assert result.exit_code == 0, result.output
-    assert "12 points, 7 of them missing" in result.output
-
-
-def test_failed_points_give_exit_code_3(study, tmp_path, monkeypatch):
+def test_failed_points_are_recomputed_if_asked(study, tmp_path, monkeypatch):
     study.write_text(
         study.read_text().replace("[axes]", "[axes]\nfriction = [0.2, 0.3]\n").split("[figure]")[0]
     )
     monkeypatch.setattr(stand_in.SOLVER, partial(stand_in.fail_at, 0.2))
     result = call("run", study, "--results", tmp_path)
     assert result.exit_code == 3
-    failed = [line for line in result.stderr.splitlines() if line.startswith("failed: ")]
-    # Beyond the first five they are counted.
-    assert len(failed) == 6
-    assert all(
-        "friction=0.2" in line and "ZeroDivisionError: an injected failure" in line for line in failed[:5]
-    )
-    assert failed[5] == f"failed: 13 more, see swtstudy info {tmp_path / 'small.nc'}"
-    assert "18 points failed; --retry-failed recomputes them" in result.stderr
     monkeypatch.setattr(stand_in.SOLVER, stand_in.smooth)
     assert call("run", study, "--results", tmp_path).exit_code == 3
     assert call("run", study, "--results", tmp_path, "--retry-failed").exit_code == 0
@@ -437,24 +303,14 @@ def test_the_studies_of_the_paper_are_valid(path):
     assert "valid" in result.output
 
 
-@pytest.mark.parametrize(
-    ("text", "lines"),
-    [
-        ('title = "t"\n[fixed]\nfriction = nan', 1),
-        ('title = "t"\n[fixed]\nfriction = -1\npoisson_ratio = 0.7', 2),
-        ('title = "t"\n[fixed]\nfrequency_ratio = "3/0"', 1),
-        ('title = "t"\n[fixed]\nfrequency_ratio = "pi"', 1),
-        ('title = "t"\n[axes]\nfrction = [1, 2]', 1),
-    ],
-)
 @pytest.mark.parametrize("command", ["run", "validate"])
-def test_bad_studies_end_with_a_line_each(tmp_path, monkeypatch, command, text, lines):
+def test_each_mistake_in_a_study_is_a_line(tmp_path, monkeypatch, command):
     monkeypatch.chdir(tmp_path)
     path = tmp_path / "bad.toml"
-    path.write_text(text)
+    path.write_text('title = "t"\n[fixed]\nfriction = -1\npoisson_ratio = 0.7')
     result = call(command, path)
     assert result.exit_code == 2
-    assert len(result.stderr.splitlines()) == lines
+    assert len(result.stderr.splitlines()) == 2
     assert all(line.startswith(f"Error: {path}: ") for line in result.stderr.splitlines())
     assert [entry.name for entry in tmp_path.iterdir()] == ["bad.toml"]
 
@@ -468,15 +324,11 @@ def test_a_syntax_error_shows_the_line_beneath_it(tmp_path):
     assert shown == ["Error:    1 | title = ", "Error:      |         ^"]
 
 
-def test_missing_files_and_unwritable_folders(study, tmp_path):
+def test_unwritable_folders(study, tmp_path):
     (tmp_path / "file").write_text("")
     for arguments in (
-        ("run", tmp_path / "absent.toml"),
-        ("plot", tmp_path / "absent.nc"),
-        ("plot", study),
         ("run", study, "--results", tmp_path / "file"),
         ("run", study, "--results", tmp_path / "file" / "deeper"),
-        ("solve", "--friction", "x"),
     ):
         result = call(*arguments)
         assert result.exit_code == 2, arguments
@@ -493,52 +345,12 @@ def test_two_studies_cannot_leave_the_same_archive(study, tmp_path):
     assert f"{twin}: found the same name as {study}; allowed: names that differ" in result.stderr
 
 
-@pytest.mark.parametrize(
-    ("name", "number"),
-    [
-        ("normal_amplitude", "amplitude of the normal oscillation, δA/δ0"),
-        ("normal_force_amplitude", "amplitude of the normal force, FA/F0"),
-        ("tangential_amplitude", "amplitude of the tangential oscillation, G*uA/(μE*δ0)"),
-        ("tangential_force_amplitude", "amplitude of the tangential force, QA/(μF0)"),
-        ("flat_radius", "radius of the punch face, b/a_H"),
-        ("waviness_amplitude", "amplitude of the waviness, h/δ0"),
-        ("wavelength", "wavelength of the waviness, λ/√(hR)"),
-        ("bulk_stress_mean", "mean of the bulk stress, σBm/(E*δ0/a_H)"),
-        ("phase", "phase of the normal oscillation, ψ"),
-        ("critical_distance", "critical distance of the nonlocal values, ℓ/a_H"),
-    ],
-)
-def test_every_mention_says_over_what_a_number_is(template, name, number):
-    helps = [call("list", "--parameters").stdout]
-    if name in PARAMETERS:
-        helps.append(SAID[name]["description"])
-    if name not in ("normal_amplitude", "phase"):  # with values of their own there
-        helps.append(template)
-    for text in helps:
-        assert number in " ".join(text.split())
-
-
 @pytest.fixture
 def template(tmp_path, monkeypatch):
     """The text of a new study."""
     monkeypatch.chdir(tmp_path)
     call("new", "mine")
     return Path("mine.toml").read_text()
-
-
-def test_the_template_says_of_each_parameter_what_is_allowed(template):
-    assert "# Poisson ratio, ν: a number in [0, 0.5]\n# poisson_ratio = 0.3\n" in template
-    said = ": a number in [0, 100]; along an axis of friction it stays, so that uA itself moves with μ\n"
-    assert said in template
-
-
-def test_the_template_with_units_names_its_units_and_no_others(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert call("new", "--units", "mine").exit_code == 0
-    text = Path("mine.toml").read_text()
-    assert {*re.findall(r"(?:length|stress|force|modulus) in (\w+)", text)} == {"mm", "N", "MPa"}
-    assert 'length = "mm"' in text
-    assert 'stress = "MPa"' in text
 
 
 def test_help_imports_nothing_heavy():
@@ -586,17 +398,6 @@ def test_all_studies_in_one_go(suite):
     assert (suite / "results" / "two.svg").is_file()
 
 
-def test_of_several_studies_validate_says_each(suite):
-    (suite / "studies" / "bad.toml").write_text('title = "t"\n[fixed]\nfriction = -1\n')
-    result = call("validate", "studies", "absent.toml")
-    assert result.exit_code == 2
-    assert [line.split(",")[0] for line in result.stdout.splitlines()] == [
-        "studies/one.toml: valid",
-        "studies/two.toml: valid",
-    ]
-    assert [line.split(": ")[1] for line in result.stderr.splitlines()] == ["studies/bad.toml", "absent.toml"]
-
-
 def test_a_folder_stands_for_its_studies(suite):
     result = call("validate", "studies")
     assert result.exit_code == 0, result.output
@@ -629,7 +430,6 @@ def test_new_writes_a_valid_study_and_replaces_none(tmp_path, monkeypatch):
     assert study.title == "my first"
     assert study.figure is not None
     assert (tmp_path / "study.schema.json").is_file()
-    assert call("new", "").stderr == "Error: NAME: found ''; allowed: a name for the study, such as mine\n"
     assert not (tmp_path / ".toml").exists()
     (tmp_path / "my_first.toml").write_text("mine")
     result = call("new", "my_first.toml")
@@ -689,10 +489,9 @@ def test_the_shell_completes(tmp_path, monkeypatch, words, typed, offered):
     assert offered <= set(result.output.split())
 
 
-@pytest.mark.parametrize("command", ["run", "plan"])
-def test_a_study_too_large_to_compute_is_refused(tmp_path, monkeypatch, command):
+def test_a_study_too_large_to_compute_is_refused(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    result = call(command, "parameter_box")
+    result = call("run", "parameter_box")
     assert result.exit_code == 2
     assert "too many to compute" in result.stderr
 
@@ -705,10 +504,3 @@ def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
     result = call("plan", "figure3")
     assert result.exit_code == 2
     assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"
-
-
-def test_run_says_what_it_needs(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    result = call("run")
-    assert result.exit_code == 2
-    assert "or --all" in result.stderr

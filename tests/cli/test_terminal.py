@@ -10,7 +10,7 @@ import pytest
 import stand_in
 import xarray as xr
 from asking import EVERY
-from command import call, main, shown
+from command import call, shown
 from folders import RESULTS, STUDIES
 from words import PARAMETERS
 
@@ -159,28 +159,6 @@ def test_a_regime_without_s_is_explained(arguments: list[str], said: str) -> Non
     assert re.fullmatch(said, outcome.stderr)
 
 
-def test_every_command_is_in_one_section_and_says_a_whole_sentence() -> None:
-    lines = lines_of("--help")
-    text = " ".join(" ".join(lines).split())
-    assert "..." not in text.split("Examples:")[0].replace("[ARGS]...", "")
-    for name in main.commands:
-        assert sum(line.startswith(f"  {name} ") for line in lines) == 1
-        said = "\n".join(lines_of(name, "--help")).split("\n\n")[1]
-        assert " ".join(said.split()) in text
-
-
-def test_parameters_are_listed_by_what_they_are_a_part_of() -> None:
-    text = call("solve", "--help").stdout
-    places = [text.index(f"\n{title}:") for title in ("The load", "The profile and its shape", "The bodies")]
-    assert places == sorted(places)
-    phase, flat = (text.index(f"\n  --{name} ") for name in ("phase", "flat-radius"))
-    assert places[0] < phase < places[1] < flat < places[2]
-    for name in PARAMETERS:
-        assert text.count(f"\n  --{name.replace('_', '-')} ") == 1
-    assert len(text.splitlines()) <= 40
-    assert max(map(len, text.splitlines())) <= 80
-
-
 def test_all_parameters_and_quantities_are_explained() -> None:
     text = "\n".join(lines_of("list", "--parameters"))
     for name in (*PARAMETERS, *EVERY, "critical_distance"):
@@ -217,10 +195,7 @@ def results() -> xr.Dataset:
     return swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2)
 
 
-def test_results_say_what_they_are(results: xr.Dataset) -> None:
-    said = repr(results.swt)
-    for words in ("normal_amplitude: 0.25, 1.5", "friction: 0.3", "rtol 0.01", "1 partial_slip, 1 lift_off"):
-        assert words in said
+def test_a_part_of_results_says_so(results: xr.Dataset) -> None:
     assert repr(results.drop_vars("s").swt) == "<no results of swtstudy, or a part of them>"
 
 

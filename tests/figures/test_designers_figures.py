@@ -35,25 +35,6 @@ def regime_of(gross):
     return gross * (REGIMES.index("gross_slip") - 1) + 1
 
 
-def test_lives_stand_upright_under_their_amplitude(results):
-    some = results.isel(friction=[0, 8])
-    layout = keys("tangential_amplitude", "friction", y=("cycles", "s"), kind="life")
-    cycles, s = draw(some, layout).axes
-    for line, friction in zip(cycles.lines, some.friction.values, strict=True):
-        np.testing.assert_array_equal(line.get_ydata(), AMPLITUDE)
-        np.testing.assert_allclose(line.get_xdata(), 1e5 * friction / AMPLITUDE**4)
-    assert cycles.get_xscale() == "log"
-    assert cycles.get_ylim() == (0.1, 1.0)
-    assert cycles.get_shared_y_axes().joined(cycles, s)
-    assert [axes.get_xlabel() for axes in (cycles, s)] == [
-        "load cycles to a crack, $N$",
-        r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
-    ]
-    assert {axes.get_ylabel() for axes in (cycles, s)} == {r"$G^* u_A/(\mu E^* \delta_0)$"}
-    with pytest.raises(ValueError, match="regimes"):
-        draw(some, keys("tangential_amplitude", "friction", kind="life", regimes=True))
-
-
 def test_lives_are_in_decades(results):
     (axes,) = draw(results.isel(friction=0), keys("tangential_amplitude", y=("cycles",))).axes
     assert (axes.get_xscale(), axes.get_yscale()) == ("linear", "log")

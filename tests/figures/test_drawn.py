@@ -53,26 +53,6 @@ def test_long_ranges_are_logarithmic(top, scale):
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", scale)
 
 
-@pytest.mark.parametrize(
-    ("x", "scale"),
-    [
-        ([0.01, 0.1, 1.0], "log"),
-        ([0.1, 0.4, 1.6], "log"),
-        ([0.102, 0.319374388, 1.0], "linear"),  # less than a decade
-        ([0.01, 1.0], "linear"),
-        # A study's range with values of its own among them.
-        (np.sort([*np.geomspace(0.002, 0.05, 201), 0.0049778, 0.028078]), "log"),
-        (np.linspace(0.002, 0.05, 201), "linear"),
-        ([0.0, 1.0, 100.0], "linear"),
-        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2), "log"),
-        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2), "linear"),
-    ],
-)
-def test_values_in_equal_ratios_are_logarithmic(x, scale):
-    dataset = results(lambda tangential_amplitude: 1.0 + tangential_amplitude, tangential_amplitude=x)
-    assert draw(dataset, keys("tangential_amplitude")).axes[0].get_xscale() == scale
-
-
 def test_a_regime_is_marked_where_it_begins():
     dataset = results(lambda friction: 10.0 * friction, friction=np.arange(7.0))
     numbers = [*map(REGIMES.index, ("stick", "partial_slip", "gross_slip", "lift_off", "not_finite"))]
@@ -140,66 +120,8 @@ def test_a_place_on_the_axis_of_lines_or_panels(role, kind):
     np.testing.assert_array_equal(drawn, expected.transpose("friction", "phase", ...).values.reshape(2, 3))
 
 
-def test_a_profile_is_named_with_its_shape():
-    names = ["paraboloid", "rounded_punch", "wavy_paraboloid"]
-    dataset = results(lambda profile, phase: phase + 1.0, profile=names, phase=[0.0, 1.0])
-    fixed = {"flat_radius": 0.5, "waviness_amplitude": 0.01, "wavelength": 20**0.5}
-    expected = [
-        "paraboloid",
-        "rounded punch, $b/a_H$ = 0.5",
-        r"wavy paraboloid, $h/\delta_0$ = 0.01, $\lambda/\sqrt{hR}$ = √20",
-    ]
-    figure = draw(dataset.assign_coords(fixed), keys("phase", "profile"))
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == expected
-    figure = draw(dataset.assign_coords(fixed), keys("phase", panels="profile"))
-    titles = [axes.get_title("left") for axes in figure.axes]
-    assert titles == [f"({letter})  {words}" for letter, words in zip("ABC", expected, strict=True)]
-    # A shape along another axis is no part of the name.
-    figure = draw(dataset, keys("phase", "profile"))
-    assert figure.legends[0].get_texts()[1].get_text() == "rounded punch"
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "words"),
-    [
-        (0.002, 0.05, ["0.002", "0.005", "0.01", "0.02", "0.05"]),
-        (0.1, 1.0, ["0.1", "0.2", "0.5", "1"]),
-        (0.1, 1000.0, None),
-    ],
-)
-def test_ticks_of_a_logarithmic_axis(low, high, words):
-    """A short one has plain numbers, so that it shows where it begins."""
-    x = np.geomspace(low, high, 5)
-    dataset = results(lambda waviness_amplitude: waviness_amplitude, waviness_amplitude=x)
-    (axes,) = draw(dataset, keys("waviness_amplitude")).axes
-    assert axes.get_xscale() == "log"
-    shown = [
-        t.get_text() for t in axes.get_xticklabels() if low * 0.999 <= t.get_position()[0] <= high * 1.001
-    ]
-    assert shown == words or (words is None and all("10^" in each for each in shown))
-
-
 def path_of(axes, label):
     return next(line.get_xydata() for line in axes.lines if line.get_label() == label)
-
-
-def test_contours_have_their_values_and_the_optimum():
-    """The least is at x = v, between points of the grid; the greatest leaps from x = 2 to x = 0."""
-    v = np.linspace(0.55, 1.45, 10)
-    dataset = results(
-        lambda friction, phase: 1 + (phase - friction) ** 2, friction=v, phase=np.linspace(0.0, 2.0, 9)
-    )
-    axes = draw(dataset, keys("phase", kind="contour", vertical="friction")).axes[0]
-    np.testing.assert_allclose(path_of(axes, "least $s$")[1:], np.stack([v, v], axis=1))
-    greatest = [[2.0, each] if each < 1.0 else [0.0, each] for each in v]
-    greatest.insert(5, [np.nan, np.nan])
-    np.testing.assert_array_equal(path_of(axes, "greatest $s$")[1:], greatest)
-    # An optimum may lie on the frame.
-    assert not any(line.get_clip_on() for line in axes.lines)
-    filled = axes.collections[0]
-    assert filled.levels[0] <= 1.0
-    assert filled.levels[-1] >= 1 + 1.45**2
-    assert 8 <= len(filled.levels) <= 15
 
 
 def test_the_optimum_goes_through_the_end_of_a_period():
@@ -260,20 +182,3 @@ def test_panels_have_scales_of_their_own_where_one_would_be_grey(kind):
     (one, other), count = scales(5.6)
     assert count == 4
     assert one.vmax < 0.5 * other.vmax
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "words"),
-    [
-        (0.0, 1.5, ["0", "π/4", "π/2", "3π/4", "π", "5π/4", "3π/2"]),
-        (0.0, 1.51, ["0", "π/2", "π", "3π/2"]),
-        (-0.5, 2.5, ["-π/2", "0", "π/2", "π", "3π/2", "2π", "5π/2"]),
-        (0.0, 6.0, ["0", "π", "2π", "3π", "4π", "5π", "6π"]),
-        (0.0, 13.0, ["0", "3π", "6π", "9π", "12π"]),
-        (0.1, 0.9, ["π/4", "π/2", "3π/4"]),
-    ],
-)
-def test_ticks_in_pi(low, high, words):
-    dataset = results(lambda phase: phase + 2.0, phase=np.pi * np.linspace(low, high, 5))
-    (axes,) = draw(dataset, keys("phase")).axes
-    assert [tick.get_text() for tick in axes.get_xticklabels()] == words

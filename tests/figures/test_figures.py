@@ -33,24 +33,6 @@ def one_panel(panels):
 
 
 @pytest.mark.usefixtures("unwrapped")
-def test_panels_are_values_of_a_dimension_and_rows_are_quantities(panels):
-    figure = draw(panels)
-    assert len(figure.axes) == 4
-    titles = [axes.get_title("left") for axes in figure.axes]
-    ratio = "$s$ / $s$($b/a_H$ = 0)"
-    assert titles == [
-        r"(A)  $s$,  $\psi$ = 0",
-        r"(B)  $s$,  $\psi$ = π",
-        rf"(C)  {ratio},  $\psi$ = 0",
-        rf"(D)  {ratio},  $\psi$ = π",
-    ]
-    assert figure.axes[2].get_ylabel() == "$s$ / $s$($b/a_H$ = 0)"
-    assert all(line.get_ydata()[0] == 1 for line in figure.axes[2].lines)
-    assert figure.get_suptitle() == "A title"
-    np.testing.assert_array_equal(figure.axes[0].lines[1].get_ydata(), panels.s[0, 1])
-
-
-@pytest.mark.usefixtures("unwrapped")
 @pytest.mark.quick(1)
 @pytest.mark.parametrize(
     ("suffix", "start"), [(".png", b"\x89PNG"), (".pdf", b"%PDF"), (".svg", b"<?xml"), (".PNG", b"\x89PNG")]

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 import stand_in
 from drawn import draw
 from matplotlib.figure import Figure
 
-from swtstudy import LoadPath, Study, StudyError, TabulatedProfile, open_results, run
+from swtstudy import Study, open_results, run
 
-R = np.linspace(0.0, 3.0, 9).tolist()
 LOOPS = """
 title = "t"
 rtol = 1e-2
@@ -30,29 +28,6 @@ x = "friction"
 {more}
 """
 NAMES = ["$$", "US$", "$x", "a$b$", r"\\$", "_^{", "%", "öü"]
-
-
-@pytest.mark.parametrize("name", ["a\0b", "\0", "\ud800"])
-def test_a_name_that_no_archive_can_hold(name: str) -> None:
-    with pytest.raises(StudyError, match=r"name: found .*; allowed: a text that an archive can hold"):
-        LoadPath(name, [[0, 1], [0, -1]])
-    with pytest.raises(StudyError, match=r"name: found .*; allowed: a text that an archive can hold"):
-        TabulatedProfile(name, R, R)
-
-
-@pytest.mark.parametrize(
-    ("text", "key"),
-    [
-        ('title = "a\\u0000b"', "title"),
-        ('title = "t"\n[loads."a\\u0000b"]\nvertices = [[0, 1], [0, -1]]', "loads.a\0b.vertices"),
-        (f'title = "t"\n[profiles."a\\u0000b"]\nradius = {R}\nheight = {R}', "profiles.a\0b"),
-        ('title = "t"\nunits = {length = "m\\u0000", force = "N", stress = "Pa"}', "units.length"),
-    ],
-)
-def test_a_null_character_in_a_study_is_a_mistake(text: str, key: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(text)
-    assert key in [mistake.key for mistake in caught.value.mistakes]
 
 
 def drawn(figure: Figure) -> str:

@@ -43,11 +43,6 @@ def numbers(axes):
     return {int(text.get_text()): text.get_position() for text in axes.texts if text.get_text().isdigit()}
 
 
-def dot_of(axes):
-    (dot,) = (line for line in axes.lines if line.get_marker() == "o")
-    return dot
-
-
 def curves_of(axes, count):
     """Curves of so many points: those of the instants, and two bounds for each of them."""
     curves = [line for line in axes.lines if len(line.get_xdata()) == count]
@@ -55,50 +50,6 @@ def curves_of(axes, count):
     bounds = [line.get_ydata() for line in curves if not line.get_label().isdigit()]
     assert len(bounds) == 2 * len(named)
     return named, list(zip(bounds[::2], bounds[1::2], strict=True))
-
-
-def test_load_path(moving, axes):
-    panels.draw_load(axes, moving)
-    time = moving.time.values  # ω1 t; ω2/ω1 = 1/2
-    u, depth = axes.lines[0].get_data()
-    np.testing.assert_allclose(u, 5 / 6 * np.sin(0.5 * time), atol=1e-12)
-    np.testing.assert_allclose(depth, 1 + 0.5 * np.sin(time + 0.4), atol=1e-12)
-    assert levels(axes, True) == [0.0]
-    assert levels(axes, False) == [1.0]
-    for (low, high), values in ((axes.get_xlim(), u), (axes.get_ylim(), depth)):
-        width = np.ptp(values)
-        assert values.min() - low == pytest.approx(0.14 * width)
-        assert high - values.max() == pytest.approx(0.14 * width)
-    at = moving.instant_time.values
-    for number, place in numbers(axes).items():
-        t = at[number - 1]
-        assert place == pytest.approx((5 / 6 * np.sin(0.5 * t), 1 + 0.5 * np.sin(t + 0.4)), abs=1e-9)
-    assert set(numbers(axes)) == set(moving.instant.values)
-
-
-def test_the_arrow_goes_with_time_and_away_from_the_marks(moving, axes):
-    panels.draw_load(axes, moving)
-    (arrow,) = (text for text in axes.texts if text.get_text() == "")
-    u, depth = moving.displacement.values, moving.depth.values
-    ends = [int(np.hypot(u - x, depth - y).argmin()) for x, y in (arrow.xyann, arrow.xy)]
-    assert ends[1] == ends[0] + 2
-    assert (u[ends[0]], depth[ends[0]]) == arrow.xyann
-    assert (u[ends[1]], depth[ends[1]]) == arrow.xy
-    assert type(arrow.arrow_patch.get_arrowstyle()).__name__ == "CurveFilledB"  # a head at its end
-    # No other instant is further from its nearest mark.
-    marks = np.array(list(numbers(axes).values()))
-    distance = np.hypot(u[:, None] - marks[:, 0], depth[:, None] - marks[:, 1]).min(axis=1)
-    assert distance[ends[0] + 1] == pytest.approx(distance[1:-1].max())
-
-
-def test_no_contact_is_shaded(axes):
-    panels.draw_load(axes, swtstudy.inspect_point(normal_amplitude=1.5))
-    (words,) = (text.get_text() for text in axes.texts if text.get_text().startswith("no"))
-    assert words == "no contact"
-    (band,) = axes.patches
-    box = band.get_extents().transformed(axes.transData.inverted())
-    assert (box.y0, box.y1) == pytest.approx((axes.get_ylim()[0], 0.0))
-    assert axes.get_ylim()[0] == pytest.approx(-0.5 - 0.14 * 3.0)
 
 
 def test_slip(cattaneo, axes):
@@ -182,42 +133,6 @@ def test_tractions(cattaneo, axes):
     assert levels(axes, True) == [float(cattaneo.critical_x)]
 
 
-def test_stress_cycle(moving):
-    figure = Figure()
-    axes = figure.subplots()
-    panels.draw_stress(axes, moving)
-    (other,) = (each for each in figure.axes if each is not axes)
-    stress, strain, time = moving.normal_stress.values, moving.normal_strain.values, moving.time.values
-    np.testing.assert_array_equal(axes.lines[0].get_data(), (time, stress))
-    (curve,) = (line for line in other.lines if len(line.get_xdata()) == len(time))
-    np.testing.assert_array_equal(curve.get_data(), (time, strain))
-    dot = dot_of(axes)
-    assert dot.get_ydata() == [stress.max()]
-    assert dot.get_xdata() == [time[stress.argmax()]]
-    assert levels(other, False) == [strain.min(), strain.max()]
-    (arrow,) = (text for text in other.texts if text.get_text() == "")
-    assert (arrow.xyann, arrow.xy) == (
-        (pytest.approx(0.93 * time[-1]), strain.min()),
-        (pytest.approx(0.93 * time[-1]), strain.max()),
-    )
-    (words,) = (text for text in other.texts if "Delta" in text.get_text())
-    assert words.get_position() == pytest.approx((0.915 * time[-1], (strain.min() + strain.max()) / 2))
-    # Both zeros are at one height; marks above and the legend below have room.
-    ends = np.array([each.get_ylim() for each in (axes, other)])
-    assert ends[0, 0] / ends[0, 1] == pytest.approx(ends[1, 0] / ends[1, 1])
-    for (low, high), values in zip(ends, (stress, strain), strict=True):
-        assert values.min() - low >= 0.199 * np.ptp(values)
-        assert high - values.max() >= 0.219 * np.ptp(values)
-    assert axes.get_xlim() == pytest.approx((0.0, 4 * np.pi))
-    assert levels(axes, True) == pytest.approx(moving.instant_time.values)
-    assert {number: place[0] for number, place in numbers(axes).items()} == pytest.approx(
-        dict(zip(moving.instant.values, moving.instant_time.values, strict=True))
-    )
-    assert axes.get_title("left") == f"on the critical plane at $x/a_H$ = ${float(moving.critical_x):.3f}$"
-    # What s is made of stands in the picture.
-    assert dot.get_ydata()[0] * (strain.max() - strain.min()) / 2 == pytest.approx(float(moving.s), rel=1e-4)
-
-
 def test_what_always_sticks_is_shaded(cattaneo, axes):
     panels.draw_swt(axes, cattaneo)
     (zone,) = axes.patches
@@ -225,23 +140,6 @@ def test_what_always_sticks_is_shaded(cattaneo, axes):
     assert (box.x0, box.x1) == pytest.approx((-0.8, 0.8))
     (words,) = (text for text in axes.texts if text.get_text() == "always\nsticks")
     assert words.get_position() == pytest.approx((0.0, 0.04 * float(cattaneo.s)))
-
-
-def test_swt_along_the_surface(moving, axes):
-    panels.draw_swt(axes, moving)
-    np.testing.assert_array_equal(axes.lines[0].get_data(), (moving.x, moving.s_local))
-    dot = dot_of(axes)
-    assert dot.get_data() == (pytest.approx([float(moving.critical_x)]), pytest.approx([float(moving.s)]))
-    # a of the paraboloid: √δ, δ from 0.5 to 1.5.
-    low, high = np.sqrt([0.5, 1.5])
-    assert levels(axes, True) == pytest.approx([-high, -low, low, high])
-    places = {text.get_text(): text.get_position() for text in axes.texts}
-    top = float(moving.s)
-    assert places[r"$a_{\min}$"] == pytest.approx((low, 1.24 * top))
-    assert places[r"$a_{\max}$"] == pytest.approx((high, 1.39 * top))
-    assert axes.get_xlim() == pytest.approx((-1.2 * high, 1.2 * high))
-    assert axes.get_ylim() == pytest.approx((0.0, 1.45 * top))
-    assert axes.get_title("left") == "swt along the surface"
 
 
 @pytest.mark.parametrize("angle", [8.0, -8.0, 65.0, -65.0])
@@ -263,18 +161,6 @@ def test_the_plane_is_drawn_as_it_lies(moving, axes, angle):
     assert number.get_position() == (-1.3, -0.5)  # beside the body, at half of its depth
 
 
-def test_where_swt_has_no_bound_the_largest_sampled_is_shown(axes):
-    edge = {"profile": "truncated_paraboloid", "flat_radius": 1, "friction": 1.2, "phase": 1.5}
-    point = swtstudy.inspect_point(**edge)
-    assert np.isnan(point.s)
-    panels.draw_swt(axes, point)
-    assert axes.get_title("left") == "swt along the surface; dot: largest sampled"
-    dot = dot_of(axes)
-    assert dot.get_ydata() == [float(point.s_local.max())]
-    assert dot.get_xdata() == [float(point.x[int(point.s_local.values.argmax())])]
-    panels.draw_stress(Figure().subplots(), point)
-
-
 def test_what_does_not_change_has_room_too():
     for value, size, middle in ((0.0, 0.0, 1.0), (2.0, 0.0, 2.0), (0.5, 1.0, 1.0)):
         low, high = limits(np.full(3, value), 0.1, 0.2, size)
@@ -285,28 +171,6 @@ def test_what_does_not_change_has_room_too():
     assert high - low == pytest.approx(0.1, rel=0.01)
     assert 0.5 * (low + high) == pytest.approx(1.002)
     assert limits(np.array([1.0, 1.006]), 0.0, 0.0) == (1.0, 1.006)
-
-
-def test_instants_of_one_place_have_one_mark(cattaneo, axes):
-    """At a constant depth the path goes to and fro: its middle is passed twice, its ends once."""
-    panels.draw_load(axes, cattaneo)
-    places = {text.get_text(): text.get_position() for text in axes.texts if text.get_text()}
-    u = 0.36 * np.sin(cattaneo.instant_time.values)
-    names = {}
-    for number, place in zip(cattaneo.instant.values, u.round(6), strict=True):
-        names.setdefault(place, []).append(str(number))
-    assert len(names) == 3
-    assert {", ".join(each): (place, 1.0) for place, each in names.items()} == {
-        words: pytest.approx(place, abs=1e-6) for words, place in places.items()
-    }
-
-
-def test_marks_over_time_are_at_one_height(moving):
-    figure = Figure()
-    axes = figure.subplots()
-    panels.draw_stress(axes, moving)
-    low, high = axes.get_ylim()
-    assert {round((place[1] - low) / (high - low), 6) for place in numbers(axes).values()} == {0.94}
 
 
 def test_a_colour_is_a_state_or_an_instant(moving, axes):

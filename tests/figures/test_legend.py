@@ -68,11 +68,6 @@ def test_names_have_a_legend():
     assert_whole(figure, [name.replace("_", " ") for name in PROFILES])
 
 
-def test_names_have_no_scale_however_many():
-    figure = of_loops([f"loop {index}" for index in range(20)]).swt.panels("phase", "load")
-    assert len(figure.axes) == len(figure.legends) == 1
-
-
 @pytest.mark.quick(1)
 @pytest.mark.parametrize("width", [None, "column", "page"])
 def test_panels_stay_as_large_above_a_legend(width):
@@ -85,22 +80,6 @@ def test_panels_stay_as_large_above_a_legend(width):
     assert above.get_figwidth() == alone.get_figwidth()
     for size in ("width", "height"):
         assert getattr(above.axes[0].bbox, size) == pytest.approx(getattr(alone.axes[0].bbox, size), rel=0.03)
-
-
-@pytest.mark.usefixtures("unwrapped")
-@pytest.mark.parametrize(("count", "scale"), [(7, False), (8, True), (19, True)])
-def test_many_numbers_have_a_scale_and_no_legend(count, scale):
-    friction = np.linspace(0.1, 1.0, count)
-    figure = lines_over(friction).swt.panels("phase", "friction")
-    lines = figure.axes[0].lines
-    assert len(lines) == count
-    assert len(figure.legends) == (not scale)
-    assert len(figure.axes) == 1 + scale
-    if scale:
-        assert figure.axes[1].get_ylabel() == r"$\mu$"
-        assert figure.axes[1].get_ylim() == pytest.approx((0.1, 1.0))
-        assert {line.get_linestyle() for line in lines} == {"-"}
-        assert {line.get_marker() for line in lines} == {"."}  # of few points each is seen
 
 
 @pytest.mark.usefixtures("unwrapped")
@@ -137,16 +116,6 @@ def test_a_colour_stands_for_its_value():
 def test_colours_of_values_in_equal_ratios_are_evenly_spaced():
     expected = colormaps["cividis"](0.9 * np.linspace(0, 1, 9))
     np.testing.assert_allclose(colours_of(np.geomspace(1e-2, 1e2, 9)), expected, atol=0.01)
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_a_scale_of_phases_is_in_multiples_of_pi():
-    phase = np.linspace(0, 2 * np.pi, 9)
-    dataset = made_up(lambda friction, phase: friction + np.sin(phase), friction=[0.1, 0.2, 0.3], phase=phase)
-    figure = dataset.swt.panels("friction", "phase")
-    bar = figure.axes[1]
-    assert bar.get_ylabel() == r"$\psi$ (rad)"
-    assert [tick.get_text() for tick in bar.get_yticklabels()] == ["0", "π/2", "π", "3π/2", "2π"]
 
 
 @pytest.mark.slow

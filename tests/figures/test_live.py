@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from folders import ROOT, STUDIES
-from PIL import Image
 
 import swtstudy
 from swtstudy.figures.live import SLIDERS, Explorer, LiveFigure, phases
@@ -62,17 +61,6 @@ def test_the_springs_are_those_of_the_inspection():
         if same.instant.size:
             force = np.interp(known.r, one.r, one.force, right=0.0)
             assert force == pytest.approx(same.force.values[0], abs=1e-2)
-
-
-@pytest.mark.slow
-def test_where_s_is_not_finite_there_is_a_picture_all_the_same():
-    live = LiveFigure()
-    point = live.redraw(profile="truncated_paraboloid", flat_radius=0.5, friction=1.9)
-    assert not np.isfinite(float(point.s))
-    _, springs, over_phase = live.figure.axes
-    assert [text.get_text() for text in over_phase.texts] == ["$s$ is not finite"]
-    assert springs.get_lines()
-    assert live.png().startswith(b"\x89PNG")
 
 
 @pytest.mark.slow
@@ -161,13 +149,3 @@ def test_the_curve_misses_little_of_the_least_value():
     live.redraw(**given)
     dense = swtstudy.solve(phase=np.linspace(0.0, np.pi, 241), normal_amplitude=0.85, rtol=1e-3).s
     assert np.nanmin(live.figure.axes[2].get_lines()[0].get_ydata()) < 1.02 * float(dense.min())
-
-
-@pytest.mark.slow
-def test_what_is_saved_is_the_figure(tmp_path, live):
-    live.save(tmp_path / "point.svg")
-    assert (tmp_path / "point.svg").read_text().count("<path") > 20
-    live.live.save(tmp_path / "point.png")
-    inches = live.live.figure.get_size_inches()
-    with Image.open(tmp_path / "point.png") as picture:
-        assert picture.size == pytest.approx(tuple(300.0 * inches), abs=1.0)

@@ -498,6 +498,8 @@ def test_values_in_equal_ratios() -> None:
         ([0.0, 1.0, 100.0], False),
         ([-1.0, 1.0, 100.0], False),
         (ten, True),
+        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-8 * np.arange(4) ** 2), True),
+        (np.geomspace(1e-3, 1.0, 4) * (1 + 1e-5 * np.arange(4) ** 2), False),
         ([*ten, 2e4], False),
     ):
         assert in_equal_ratios(np.array(x)) is equal, x

@@ -20,26 +20,6 @@ def small_lines(legend: Legend) -> list[Line2D]:
     return [line for line in legend.findobj(Line2D) if line.get_linewidth() == 1.0]
 
 
-def test_each_loop_is_drawn_beside_its_name_in_its_colour() -> None:
-    dataset = swtstudy.open_results(RESULTS / "loops.nc")
-    figure = dataset.swt.figure()
-    (legend,) = figure.legends
-    lines = {line.get_label(): line for line in figure.axes[0].lines}
-    loops = {str(each).replace("_", " "): each for each in swtstudy.Study.from_toml("loops").grid.loops}
-    assert [text.get_text() for text in legend.get_texts()] == [*lines] == [*loops]
-    drawn = small_lines(legend)
-    assert len(drawn) == len(loops)
-    for loop, line in zip(loops.values(), drawn, strict=True):
-        assert line.get_color() == lines[loop.name].get_color()
-        x, y = (np.asarray(each) for each in (line.get_xdata(), line.get_ydata()))
-        normal, tangential = loop.vertices.T[:2]
-        # Both loads fill their side of the same square.
-        assert (x[:-1] - x.min()) / np.ptp(x) == pytest.approx((tangential + 1.0) / 2.0)
-        assert (y[:-1] - y.min()) / np.ptp(y) == pytest.approx((normal + 1.0) / 2.0)
-        assert np.ptp(x) == pytest.approx(np.ptp(y))
-        assert (x[0], y[0]) == (x[-1], y[-1])
-
-
 ROUND = """
 title = "Round and square"
 rtol = 1e-2

@@ -54,43 +54,6 @@ def test_a_band_is_under_the_part_of_a_line_that_is_outside(results, kind):
     assert not marks(plain.axes[0], "outside: first yield, extrapolated life")
 
 
-def test_a_map_has_dots_on_the_points_that_are_outside(results):
-    layout = keys("tangential_amplitude", kind="contour", vertical="friction", validity=True)
-    (dots,) = marks(draw(results, layout).axes[0], "outside: first yield")
-    rows, columns = np.nonzero(BEYOND)
-    np.testing.assert_array_equal(dots.get_xydata(), np.stack([AMPLITUDE[columns], FRICTION[rows]], axis=1))
-    (cells,) = marks(
-        draw(results, keys("tangential_amplitude", kind="heatmap", vertical="friction", validity=True)).axes[
-            0
-        ],
-        "outside: first yield",
-    )
-    np.testing.assert_array_equal(cells.get_xydata(), np.stack([columns, rows], axis=1))
-
-
-def test_a_fine_map_has_fewer_dots_and_none_that_is_inside():
-    fine = made_up(
-        lambda friction, tangential_amplitude: friction * tangential_amplitude,
-        friction=np.linspace(0.1, 0.9, 101),
-        tangential_amplitude=np.linspace(0.1, 0.9, 90),
-    )
-    fine = fine.assign(yield_ratio=3.0 * fine.s)
-    layout = keys("tangential_amplitude", kind="contour", vertical="friction", validity=True)
-    (dots,) = marks(draw(fine, layout).axes[0], "outside: first yield")
-    at = np.asarray(dots.get_xydata())
-    assert 20 < len(at) < 32**2
-    assert (3.0 * at.prod(axis=1) > 1.0).all()
-
-
-def test_a_scatter_has_them_and_a_histogram_has_not(results):
-    some = results.stack(sample=("friction", "tangential_amplitude")).reset_index("sample")
-    axes = draw(some, keys("sample", kind="scatter", validity=True)).axes[0]
-    (dots,) = marks(axes, "outside: first yield")
-    assert len(dots.get_xdata()) == BEYOND.sum()
-    with pytest.raises(ValueError, match=r"figure\.validity: found true; allowed: false for kind = \"hist"):
-        draw(some, keys("sample", kind="histogram", validity=True))
-
-
 def test_nothing_outside_has_no_mark(results):
     inside = results.assign(yield_ratio=0.0 * results.yield_ratio)
     layout = keys("tangential_amplitude", "friction", validity=True)
@@ -104,5 +67,3 @@ def test_a_study_may_ask_for_them():
     assert study.figure is not None
     assert study.figure.validity
     assert type(study.figure).from_json(study.figure.to_json()) == study.figure
-    with pytest.raises(ValueError, match=r"figure\.validity: found 3; allowed: true or false"):
-        Study.from_text(text.replace("true", "3"))

@@ -11,7 +11,6 @@ from matplotlib.transforms import Bbox
 from words import PROFILES
 
 import swtstudy
-from swtstudy import Study
 
 CM = 2.54
 WIDTHS = {"column": 8.5 / CM, "page": 17.5 / CM}
@@ -106,46 +105,6 @@ def test_a_long_title_has_lines_and_its_formulae_are_whole():
     assert all(line.count("$") % 2 == 0 for line in lines)
 
 
-@pytest.mark.quick(6)
-@pytest.mark.parametrize(
-    ("rows", "count", "width", "across"),
-    [
-        (1, 1, "column", 1),
-        (1, 2, "column", 1),
-        (2, 2, "column", 2),  # four panels beneath each other are longer than a page
-        (1, 1, "page", 1),
-        (1, 3, "page", 3),
-        (1, 4, "page", 2),  # two by two rather than three and one
-        (1, 5, "page", 3),
-        (2, 2, "page", 2),
-        (1, 3, None, 3),
-        (1, 4, None, 2),
-        (1, 10, None, 3),
-    ],
-)
-@pytest.mark.usefixtures("unwrapped")
-def test_panels_side_by_side(rows, count, width, across):
-    axes = {"phase": PHASE, "normal_amplitude": np.linspace(0.1, 0.9, count)}
-    y = ["s", "critical_angle"][:rows]
-    figure = made_up(wave, **axes).swt.panels("phase", panels="normal_amplitude", y=y, width=width)
-    assert figure.axes[0].get_gridspec().ncols == across
-    if width is None:
-        assert figure.get_size_inches() == pytest.approx((4.0 * across, 3.2 * rows * -(-count // across)))
-    else:
-        assert figure.get_figwidth() == pytest.approx(WIDTHS[width])
-        assert figure.get_figheight() <= 23.0 / CM
-
-
-@pytest.mark.parametrize(
-    ("y", "numbered"), [(["s"], [True, False]), (["s", "critical_angle"], [True, False] * 2)]
-)
-@pytest.mark.usefixtures("unwrapped")
-def test_panels_with_an_axis_in_common_have_its_numbers_once(y, numbered):
-    axes = {"phase": PHASE, "normal_amplitude": [0.1, 0.2]}
-    panels = made_up(wave, **axes).swt.panels("phase", panels="normal_amplitude", y=y).axes
-    assert [one.yaxis.get_tick_params()["labelleft"] for one in panels] == numbered
-
-
 @pytest.mark.slow
 def test_letters_of_print_unless_the_user_wants_others():
     def size(**more):
@@ -170,18 +129,3 @@ def test_commands(tmp_path):
         assert call(*command).exit_code == 0
         picture = (tmp_path / command[command.index("-o") + 1]).read_bytes()
         assert int.from_bytes(picture[16:20], "big") == pytest.approx(8.5 / CM * 300, abs=1)
-
-
-def test_a_width_that_there_is_not():
-    dataset = made_up(wave, **FIGURES["lines"][0])
-    words = 'width: found 12; allowed: "column", "page", or None for a screen'
-    with pytest.raises(ValueError, match=words):
-        dataset.swt.panels("phase", "friction", width=12)
-    with pytest.raises(ValueError, match="width: found"):
-        swtstudy.inspect(width="poster")
-    with pytest.raises(ValueError, match="width: found"):
-        swtstudy.draw_profile(profile="paraboloid", width="poster")
-    result = call("plot", "any.nc", "--width", "poster")
-    assert result.exit_code == 2
-    assert "'column', 'page'" in result.output
-    assert Study.from_text(PANELS).figure is not None

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import xarray as xr
-from drawn import curves, whole
 from folders import RESULTS
 from made_up import made_up
 from matplotlib.colors import to_rgba
@@ -14,13 +13,6 @@ pytestmark = pytest.mark.usefixtures("unwrapped")
 
 PHASE = np.linspace(0, np.pi, 13)
 FRICTION = np.array([0.1, 0.2, 0.4])
-WORDS = {
-    "s": r"$s = \mathrm{SWT}/\mathrm{SWT}_0$",
-    "s_error": r"$\Delta s$",
-    "critical_x": "critical point, $x/a_H$",
-    "critical_angle": r"$\varphi$ (°)",
-    "s_surface": r"$s_\mathrm{surface}$",
-}
 REGIMES = ["stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium"]
 
 
@@ -55,55 +47,6 @@ def test_every_symbol_is_a_formula(said):
         assert MathTextParser("path").parse(f"${symbol}$").width > 0
 
 
-@pytest.mark.parametrize("name", WORDS)
-def test_lines_are_the_values(dataset, name):
-    figure = dataset.isel(phase=slice(None, None, -1)).swt.panels("phase", "friction", y=name)
-    (axes,) = figure.axes
-    assert axes.get_ylabel() == WORDS[name]
-    assert axes.get_xlabel() == r"$\psi$ (rad)"
-    assert axes.get_xlim() == (0.0, np.pi)
-    for line, friction in zip(curves(axes), FRICTION, strict=True):
-        np.testing.assert_array_equal(whole(line), [PHASE, dataset[name].sel(friction=friction)])
-        assert line.get_label() == rf"$\mu$ = {friction}"
-
-
-@pytest.mark.parametrize("name", WORDS)
-def test_a_heat_map_is_the_values(dataset, name):
-    figure = dataset.swt.panels("friction", vertical="phase", kind="heatmap", y=name)
-    axes, bar = figure.axes
-    (mesh,) = axes.collections
-    assert figure.get_size_inches() == pytest.approx((5.5, 3.2))
-    np.testing.assert_array_equal(mesh.get_array(), dataset[name])  # rows are phases
-    assert (mesh.norm.vmin, mesh.norm.vmax) == (dataset[name].min(), dataset[name].max())
-    assert mesh.get_cmap().name == "cividis"
-    assert bar.get_ylabel() == WORDS[name]
-    assert (axes.get_xlabel(), axes.get_ylabel()) == (r"$\mu$", r"$\psi$ (rad)")
-    assert [tick.get_text() for tick in axes.get_xticklabels()] == ["0.1", "0.2", "0.4"]
-    assert [tick.get_text() for tick in axes.get_yticklabels()][::6] == ["0", "π/2", "π"]
-
-
-@pytest.mark.parametrize("name", WORDS)
-def test_contours_are_where_the_values_are(dataset, name):
-    slope = {"s": 1, "s_error": 1e-9, "s_surface": 3, "critical_x": 1, "critical_angle": 10}[name]
-    at_zero = float(dataset[name][0, 0]) - 0.5 * slope
-    figure = dataset.swt.panels("phase", vertical="friction", kind="contour", y=name)
-    axes, bar = figure.axes
-    filled, lines = axes.collections[:2]
-    assert bar.get_ylabel() == WORDS[name]
-    levels = lines.levels
-    assert 8 <= len(levels) <= 15
-    assert levels[0] <= dataset[name].min() < levels[1]
-    assert levels[-2] < dataset[name].max() <= levels[-1]
-    assert np.ptp(np.diff(levels)) < 1e-9 * levels[-1]
-    np.testing.assert_array_equal(filled.levels, levels)
-    drawn = 0
-    for level, path in zip(levels, lines.get_paths(), strict=True):
-        for phase, friction in path.vertices:
-            drawn += 1
-            assert at_zero + slope * (phase + 5 * friction) == pytest.approx(level, abs=1e-6 * slope)
-    assert drawn > 20
-
-
 @pytest.mark.parametrize("name", ["s", "regime"])
 def test_surfaces_do_not_depend_on_the_order_of_values(dataset, name):
     mixed = dataset.isel(phase=[5, 0, 12, *range(1, 5), *range(6, 12)], friction=[2, 0, 1])
@@ -114,40 +57,6 @@ def test_surfaces_do_not_depend_on_the_order_of_values(dataset, name):
         np.testing.assert_array_equal(first.get_array(), second.get_array())
         for path, again in zip(first.get_paths(), second.get_paths(), strict=True):
             np.testing.assert_array_equal(path.vertices, again.vertices)
-
-
-def test_only_s_has_curves_of_its_extrema(dataset):
-    figure = dataset.swt.panels("phase", vertical="friction", kind="contour", y=["s", "critical_x"])
-    s, x = figure.axes[:2]
-    assert {line.get_label() for line in s.lines} >= {"least $s$", "greatest $s$"}
-    assert not x.lines
-    least, greatest = (
-        next(line for line in s.lines if line.get_label() == label) for label in ("least $s$", "greatest $s$")
-    )
-    # The first point of a path is the gap before it.
-    np.testing.assert_array_equal(least.get_xdata()[1:], 0.0)
-    np.testing.assert_array_equal(greatest.get_xdata()[1:], np.pi)
-    np.testing.assert_array_equal(least.get_ydata()[1:], FRICTION)
-
-
-def test_all_panels_of_a_row_have_one_scale_of_colours(dataset):
-    both = dataset.expand_dims(poisson_ratio=[0.2, 0.3]) * 1.0
-    both["s"] = both.s * (1 + 10 * (both.poisson_ratio - 0.2))
-    figure = both.swt.panels(
-        "phase", panels="poisson_ratio", vertical="friction", kind="heatmap", y=["s", "critical_x"]
-    )
-    one, other, x, _ = (axes.collections[0] for axes in figure.axes[:4])
-    assert one.norm is other.norm
-    assert (one.norm.vmin, one.norm.vmax) == (both.s.min(), both.s.max())
-    assert (x.norm.vmin, x.norm.vmax) == (both.critical_x.min(), both.critical_x.max())
-    np.testing.assert_array_equal(other.get_array(), both.s.isel(poisson_ratio=1).transpose())
-    titles = [axes.get_title("left") for axes in figure.axes[:4]]
-    assert titles == [
-        r"(A)  $s$,  $\nu$ = 0.2",
-        r"(B)  $s$,  $\nu$ = 0.3",
-        r"(C)  $x/a_H$,  $\nu$ = 0.2",
-        r"(D)  $x/a_H$,  $\nu$ = 0.3",
-    ]
 
 
 @pytest.mark.parametrize("kind", ["contour", "heatmap"])
@@ -168,14 +77,6 @@ def test_regimes_are_colours_with_names(dataset, kind):
         corners = mesh.get_coordinates()
         np.testing.assert_allclose(corners[0, 1:-1, 0], (PHASE[1:] + PHASE[:-1]) / 2)
         np.testing.assert_allclose(corners[1:-1, 0, 1], [0.15, 0.3])
-
-
-def test_lines_of_regimes_are_steps_between_names(dataset):
-    (axes,) = dataset.swt.panels("phase", "friction", y="regime").axes
-    assert [tick.get_text() for tick in axes.get_yticklabels()] == REGIMES
-    np.testing.assert_array_equal(axes.get_yticks(), range(6))
-    assert {line.get_drawstyle() for line in axes.lines} == {"steps-mid"}
-    np.testing.assert_array_equal(axes.lines[2].get_ydata(), dataset.regime[:, 2])
 
 
 def test_points_that_are_missing_or_failed_have_no_regime(dataset):
@@ -209,27 +110,6 @@ def test_what_is_not_finite_leaves_the_scale_of_colours_alone(dataset):
     assert figure.axes[0].collections[0].get_array().mask.all()
 
 
-def test_a_ratio_is_drawn_with_its_error(dataset):
-    dataset["s_error"] = 0.01 * dataset.s
-    (axes,) = dataset.swt.panels("phase", "friction", y="s/s(ψ=0)").axes
-    ratio = dataset.s / dataset.s[0]
-    assert axes.get_ylabel() == r"$s$ / $s$($\psi$ = 0)"
-    for line, band, friction in zip(axes.lines, axes.collections, FRICTION, strict=True):
-        expected = ratio.sel(friction=friction).values
-        np.testing.assert_allclose(line.get_ydata(), expected, rtol=1e-14)
-        edge = band.get_paths()[0].vertices
-        assert edge[edge[:, 0] == np.pi][:, 1].max() == pytest.approx(1.02 * expected[-1])
-        assert edge[edge[:, 0] == np.pi][:, 1].min() == pytest.approx(0.98 * expected[-1])
-        assert edge[edge[:, 0] == 0.0][:, 1].max() == 1.0
-        assert to_rgba(band.get_facecolor()[0])[:3] == to_rgba(line.get_color())[:3]
-
-
-def test_only_s_has_the_error_of_s(dataset):
-    dataset["s_error"] = 0.1 * dataset.s
-    assert dataset.swt.panels("phase", "friction").axes[0].collections
-    assert not dataset.swt.panels("phase", "friction", y="s_surface").axes[0].collections
-
-
 def test_a_variable_of_ones_own_is_drawn(dataset):
     dataset["cycles"] = (1e4 / dataset.s).assign_attrs(units="kilocycles")
     dataset["alone"] = 0.0 * dataset.s.drop_attrs()
@@ -255,20 +135,14 @@ def test_long_ranges_are_logarithmic_where_values_allow_it():
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"y": "speed"}, r"figure.y: found 'speed' \(not a quantity\); allowed: .*critical_x"),
         ({"y": "s/s(b=0)"}, "flat_radius"),
         ({"y": "s/s(ψ=9)"}, "phase: found 9"),
         ({"y": "s/s"}, "not a quantity"),
         ({"y": "name"}, "values of type"),
         ({"y": "path"}, "values over step"),
-        ({"y": []}, "empty list"),
-        ({"hue": "phase"}, "figure.hue: found 'phase', also used for x; allowed: each axis once"),
-        ({"hue": None}, "no place for the axis friction"),
         ({"hue": None, "kind": "contour"}, "vertical: found nothing"),
         ({"kind": "heatmap", "vertical": "friction"}, "hue"),
         ({"vertical": "friction"}, "vertical"),
-        ({"kind": "pie"}, "found 'pie'"),
-        ({"title": "$x^2^3$"}, "figure.title: .*Double superscript"),
         ({"regimes": True}, "figure.regimes"),
     ],
 )

@@ -9,7 +9,7 @@ import pytest
 import real
 from command import call
 
-from swtstudy import Study, StudyError, draw_load, read_signal
+from swtstudy import Study, draw_load, read_signal
 
 RIG = f"""{real.RIG}[loads.rig]
 file = "rig.csv"
@@ -26,24 +26,6 @@ def rig(tmp_path: Path) -> Path:
     (tmp_path / "rig.csv").write_text("\n".join(["normal,tangential,bulk", *rows]))
     (tmp_path / "rig.toml").write_text(RIG)
     return tmp_path / "rig.toml"
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_the_picture_has_the_record_the_path_and_the_friction_margin(rig: Path) -> None:
-    text = RIG.replace('file = "rig.csv"\n', f"vertices = {CYCLE.tolist()}\n").replace(
-        "recorded_cycles = 3", ""
-    )
-    course, path, margin = draw_load(Study.from_text(text), "rig").axes
-    normal = course.get_lines()[0].get_ydata()
-    np.testing.assert_allclose(np.sort(normal[:-1]), np.sort(CYCLE[:, 0]))
-    assert normal[0] == normal[-1]
-    np.testing.assert_allclose(np.sort(path.get_lines()[0].get_ydata()[:-1]), np.sort(CYCLE[:, 1]))
-    # The largest of |Q|/(μP) by hand.
-    assert margin.get_lines()[0].get_ydata().max() == pytest.approx(57 / (0.5 * 190))
-    assert "at most 0.60" in margin.get_title(loc="left")
-    words = [text.get_text() for text in course.get_legend().get_texts()]
-    assert words == ["normal (N)", "tangential (N)", "bulk stress (MPa)"]
-    assert (path.get_xlabel(), path.get_ylabel()) == ("normal load (N)", "tangential load (N)")
 
 
 def test_all_panels_begin_where_the_record_does(rig: Path) -> None:
@@ -79,20 +61,6 @@ def test_the_command_draws_a_load_of_a_study_and_says_how_its_cycles_scatter(rig
     done = call("show", "--load", "rg", rig)
     assert done.exit_code == 2
     assert "did you mean rig" in done.output
-
-
-def test_a_smooth_loop_without_units_is_drawn_too() -> None:
-    rows = "normal = [[1, 0.5, 0]]\ntangential = [[1, 0.3, 1]]\n"
-    text = f'title = "t"\nfixed.load = "mine"\n[loads.mine]\n{rows}'
-    course, path = draw_load(Study.from_text(text), "mine").axes
-    pulled = text.replace("[loads", "fixed.bulk_stress_amplitude = 0.2\n[loads") + "bulk = [[1, 0.4, 0]]\n"
-    bulk = draw_load(Study.from_text(pulled), "mine").axes[0].get_lines()[2]
-    assert bulk.get_ydata().max() == pytest.approx(0.2 * 0.4, rel=1e-4)
-    assert course.get_lines()[0].get_ydata().max() == pytest.approx(1.5, rel=1e-4)
-    assert path.get_lines()[0].get_ydata().max() == pytest.approx(0.3, rel=1e-4)
-    assert (path.get_xlabel(), course.get_legend().get_texts()[0].get_text()) == ("normal load", "normal")
-    with pytest.raises(StudyError, match="load: found 'harmonic'"):
-        draw_load(Study.from_text(text), "harmonic")
 
 
 def test_a_depth_and_a_force_have_units_each() -> None:

@@ -135,30 +135,6 @@ def test_report():
     assert "at 1 points: 1 of the 1" in text
 
 
-@pytest.mark.slow
-def test_command_goes_on_where_it_was(tmp_path):
-    study = tmp_path / "two.toml"
-    study.write_text(STUDY)
-    arguments = ["audit", str(study), "--workers", "1", "--results", str(tmp_path), "--points"]
-    assert call(*arguments, "1").exit_code == 0
-    first = xr.load_dataset(tmp_path / "audit_two.nc")
-    # What is there already is taken as it is.
-    save(first.assign(s_body=first.s_body * 3.0), tmp_path / "audit_two.nc")
-    outcome = call(*arguments, "2")
-    assert outcome.exit_code == 0, outcome.output
-    dataset = xr.load_dataset(tmp_path / "audit_two.nc")
-    assert dataset.sizes["sample"] == 2
-    assert dataset.attrs["seed"] == 0
-    known = dataset.poisson_ratio == float(first.poisson_ratio[0])
-    np.testing.assert_allclose(dataset.s_body[known], 3.0 * first.s_body)
-    new = dataset.isel(sample=np.flatnonzero(~known))
-    expected = "symmetry_line" if float(new.poisson_ratio[0]) == 0.5 else "none"
-    assert verdicts_of(new) == [expected]
-    assert float(new.remainder[0]) == pytest.approx(0.0, abs=1e-3)
-    np.testing.assert_allclose(new.s_all_planes, new.s, rtol=1e-3)
-    assert "2 points" in (tmp_path / "audit_two.md").read_text(encoding="utf-8")
-
-
 PLANE = """
 title = "plane contacts"
 [profiles.pad]

@@ -6,7 +6,7 @@ import folders
 import pytest
 import stand_in
 from command import call
-from made_up import STATEMENTS, made_up_audit, save
+from made_up import STATEMENTS
 
 from swtstudy import Study, run
 
@@ -37,23 +37,6 @@ def test_an_archive_with_gaps_is_not_checked(tmp_path):
     assert result.exit_code == 2
     assert "friction.nc has no value at 4 of 384 points" in result.stderr
     assert "swtstudy run friction --retry-failed" in result.stderr
-
-
-@pytest.mark.slow
-def test_all_archives_make_a_table(tmp_path):
-    for name in AUDITS:
-        save(made_up_audit(), tmp_path / f"{name}.nc")
-    for name in STUDIES:
-        study = Study.from_toml(folders.STUDIES / f"{name}.toml")
-        run(study, tmp_path / f"{name}.nc", solver=stand_in.smooth, workers=1)
-    result = call("check", "--results", tmp_path)
-    assert result.exit_code == 0, result.output
-    table = (tmp_path / "statements.md").read_text(encoding="utf-8")
-    rows = [line for line in table.splitlines() if line.startswith("| ")][1:]
-    assert len(rows) == len(STATEMENTS)
-    assert all(row.count(" | ") >= 4 for row in rows)
-    (summary,) = (line for line in result.stdout.splitlines() if " statements: " in line)
-    assert summary.strip() in table
 
 
 @pytest.mark.pages

@@ -6,7 +6,6 @@ import re
 import pytest
 import xarray as xr
 from made_up import STATEMENTS, made_up
-from solved import REGIMES
 
 
 def located(profile: str = "paraboloid", **shape: float) -> xr.Dataset:
@@ -45,13 +44,3 @@ def test_the_critical_point_lies_outside_of_stick(x, holds):
     finding = STATEMENTS["outside_of_stick"](results, results)
     assert finding.holds == holds
     assert finding.measured.startswith("2 of 4 points")
-
-
-@pytest.mark.parametrize(("regime", "holds"), [(0, False), (1, True), (2, False), (3, False), (4, False)])
-def test_the_regime(regime, holds):
-    results = located()
-    results["regime"] = results.regime * regime
-    finding = STATEMENTS["slips_partially"](results)
-    assert finding.holds == holds
-    assert REGIMES[regime].replace("_", " ") in finding.measured
-    assert "the regime is partial slip" in STATEMENTS["slips_partially"].criterion

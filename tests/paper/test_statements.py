@@ -20,31 +20,9 @@ def of_amplitude(depth: float) -> xr.Dataset:
     )
 
 
-@pytest.mark.parametrize(("depth", "holds"), [(0.35, True), (0.2, False), (0.5, False)])
-def test_almost_a_factor_of_two(depth, holds):
-    finding = STATEMENTS["almost_a_factor_of_two"](of_amplitude(depth))
-    assert finding.holds == holds
-    reached = (1 + depth * (8 / 9) ** 2) / (1 - depth * (8 / 9) ** 2)
-    assert finding.measured.endswith(f"{reached:.2f}")
-
-
-def test_the_phase_matters_little_at_small_amplitudes():
-    assert STATEMENTS["small_amplitude_is_flat"](of_amplitude(0.3)).holds
-    assert not STATEMENTS["small_amplitude_is_flat"](of_amplitude(0.9).isel(normal_amplitude=[1, 2])).holds
+def test_the_phase_matters_more_at_large_amplitudes():
     assert STATEMENTS["phase_matters_more_with_amplitude"](of_amplitude(0.3)).holds
     assert not STATEMENTS["phase_matters_more_with_amplitude"](of_amplitude(0.0)).holds
-
-
-@pytest.mark.parametrize(("low", "high", "holds"), [(0.8, 1.3, True), (0.95, 1.3, False), (0.8, 1.05, False)])
-def test_a_normal_oscillation_raises_and_lowers(low, high, holds):
-    s = {0.0: low, math.pi: high}
-    both = made_up(lambda phase: xr.where(phase > 1, s[math.pi], s[0.0]), phase=[0.0, math.pi])
-    without = made_up(
-        lambda normal_amplitude, tangential_amplitude: tangential_amplitude * 1.2,
-        normal_amplitude=[0.0],
-        tangential_amplitude=[0.8, 0.9],
-    )
-    assert STATEMENTS["oscillation_raises_and_lowers"](both, both, without).holds == holds
 
 
 def of_ratio(depths: dict[float, float], orders: dict[float, int]) -> xr.Dataset:
@@ -99,11 +77,6 @@ def test_a_larger_normal_oscillation_amplifies():
     assert not STATEMENTS["amplitude_amplifies"](swapped).holds
 
 
-def test_the_phases_differ_most_at_one_half():
-    assert STATEMENTS["half_differs_most"](of_ratio({0.25: 0.2, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
-    assert not STATEMENTS["half_differs_most"](of_ratio({0.25: 0.6, 0.5: 0.5, 1.5: 0.3}, ORDERS)).holds
-
-
 def of_face(rounded: float, truncated: float, coupled: float = 0.0) -> xr.Dataset:
     def s(profile: xr.DataArray, flat_radius: xr.DataArray, phase: xr.DataArray) -> xr.DataArray:
         slope = xr.where(profile == "rounded_punch", rounded, truncated)
@@ -156,50 +129,6 @@ def wave(h: xr.DataArray, power: float, shift: float = 0.0) -> xr.DataArray:
     return 0.15 + 0.05 * (h / 0.05) ** power * np.cos(2 / np.sqrt(h) + shift)
 
 
-def of_waviness(power: float, shift: float) -> xr.Dataset:
-    return made_up(
-        lambda normal_amplitude, wavelength, waviness_amplitude: wave(
-            waviness_amplitude, power, shift * normal_amplitude
-        ),
-        normal_amplitude=[0.25, 0.75],
-        wavelength=[4.5, 5.5],
-        waviness_amplitude=H,
-    )
-
-
-def test_waviness():
-    good = of_waviness(0.5, 0.0)
-    for test in (
-        STATEMENTS["waviness_matters"],
-        STATEMENTS["effects_are_alike"],
-        STATEMENTS["wavy_curves_are_alike"],
-    ):
-        assert test(good).holds
-    assert STATEMENTS["oscillations_shrink"](good).holds
-    assert not STATEMENTS["oscillations_shrink"](of_waviness(-0.5, 0.0)).holds
-    assert not STATEMENTS["wavy_curves_are_alike"](of_waviness(0.5, 4.0)).holds
-    flat = made_up(
-        lambda normal_amplitude, wavelength, waviness_amplitude: 0.15 + waviness_amplitude * normal_amplitude,
-        normal_amplitude=[0.25, 0.75],
-        wavelength=[4.5, 5.5],
-        waviness_amplitude=H,
-    )
-    for test in (
-        STATEMENTS["waviness_matters"],
-        STATEMENTS["effects_are_alike"],
-        STATEMENTS["oscillations_shrink"],
-    ):
-        assert not test(flat).holds
-
-
-@pytest.mark.parametrize(("smooth", "holds"), [(0.15, True), (0.11, False)])
-def test_waviness_raises_and_lowers(smooth, holds):
-    paraboloid = made_up(
-        lambda normal_amplitude, phase: smooth + 0 * phase, normal_amplitude=[0.25, 0.75], phase=[0.0]
-    )
-    assert STATEMENTS["waviness_raises_and_lowers"](paraboloid, of_waviness(0.5, 0.0)).holds == holds
-
-
 def test_waviness_and_frequency_ratio():
     def s(
         phase: xr.DataArray, frequency_ratio: xr.DataArray, waviness_amplitude: xr.DataArray
@@ -229,10 +158,8 @@ def test_parameters():
     assert not STATEMENTS["rises_with_friction"](rising).holds
     axes = {"friction": [0.1, 0.3], "poisson_ratio": np.linspace(0, 0.5, 11)}
     weak = made_up(lambda friction, poisson_ratio: 1 + 0.01 * np.sin(20 * poisson_ratio), **axes)
-    assert STATEMENTS["poisson_ratio_is_weak"](weak).holds
     assert STATEMENTS["poisson_ratio_is_intricate"](weak).holds
     strong = made_up(lambda friction, poisson_ratio: 1 - poisson_ratio, **axes)
-    assert not STATEMENTS["poisson_ratio_is_weak"](strong).holds
     assert not STATEMENTS["poisson_ratio_is_intricate"](strong).holds
 
 

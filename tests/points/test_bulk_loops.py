@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 from told import RIG, refused
 
 import swtstudy
-from swtstudy import LoadPath, Study, StudyError, open_results, run, swt_of_history
+from swtstudy import LoadPath, Study, open_results, run, swt_of_history
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
@@ -273,44 +272,7 @@ def test_a_study_has_it_in_its_text_or_in_files(tmp_path: Path) -> None:
     np.testing.assert_allclose(again.s, swtstudy.solve(load=loop, bulk_stress_mean=[0.0, 0.05], rtol=1e-3).s)
 
 
-@pytest.mark.parametrize(
-    ("table", "words"),
-    [
-        (
-            "vertices = [[0, 1, 2], [0, 1]]",
-            r"loads.mine.vertices: found \[0, 1\] .*number 2.; allowed: 3 numbers, as before",
-        ),
-        ("vertices = [[0, 1], [0, 1, 2]]", r"loads.mine.vertices: found \[0, 1, 2\] .*; allowed: 2 numbers"),
-        ("vertices = [[0, 1, 0], [0, 1, nan]]", r"loads.mine.vertices: found \[0.0, 1.0, nan\] .*number 2"),
-        ('vertices = [[0, 1, 0], [0, 1, "a"]]', r"loads.mine.vertices: found .*; allowed: a list of pairs"),
-        ("vertices = [[0, 1, 2, 3]]", r".*shape \(1, 4\).*; allowed: pairs .* or triples with the bulk"),
-        ("vertices = [[0, 1, 2], [0, 1, 2]]", r"loads.mine.vertices: found a single point"),
-        ('file = "hole.csv"', r"loads.mine.file: found nothing .*line 3, bulk\)"),
-        (
-            "vertices = [[0, 1], [0, 2]]\nbulk = [[1, 1, 0]]",
-            "loads.mine: found bulk beside vertices; allowed:",
-        ),
-        ("normal = []\ntangential = []\nbulk = [[0, 1, 0.5]]", "loads.mine: found nothing that changes"),
-        ("normal = []\ntangential = [[1, 1, 0]]\nbulk = [[1, 1]]", r"loads.mine: found \[1, 1\] .bulk of"),
-    ],
-)
-def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, words: str) -> None:
-    (tmp_path / "hole.csv").write_text("normal,tangential,bulk\n0,1,1\n0,2\n")
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(STUDY + table, "study", tmp_path)
-    found = [str(mistake) for mistake in caught.value.mistakes]
-    assert len(found) == 1
-    assert re.match(f"study: {words}", found[0]), found
-
-
-def test_one_message_for_each_mistake_with_a_loop() -> None:
-    three, two = LoadPath("three", LOOP), LoadPath("two", LOOP[:, :2])
-    own = {"normal_amplitude": 0.5, "tangential_amplitude": 0.5}
-    for given, words in (
-        ({"load": two, "bulk_stress_amplitude": 0.1}, "bulk_stress_amplitude: found 0.1 with a loop of two"),
-        ({"load": ["harmonic", three], **own}, "bulk_stress_amplitude: found nothing; allowed: a value"),
-    ):
-        assert len(refused(words, swtstudy.solve, **given).mistakes) == 1
+def test_a_course_has_two_columns_or_three() -> None:
     refused("course of mine: found .*4 columns", LoadPath.sampled, "mine", lambda t: (t, t, t, t))
 
 

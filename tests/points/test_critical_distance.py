@@ -60,57 +60,10 @@ def test_an_archive_gets_more_distances_and_is_merged_with_others(tmp_path: Path
     assert "distances      0.05, 0.1" in call("info", tmp_path / "merged.nc").output
 
 
-@pytest.mark.parametrize(
-    ("entry", "words"),
-    [
-        ("[fixed]\ncritical_distance = 0", r"fixed\.critical_distance: found 0 \(out of range\)"),
-        ("[fixed]\ncritical_distance = 'far'", r"critical_distance: found 'far' \(.*\); allowed: a number"),
-        ("[axes]\ncritical_distance = []", r"axes\.critical_distance: found an empty axis"),
-        ("[axes]\ncritical_distance = [0.1, '1/10']", r"distance\[1\]: found '1/10', the same as"),
-        ("[fixed]\ncritical_distance = 0.1\n[axes]\ncritical_distance = [0.1]", "a fixed value and an axis"),
-        ("quantities = ['s_volume']", r"\[0\]: found 's_volume'; allowed: a value of critical_distance"),
-        ("[fixed]\ncritical_distanse = 0.1", r"did you mean critical_distance\?"),
-    ],
-)
-def test_bad_distances_are_named(entry: str, words: str) -> None:
-    assert len(refused(words, Study.from_text, f'title = "t"\n{entry}\n').mistakes) == 1
-
-
 def test_one_point_has_no_critical_distance() -> None:
     refused("critical_distance: found unknown", swtstudy.inspect_point, critical_distance=0.1)
     words = "critical_distance: found .*; allowed: a single value or"
     refused(words, swtstudy.solve, critical_distance=[[0.1]])
-
-
-def test_the_command_line_prints_a_column_for_each_distance() -> None:
-    answer = call("solve", "--critical-distance", "0.05,0.2", "--rtol", "1e-2")
-    header, row = (line.split("\t") for line in answer.output.splitlines())
-    values = dict(zip(header, row, strict=True))
-    assert float(values["s_volume[0.05]"]) > float(values["s_volume[0.2]"]) > 0.0
-    assert {"s_point[0.05,depth]", "s_line[0.2,critical_plane]"} <= values.keys()
-
-
-@pytest.mark.parametrize(
-    ("damage", "words"),
-    [
-        (lambda found: found.drop_vars("dissipation_error"), "dissipation_error: found nothing; allowed: a"),
-        (lambda found: found.assign(s_volume=found.s), r"s_volume: found dimensions .*critical_distance"),
-        (
-            lambda found: found.assign_attrs(runs=found.attrs["runs"].replace('"dissipation"', '"friction"')),
-            "attribute runs: found .*quantities of a run",
-        ),
-        (
-            lambda found: found.assign(dissipation=found.dissipation.assign_attrs(units="J")),
-            "attribute units of dissipation: found 'J'; allowed: '1'",
-        ),
-    ],
-)
-def test_archives_with_damaged_quantities_are_refused(
-    damage, words: str, two_distances: xr.Dataset, tmp_path: Path
-) -> None:
-    damage(two_distances).to_netcdf(tmp_path / "a.nc")
-    with pytest.raises(ValueError, match=words):
-        open_results(tmp_path / "a.nc")
 
 
 def test_means_of_what_is_the_same_everywhere() -> None:

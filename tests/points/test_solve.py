@@ -15,7 +15,7 @@ from real import ALUMINIUM
 from told import RIG, refused
 
 import swtstudy
-from swtstudy import StudyError, solve
+from swtstudy import solve
 
 
 def test_dimensions_in_the_order_given():
@@ -33,11 +33,6 @@ def test_scalars_give_scalars():
     assert dataset.s.ndim == 0
     assert dataset.frequency_ratio.item() == 1.5
     assert dataset.frequency_ratio.attrs["fractions"] == "3/2"
-
-
-def test_a_tolerance_below_the_smallest_is_refused():
-    with pytest.raises(ValueError, match=r"rtol: found 1e-08; allowed: a number in \[1e-07"):
-        solve(rtol=1e-8)
 
 
 @pytest.mark.parametrize(
@@ -80,42 +75,20 @@ def test_the_order_of_values_does_not_matter():
     assert (back.s.transpose(*forth.s.dims).values[::-1, ::-1] == forth.s.values).all()
 
 
-def test_attributes_follow_the_table():
-    dataset = solve(phase=[0, 1], rtol=1e-2)
-    assert dataset.phase.attrs["units"] == "rad"
-    assert dataset.friction.attrs["symbol"] == r"\mu"
-    assert "units" not in dataset.s.attrs
-    assert dataset.attrs == {"source": f"swtstudy {swtstudy.__version__}", "rtol": 1e-2}
-    assert dataset.s.attrs["ancillary_variables"] == "s_error regime s_surface"
-    meanings = dataset.regime.attrs["flag_meanings"].split()
-    assert len(meanings) == len(dataset.regime.attrs["flag_values"])
-
-
 @pytest.mark.parametrize(
     ("parameters", "message"),
     [
-        ({"friction": -0.1}, "out of range"),
         ({"friction": float("nan")}, "not a finite number"),
         ({"friction": None}, "not a number"),
         ({"friction": np.bool_(True)}, "not a number"),
-        ({"poisson_ratio": 0.6}, "out of range"),
-        ({"frequency_ratio": np.pi}, "irrational"),
-        ({"frequency_ratio": "3/0"}, "division by zero"),
-        ({"psi": 0}, r"unknown parameter 'psi'; allowed: did you mean phase \(ψ\)\?"),
         ({"µ": 0}, r"did you mean friction \(μ\)\?"),
         ({"G*uA": 0}, r"did you mean tangential_amplitude \(uA\)\?"),
         ({"λ": 0}, r"did you mean wavelength \(λ\)\?"),
         ({"Poisson": 0}, r"did you mean poisson_ratio\?"),
-        ({"frictoin": 0}, "did you mean friction"),
-        ({"walker": 0.4}, "did you mean walker_exponent"),
-        ({"phase": []}, "an empty axis"),
-        ({"phase": [0, 0]}, "the same as"),
         ({"phase": [[0, 1]]}, "one-dimensional"),
         ({"phase": [[0, 1], [2]]}, "one-dimensional"),
-        ({"profile": "rounded_punch"}, "flat_radius"),
         ({"profile": "Sphere"}, r"allowed: did you mean paraboloid \(sphere\)\?"),
         ({"criterion": "FS"}, r"allowed: did you mean fatemi_socie \(FS\)\?"),
-        ({"flat_radius": 0.5}, "flat_radius: found 0.5, which no profile here has"),
         ({"rtol": 0}, "rtol"),
         ({"rtoll": 1e-3}, r"rtoll: found unknown .* did you mean rtol\?"),
         ({"rtol": float("nan")}, "rtol"),
@@ -145,12 +118,6 @@ def test_attributes_follow_the_table():
 def test_bad_input_is_a_value_error(parameters, message):
     with pytest.raises(ValueError, match=message):
         solve(**parameters)
-
-
-def test_all_mistakes_come_at_once():
-    with pytest.raises(StudyError) as caught:
-        solve(friction=-1, poisson_ratio=2, psi=0, rtol=5)
-    assert len(caught.value.mistakes) == 4
 
 
 def test_the_package_exports_lazily():
@@ -315,7 +282,6 @@ TWO_OF_A_NAME = [swtstudy.LoadPath("a", [[0.0, end], [0.0, -1.0]]) for end in (1
         ),
         ("test", {"critical_distance": [0.1, 0.2]}, "^critical_distance: found a value for each point"),
         ("regime", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'regime', a name in"),
-        ("test", {"frictoin": [0.1, 0.2]}, "^frictoin: .*did you mean friction"),
         ("control", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'control'"),
         ("SWT", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over 'SWT'"),
         ("", {"friction": [0.1, 0.2]}, "^phase, friction: found DataArrays over ''"),

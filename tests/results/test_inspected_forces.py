@@ -2,12 +2,8 @@
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 
 import swtstudy
-from swtstudy.figures import point as panels
-from swtstudy.figures.point import STATE_COLOURS
 from swtstudy.paper.formalisms import march_springs
 
 SQUARE = swtstudy.LoadPath("square", [[1, 1], [1, -1], [-1, -1], [-1, 1]])
@@ -134,27 +130,6 @@ def test_no_contact_is_open():
     np.testing.assert_allclose(point.tangential_force.values[:-1][apart], 0, atol=1e-12)
 
 
-@pytest.mark.quick(4)
-@pytest.mark.parametrize("name", SCENES)
-def test_panels(points, name):
-    plane, forces, loop = Figure().subplots(1, 3)
-    point = points[name]
-    panels.draw_load_plane(plane, point)
-    panels.draw_forces(forces, point)
-    panels.draw_force_loop(loop, point)
-    path = [line for line in plane.lines if len(line.get_xdata()) == point.sizes["time"]]
-    np.testing.assert_array_equal(path[0].get_data(), (point.tangential_force, point.normal_force))
-    (path,) = (line for line in loop.lines if len(line.get_xdata()) == point.sizes["time"])
-    np.testing.assert_array_equal(path.get_data(), (point.displacement, point.tangential_force))
-    np.testing.assert_array_equal(forces.lines[0].get_data(), (point.time, point.normal_force))
-    np.testing.assert_array_equal(forces.lines[1].get_data(), (point.time, point.tangential_force))
-    np.testing.assert_array_equal(forces.lines[2].get_data(), (point.time, -point.normal_force))
-    band = next(each for each in plane.collections if len(each.get_edgecolor()) > 1)
-    colours = [to_hex(colour).upper() for colour in band.get_edgecolor()]
-    assert colours == [STATE_COLOURS[state] for state in point.edge_state.values[:-1]]
-    assert loop.get_title("left").endswith(f"area = dissipation {float(point.dissipation):.3g}")
-
-
 @pytest.mark.slow
 def test_a_loop_has_no_frequencies_and_no_phase():
     figure = swtstudy.inspect(**SCENES["sum"])
@@ -165,12 +140,3 @@ def test_a_loop_has_no_frequencies_and_no_phase():
     figure = swtstudy.inspect(**SCENES["forces"])
     assert [figure.axes[k].get_xlabel() for k in (1, 4, 7)] == [r"$\omega_1 t$"] * 3
     assert figure.axes[0].get_title("left").endswith("load path, $F_x$ and $F_N$ prescribed")
-
-
-def test_where_there_is_no_equilibrium_there_is_no_cycle():
-    with pytest.raises(ValueError, match=r"^tangential_force_amplitude: found 0.95, .*no equilibrium"):
-        swtstudy.inspect(normal_force_amplitude=0.4, tangential_force_amplitude=0.95)
-    with pytest.raises(ValueError, match=r"^normal_force_amplitude: found 1.2"):
-        swtstudy.inspect(normal_force_amplitude=1.2)
-    with pytest.raises(ValueError, match=r"^normal_force_amplitude: found 1.2"):
-        swtstudy.inspect(normal_force_amplitude=1.2, tangential_amplitude=0)

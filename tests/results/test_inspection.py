@@ -89,17 +89,6 @@ def test_what_always_sticks():
     assert np.isnan(swtstudy.inspect_point(phase=1.4).permanent_stick_radius)
 
 
-def test_the_picture_has_nine_panels():
-    figure = swtstudy.inspect(frequency_ratio="3/2", phase=0.4)
-    assert len(figure.axes) == 10  # two y axes in the panel of the stress cycle
-    assert "3/2" in figure.get_suptitle()
-    assert [axes.get_title("left")[:3] for axes in figure.axes[:9]] == [
-        f"({letter})" for letter in "ABCDEFGHI"
-    ]
-    numbers = {text.get_text() for text in figure.axes[0].texts} & set("1234")
-    assert numbers == set("1234")
-
-
 def test_without_friction_it_is_drawn_too():
     figure = swtstudy.inspect(friction=0, style={"font.size": 7})
     assert figure.axes[0].xaxis.label.get_fontsize() == 7
@@ -112,26 +101,6 @@ def test_nothing_that_moves_is_drawn_as_nothing():
     assert np.ptp(load.get_xlim()) == pytest.approx(0.1 * 1.28)
     (dot,) = (line for line in swt.lines if line.get_marker() == "o")
     assert dot.get_ydata() == [0.0]
-
-
-@pytest.mark.parametrize(("friction", "words"), [(0.3, "critical"), (1.2, "largest")])
-def test_there_is_no_critical_point_where_swt_has_no_bound(friction, words):
-    figure = swtstudy.inspect(profile="truncated_paraboloid", flat_radius=1, friction=friction, phase=1.5)
-    assert ("not finite" in figure.get_suptitle()) == (words == "largest")
-    legend = {text.get_text() for text in figure.axes[1].get_legend().get_texts()}
-    titles = " ".join(axes.get_title("left") for axes in figure.axes)
-    assert ("critical point" in legend, "largest sampled" in legend) == (
-        words == "critical",
-        words == "largest",
-    )
-    assert ("critical" in titles, "largest" in titles) == (words == "critical", words == "largest")
-
-
-def test_mistakes_are_named():
-    with pytest.raises(ValueError, match="did you mean friction"):
-        swtstudy.inspect(frictoin=0.1)
-    with pytest.raises(ValueError, match="phase"):
-        swtstudy.inspect(phase=[0, 1])
 
 
 @pytest.mark.quick(6)

@@ -4,7 +4,7 @@ import stand_in
 from told import refused
 
 import swtstudy
-from swtstudy import StudyError, optimise
+from swtstudy import optimise
 from swtstudy.results.optimise import tangent_planes
 
 OVER = {"normal_amplitude": (0.0, 0.9), "phase": ("pi/4", "pi")}
@@ -137,22 +137,17 @@ def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
     assert found.attrs["without_value"] > 0
     assert np.isfinite(found.s).all()
     assert found.friction.sel(case="worst") == pytest.approx(1.6, abs=1e-4)
-    with pytest.raises(StudyError, match=r"over: found no finite value at any of .* points"):
-        optimise(over={"friction": (1.8, 2.0)}, rtol=1e-2)
 
 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
         ({"over": {}}, "over: found {}; allowed: ranges by name"),
-        ({"over": {"phas": (0, 1)}}, "over.phas: .* did you mean phase"),
         (
             {"over": {"frequency_ratio": (1, 2)}},
             "over.frequency_ratio: found not a parameter that is a number",
         ),
         ({"over": {"phase": (0, 1, 2)}}, "over.phase: .* allowed: both ends of a range"),
-        ({"over": {"phase": 1}}, "over.phase: found 1; allowed: both ends of a range"),
-        ({"over": {"phase": (1, 0)}}, "over.phase: .* the lower end first"),
         ({"over": {"phase": (1, 1)}}, r"over.phase\[1\]: .* distinct values"),
         ({"over": {"friction": (0, 11)}}, r"over.friction\[1\]: found 11"),
         (
@@ -160,35 +155,16 @@ def test_points_without_a_finite_value_are_left_out_and_counted(monkeypatch):
             "over.friction: found both a fixed value and an axis",
         ),
         ({"over": {"flat_radius": (0, 1)}}, "over.flat_radius: .* only with the profile"),
-        ({"over": {"phase": (0, 1)}, "phase_shift": 1}, "phase_shift: found unknown parameter"),
         ({"over": {"phase": (0, 1)}, "friction": [0.1, 0.2]}, "friction: "),
-        ({"over": {"phase": (0, 1)}, "minimise": "S"}, "minimise: found 'S'; allowed: did you mean s"),
         ({"over": {"phase": (0, 1)}, "minimise": "regime"}, "minimise: found 'regime'"),
         (
             {"over": {"phase": (0, 1)}, "minimise": "bulk_shift"},
             "minimise: found 'bulk_shift'; allowed: one of s",
         ),
-        ({"over": {"phase": (0, 1)}, "rtol": 1}, "rtol: found 1"),
-        ({"over": {"phase": (0, 1)}, "seed": -1}, "seed: found -1"),
-        (
-            {"over": {"phase": (0, 1)}, "seed": 2**32},
-            "seed: found 4294967296; allowed: a whole number from 0",
-        ),
     ],
 )
 def test_bad_input_is_named(given, words):
     refused(words, optimise, **given)
-
-
-def test_every_mistake_is_reported():
-    with pytest.raises(StudyError) as error:
-        optimise(over={"phas": (0, 1), "friction": 3}, rtol=7, minimise="t")
-    assert {mistake.key for mistake in error.value.mistakes} == {
-        "over.phas",
-        "over.friction",
-        "rtol",
-        "minimise",
-    }
 
 
 #: Ranges of parameters from 0 to 1, as the surfaces below have them.

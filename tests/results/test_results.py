@@ -46,21 +46,6 @@ def test_extrema_are_values_of_s_and_places_of_the_dimension(waves):
     assert found.friction.values.tolist() == [0.5, 1.0]
 
 
-def test_extrema_say_what_they_are():
-    dataset = swtstudy.solve(phase=[0, 1, 2], rtol=1e-2)
-    found = dataset.swt.extrema("phase")
-    assert dataset.swt.extrema("phase", "critical_angle").minimum.attrs["units"] == "degree"
-    names = {name: values.attrs["long_name"] for name, values in found.data_vars.items()}
-    expected = {"ratio": "maximum over minimum of s"}
-    for end in ("minimum", "maximum"):
-        expected |= {end: f"{end} of s", f"at_{end}": f"phase of {end} s"}
-    assert names == expected
-    units = {name: values.attrs["units"] for name, values in found.data_vars.items()}
-    assert units == {name: "rad" if name.startswith("at_") else "1" for name in names}
-    assert found.minimum.attrs["comment"] == "along phase"
-    assert "ancillary_variables" not in found.minimum.attrs
-
-
 def test_chunks_make_no_difference(waves):
     pieces = waves.chunk(phase=5)
     xr.testing.assert_identical(pieces.swt.extrema("phase"), waves.swt.extrema("phase"))
@@ -94,24 +79,7 @@ def test_a_table_of_nothing_has_the_columns(waves):
     assert list(table.columns) == list(waves.swt.to_table().columns)
 
 
-def test_no_values_are_no_slice(waves):
-    with pytest.raises(ValueError, match=r"^friction: found \[\]; allowed: at least one value$"):
-        waves.swt.slice(friction=[])
-
-
 def test_a_slice_is_the_value_or_the_values_in_the_order_that_was_asked_for(waves):
     one, two = (waves.swt.slice(friction=value) for value in (1, [1, "1/2"]))
     np.testing.assert_array_equal(one.s, waves.s[:, 1])
     np.testing.assert_array_equal(two.s, waves.s[:, ::-1])
-
-
-def test_a_table_has_each_value_at_its_place(waves):
-    waves = waves.assign(regime=waves.regime.astype(np.int8))
-    waves.regime.attrs = {"flag_meanings": "stick partial_slip", "flag_values": [0, 1]}
-    waves.regime[0, 1] = 0
-    table = waves.isel(friction=1).swt.to_table()
-    assert " ".join(table.columns) == "phase friction s s_error critical_x critical_angle regime"
-    np.testing.assert_array_equal(table.s, waves.s[:, 1])
-    np.testing.assert_array_equal(table.phase, PHASE)
-    assert table.friction.tolist() == [1.0] * 37
-    assert table.regime.tolist() == ["stick"] + 36 * ["partial_slip"]

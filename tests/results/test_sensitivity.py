@@ -1,5 +1,4 @@
 import re
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +6,6 @@ import pytest
 import stand_in
 import xarray as xr
 from command import call
-from folders import RESULTS
 from solved import REGIMES
 from told import refused
 
@@ -83,7 +81,7 @@ def test_rough_indices_are_told_with_the_size_that_is_needed(tmp_path):
     half, size, allowed = map(float, re.findall(r"[\d.]+\d", str(told[0].message)))
     widths = [indices[f"{name}_high"] - indices[f"{name}_low"] for name in ("first_order", "total")]
     assert half == pytest.approx(0.5 * max(float(width.max()) for width in widths), rel=0.01)
-    assert allowed == 0.2
+    assert allowed == 0.1
     assert 1.0 <= size / (16.0 * (half / allowed) ** 2) < 2.1
 
 
@@ -149,21 +147,8 @@ def test_points_without_a_number_are_refused_by_name(results):
     assert sensitivity(broken, "critical_x").first_order.notnull().all()
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"y": "regime"}, "y: found 'regime', which is no number"),
-        ({"y": "t"}, "figure.y: found 't'"),
-        ({"confidence": 95}, "confidence: found 95"),
-    ],
-)
-def test_wrong_arguments_are_named(results, given, words):
-    refused(words, sensitivity, results, **given)
-
-
-@pytest.mark.parametrize("given", ["sensitivity.nc", Study.from_text('title = "t"\naxes.phase = [0, 1]\n')])
-def test_only_results_have_indices(given):
-    refused(r"^dataset: found .*; allowed: results, as of swtstudy.run or", sensitivity, given)
+def test_a_variable_that_is_no_number_is_refused(results):
+    refused("y: found 'regime', which is no number", sensitivity, results, y="regime")
 
 
 def test_other_samples_are_refused(results, tmp_path):
@@ -172,65 +157,6 @@ def test_other_samples_are_refused(results, tmp_path):
     other = Study.from_text(STUDY.format(size=8).replace("saltelli", "sobol"))
     with pytest.raises(StudyError, match=r"sample.design: found the design sobol"):
         sensitivity(run(other, tmp_path / "a.nc", workers=1, solver=ishigami))
-    plain = Study.from_text('title = "t"\naxes.phase = [0, 1]\n')
-    with pytest.raises(StudyError, match=r"sample.design: found no design"):
-        sensitivity(run(plain, tmp_path / "b.nc", workers=1, solver=ishigami))
-
-
-@pytest.mark.slow
-@pytest.mark.usefixtures("unwrapped")
-def test_the_bars_are_the_indices(indices, results, told):
-    text, figure = told(results.path.with_suffix(".toml"), "--y", "s", "--y", "critical_x")
-    panels = np.array(figure.axes).reshape(2, 2)
-    for row, quantity in enumerate(("s", "critical_x")):
-        for column in range(2):
-            one = indices.sel(quantity=quantity).isel(normal_amplitude=column)
-            heights = [bar.get_height() for bar in panels[row, column].patches]
-            assert heights == [*one.first_order.values, *one.total.values]
-            bars = panels[row, column].collections
-            for key, drawn in zip(("first_order", "total"), bars, strict=True):
-                ends = np.array([segment[:, 1] for segment in drawn.get_segments()])
-                value = one[key].values
-                np.testing.assert_allclose(ends[:, 0], np.minimum(one[f"{key}_low"], value), atol=1e-12)
-                np.testing.assert_allclose(ends[:, 1], np.maximum(one[f"{key}_high"], value), atol=1e-12)
-    assert panels[1, 0].get_ylabel() == "share of the variance of critical x"
-    assert panels[0, 1].get_title(loc="left") == r"$\delta_A/\delta_0$ = 0.5"
-    assert [text.get_text() for text in panels[1, 0].get_xticklabels()][:2] == [r"$\mu$", r"$\nu$"]
-
-    (line, *_) = (line for line in text.splitlines() if "ν poisson_ratio" in line)
-    of_s = indices.sel(quantity="s").isel(normal_amplitude=0)
-    assert f"| {float(of_s.first_order[1]):.3f} |" in line
-    assert "the paper says" not in text  # of a study that is not its
-    assert "## critical_x, normal_amplitude = 0.5" in text.splitlines()
-
-
-@pytest.mark.slow
-def test_the_table_has_what_the_paper_says(tmp_path):
-    shutil.copy2(RESULTS / "sensitivity.nc", tmp_path)
-    result = call("sensitivity", "sensitivity", "--results", tmp_path)
-    assert result.exit_code == 0, result.output
-    (line, *_) = (line for line in result.output.splitlines() if "ν poisson_ratio" in line)
-    assert line.endswith("| weak but intricate (section 4.1) |")
-
-
-@pytest.mark.filterwarnings("ignore:indices are known to")
-@pytest.mark.slow
-def test_the_command_computes_and_writes(tmp_path):
-    text = STUDY.format(size=2).replace("tangential_amplitude = [0, 2]", "").replace("[0.25, 0.5]", "[0.25]")
-    (tmp_path / "mine.toml").write_text("rtol = 1e-2\n" + text)
-    command = ["sensitivity", tmp_path / "mine.toml", "--results", tmp_path, "--workers", 1]
-    result = call(*command, "--y", "s", "--y", "s_surface")
-    assert result.exit_code == 0, result.output
-    assert "| μ friction |" in result.output
-    for name in ("mine.nc", *(f"mine_indices_s_s_surface{end}" for end in (".nc", ".md", ".png"))):
-        assert (tmp_path / name).stat().st_size > 0
-    # Another quantity does not take the place of these.
-    assert "## s, " in call(*command).output
-    assert (tmp_path / "mine_indices.md").exists()
-    (tmp_path / "mine.toml").write_text(text.replace("saltelli", "sobol"))
-    result = call(*command)
-    assert result.exit_code == 2
-    assert 'found the design sobol; allowed: "saltelli"' in result.output
 
 
 RIG = """
@@ -249,8 +175,8 @@ normal_force_amplitude = [0, 20]
 """
 
 
-@pytest.mark.filterwarnings("ignore:indices are known to")
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:indices are known to")
 def test_a_study_with_units_has_its_own_symbols(tmp_path, told):
     (tmp_path / "mine.toml").write_text(RIG)
     text, figure = told(tmp_path / "mine.toml")

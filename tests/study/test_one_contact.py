@@ -18,16 +18,6 @@ MOVING = RIG | {"tangential_amplitude": 2e-3, "phase": 1.0}
 BRASS = FatigueConstants(73.1e3, 600.0, -0.1, 0.3, -0.6)
 
 
-@pytest.mark.parametrize("force", [150.0, [150.0], np.array([100.0, 150.0])])
-@pytest.mark.parametrize("name", ["critical_distance", "rtol", "quantities", "constants"])
-def test_what_is_asked_is_no_keyword_of_a_contact(force: Any, name: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        physical(**MOVING, normal_force=force, **{name: 0.05})
-    (mistake,) = caught.value.mistakes
-    assert mistake.key == name
-    assert mistake.allowed == f"one of its solve: physical(...).solve({name}=...)"
-
-
 def test_a_value_and_a_sequence_of_one_give_the_same() -> None:
     asked = {"quantities": ["dissipation"], "critical_distance": [0.02, 0.05]}
     asked |= {"constants": (ALUMINIUM, BRASS)}
@@ -127,15 +117,6 @@ def test_a_shape_and_no_axis_of_the_contact() -> None:
         physical(**{n: v for n, v in wide.items() if n != "flat_radius"} | waves)
 
 
-def test_an_axis_that_is_none_is_one_mistake() -> None:
-    units = 'title = "t"\nunits = {length = "mm", force = "N", stress = "MPa"}\n'
-    fixed = "[fixed]\nyoung_modulus = 7e4\npoisson_ratio = 0.3\nradius = 50\ndepth = 0.01\n"
-    fixed += "tangential_amplitude = 1e-3\n"
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(f"{units}{fixed}[axes]\nfriction = 3\n")
-    assert [mistake.key for mistake in caught.value.mistakes] == ["axes.friction"]
-
-
 def test_an_amplitude_of_a_loop_is_asked_for() -> None:
     """0, as of sines, would leave its normal load out."""
     square = swtstudy.LoadPath("square", [[-20, -60], [20, -60], [20, 60], [-20, 60]])
@@ -154,21 +135,3 @@ def test_a_cylinder_at_rest_under_a_loop_is_inspected() -> None:
     alone = swtstudy.solve(**contact.parameters())
     np.testing.assert_allclose(alone.s, contact.solve().s[0], rtol=1e-9)
     assert contact.inspect_point(1).dissipation > 0.0
-
-
-@pytest.mark.parametrize(
-    ("minimise", "words"),
-    [
-        ("cycles", r"with fatigue constants \(\[material\], swtstudy.FatigueConstants\)$"),
-        ("cycles_volume", r"with fatigue constants \(.*\) and a critical_distance$"),
-        ("SWT_point", "with a critical_distance"),
-        ("yield_ratio", "with a yield_strength"),
-        ("FS", 'with the criterion "fatemi_socie"'),
-        ("swt", "did you mean SWT"),
-    ],
-)
-def test_an_optimum_says_what_it_lacks(minimise, words):
-    given = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
-    ball = swtstudy.physical(**given, normal_force=200.0, tangential_force_amplitude=60.0)
-    with pytest.raises(StudyError, match=f"minimise: found '{minimise}'; allowed: {words}"):
-        ball.optimise({"friction": (0.4, 0.6)}, minimise)

@@ -129,16 +129,10 @@ def test_each_body_has_its_own_life():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
-        (lambda contact: contact.swt(0.1), "body: found nothing; allowed: 1 or 2, since the bodies differ"),
-        (lambda contact: contact.cycles(STEEL, 0.1), "body: found nothing"),
-        (lambda contact: contact.swt(0.1, body=0), "body: found 0; allowed: 1 or 2"),
         (lambda contact: contact.parameters(-1), "body: found -1; allowed: 1 or 2"),
         (lambda contact: contact.parameters(np.timedelta64(1, "s")), "body: found np.timedelta64"),
-        (lambda contact: contact.swt(LABELLED, body=1), "body: found 1; allowed: nothing, since s has"),
-        (lambda contact: contact.swt(LABELLED.assign_coords(body=[0, 1])), r"body: found the .*\[0, 1\]"),
         (lambda contact: contact.cycles([STEEL], LABELLED), "constants: found"),
         (lambda contact: contact.cycles(None, LABELLED), "constants: found None; allowed: a Fatigue"),
-        (lambda contact: contact.swt(-0.1, body=1), "s: found -0.1; allowed: numbers ≥ 0"),
     ],
 )
 def test_a_body_that_is_not_known_is_asked_for(call, words):
@@ -271,29 +265,6 @@ def test_a_contact_without_friction_does_not_move():
 
 
 @pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        (
-            {"young_modulus": (210e3, 70e3), "poisson_ratio": (0.3, 0.33), "friction": 0.3},
-            r"Dundurs' β = -0.117.*\|β\|/μ ≤ 0.3",
-        ),
-        ({"young_modulus": -1}, "young_modulus: found -1"),
-        ({"poisson_ratio": 0.6}, "poisson_ratio: found 0.6"),
-        ({"normal_force": 1.0}, "depth, normal_force: found both; allowed: one of the two: it says how deep"),
-        ({"depth": None}, "neither"),
-        ({"friction": -1}, "friction"),
-        ({"frequency_ratio": math.pi}, "irrational"),
-        ({"profile": "rounded_punch"}, "flat_radius: found nothing"),
-        ({"profile": "cone"}, "no such profile"),
-        ({"radius": math.nan}, "radius"),
-        ({"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 0.1}, "compact"),
-    ],
-)
-def test_mistakes_are_named(changes, words):
-    refused(words, physical, **ALUMINIUM | LOADED | changes)
-
-
-@pytest.mark.parametrize(
     ("changes", "messages"),
     [
         (
@@ -309,8 +280,6 @@ def test_mistakes_are_named(changes, words):
             {"friction": 0},
             ["tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, friction = 0;"],
         ),
-        ({"young_modulus": -1}, ["young_modulus: found -1 (out of range); allowed: a positive stress"]),
-        ({"normal_amplitude": "x"}, ["normal_amplitude: found 'x' (not a number"]),
         ({"profile": [["paraboloid"]]}, ["profile: found [['paraboloid']]; allowed: a single value or"]),
         ({"similar": None}, ["similar: found None"]),
         (
@@ -321,14 +290,13 @@ def test_mistakes_are_named(changes, words):
             {"young_modulus": 1e308},
             ["young_modulus: found 1e+308 (out of range); allowed: a positive stress"],
         ),
-        ({"young_modulus": 0}, ["young_modulus: found 0 (out of range); allowed: a positive stress"]),
+        ({"radius": [50.0, -1.0]}, ["radius[1]: found -1.0 (out of range); allowed: a positive length"]),
         ({"radius": 5e-324}, ["radius: found 5e-324 (out of range); allowed: a positive length"]),
         ({"normal_force": 1e308}, ["normal_force: found 1e+308 (out of range); allowed: a positive force"]),
         (
             {"friction": 5e-324},
             ["tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, frict"],
         ),
-        ({"frictoin": 1}, ["frictoin: found unknown parameter 'frictoin'; allowed: did you mean friction?"]),
         ({"E": 1}, ["E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?"]),
         ({"psi": 1}, ["psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?"]),
         (
@@ -345,7 +313,6 @@ def test_mistakes_are_named(changes, words):
                 for name in ("waviness_amplitude", "wavelength")
             ],
         ),
-        ({"flat_radius": 0.5}, ["flat_radius: found 0.5, which no profile here has (paraboloid)"]),
         ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
         (
             {"flat_radius": 1e77, "profile": "truncated_paraboloid"},
@@ -363,7 +330,6 @@ def test_mistakes_are_named(changes, words):
             {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
             ["radius: found 0", "friction: found -1", "tangential_amplitude: found -1", "phase: found None"],
         ),
-        ({"normal_amplitude": 1}, ["normal_amplitude: found 1 at radius = 50, normal_force = 200, 155.2 δ0"]),
     ],
 )
 def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages):

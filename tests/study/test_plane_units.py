@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import swtstudy
-from swtstudy import Study, StudyError, TabulatedProfile, run
+from swtstudy import Study, TabulatedProfile, run
 
 E, NU, R, P, MU = 205e3, 0.3, 80.0, 795.0, 0.8
 GIVEN: dict[str, Any] = {
@@ -115,55 +115,6 @@ def test_a_study_says_newtons_per_millimetre(tmp_path: Path) -> None:
     np.testing.assert_allclose(
         grid.numbers["tangential_amplitude"], found.tangential_force_amplitude / (MU * P)
     )
-
-
-@pytest.mark.parametrize(
-    ("change", "line"),
-    [
-        (
-            {"depth": 0.01, "normal_force": None},
-            "depth: found a depth with a plane profile; allowed: normal_force",
-        ),
-        ({}, "tangential_force_amplitude: found nothing"),
-        ({"tangential_amplitude": 0.1}, "tangential_amplitude: found a displacement with"),
-        (
-            {"profile": "paraboloid", "contact_length": 1.0, "tangential_force_amplitude": 1.0},
-            "contact_length: found a l",
-        ),
-        (
-            {"profile": ["paraboloid", "cylinder"], "tangential_force_amplitude": 1.0},
-            "contact_length: found nothing; ",
-        ),
-        (
-            {"contact_length": -1.0, "tangential_force_amplitude": 1.0},
-            "contact_length: found -1.0 (out of range); allowed: a positive length",
-        ),
-    ],
-)
-def test_what_cannot_be_is_said_in_one_line(change: dict[str, Any], line: str) -> None:
-    with pytest.raises(StudyError) as error:
-        swtstudy.physical(**GIVEN | change)
-    lines = str(error.value).splitlines()
-    assert any(each.startswith(line) for each in lines), lines
-    assert len(lines) == 1 or "depth" in change
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "line"),
-    [
-        ("normal_force = 795", "depth = 0.01", "fixed.depth: found a depth with a plane profile"),
-        (
-            "tangential_force_",
-            "tangential_",
-            "axes.tangential_amplitude: found a displacement with the profile cylinder",
-        ),
-        ('profile = "cylinder"', "contact_length = 3", "fixed.contact_length: found a length without"),
-    ],
-)
-def test_mistakes_in_a_study_with_units(old: str, new: str, line: str) -> None:
-    with pytest.raises(StudyError) as error:
-        Study.from_text(RIG.replace(old, new))
-    assert line in str(error.value)
 
 
 def test_beside_discs_strips_have_their_own_share_of_the_strain() -> None:

@@ -12,7 +12,6 @@ from command import merged
 from told import RIG, refused
 
 import swtstudy
-from swtstudy import Study
 
 R = np.linspace(0.0, 2.0, 60)
 BLUNT = 0.3 * R**2 + 0.1 * R**4
@@ -113,15 +112,6 @@ def test_mistakes_in_a_study(folder: Path, old: str, new: str, message: str) -> 
     assert message in str(refused("", swtstudy.Study.from_toml, folder / "pads.toml"))
 
 
-def test_mistakes_in_a_file(folder: Path) -> None:
-    write(folder / "tables" / "worn.csv", R[::-1], BLUNT)
-    write(folder / "tables" / "rough.csv", R[:5], BLUNT[:5])
-    messages = str(refused("", swtstudy.Study.from_toml, folder / "pads.toml"))
-    assert "profiles.worn: found a first point at the radius 2 with the height 0 (worn.radius" in messages
-    assert "profiles.worn: found 1.9661 after 2 (worn.radius); allowed: ascending radii" in messages
-    assert "profiles.rough: found 5 radii and 5 heights" in messages
-
-
 def test_stress_beneath_a_table_is_that_beneath_the_closed_form() -> None:
     place, load = (0.4, -0.7, 0.6), {"phase": 1.0, "time": [0.0, 2.0, 4.0]}
     cubic = swtstudy.TabulatedProfile("cubic", R, R**3 * 4.0 / (3.0 * np.pi))
@@ -157,30 +147,3 @@ def test_a_real_contact_of_a_table() -> None:
     harder = table.with_parameters(friction=0.7)
     assert harder.profile is pad
     assert harder.friction == 0.7
-
-
-@pytest.mark.parametrize(
-    ("given", "message"),
-    [
-        (
-            {"depth": 0.1},
-            "profile: found pad at depth = 0.1; allowed: a lower load, or another table: the de",
-        ),
-        ({"normal_force": 1e5}, "is beyond the table of pad, which ends at the radius 1.5"),
-        ({"depth": 0.006, "radius": 50.0}, "radius: found a radius; allowed: nothing: the table"),
-        ({"depth": 0.006, "exponent": 3}, "exponent: found 3, which no profile here has (pad)"),
-    ],
-)
-def test_mistakes_about_a_real_contact_of_a_table(given: dict[str, float], message: str) -> None:
-    r = np.linspace(0.0, 1.5, 40)
-    pad = swtstudy.TabulatedProfile("pad", r, r**2 / 100.0)
-    assert message in str(refused("", swtstudy.physical, **PAD | {"profile": pad} | given))
-
-
-@pytest.mark.parametrize(
-    ("kind", "words"),
-    [("profiles", "radius and height, or file"), ("loads", "vertices, with normal and tangential")],
-)
-def test_what_is_defined_is_a_table(kind: str, words: str) -> None:
-    text = f'title = "t"\n{kind}.mine = 3\n'
-    refused(f"{kind}.mine: found 3; allowed: a table with {words}", Study.from_text, text)

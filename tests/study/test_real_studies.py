@@ -8,7 +8,6 @@ import stand_in
 import told
 from command import merged
 from real import ALUMINIUM, BODIES, STUDY, plain, without
-from told import refused
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, open_results, physical, run
@@ -76,17 +75,6 @@ def test_work_and_radii_are_in_the_units(tmp_path):
             assert here.dissipation.item() == pytest.approx(energy * term, rel=1e-3)
             assert here.largest_contact_radius.item() == pytest.approx(a)
     assert found.dissipation.attrs["units"] == "N mm"
-
-
-def test_units_are_said(alike):
-    assert alike.contact_radius.attrs["long_name"] == "contact radius at the mean depth"
-    units = {name: alike[name].attrs.get("units") for name in ("s", "SWT", "cycles", "critical_position")}
-    assert units == {"s": None, "SWT": "MPa", "cycles": None, "critical_position": "mm"}
-    coordinates = ("radius", "normal_force", "tangential_amplitude", "young_modulus", "phase", "friction")
-    found = [alike[name].attrs.get("units") for name in coordinates]
-    assert found == ["mm", "N", "mm", "MPa", "rad", None]
-    assert alike.critical_distance.attrs["units"] == "mm"
-    assert alike.SWT_volume_error.attrs["units"] == "MPa"
 
 
 @pytest.mark.slow
@@ -175,38 +163,9 @@ def test_a_study_with_units_in_words(tmp_path):
     for words in ("150, 200 N", "50 mm", "210000, 150000 MPa", "0.05 mm", "of each body", "<b>body</b>"):
         assert words in text, words
     archive = run(Study.from_text(plain("quantities", "critical_distance")), tmp_path / "a.nc", workers=1)
-    lines = [" ".join(line.split()) for line in repr(archive.swt).splitlines()]
-    for line in (
-        "axis normal_force: 150, 200 N",
-        "axis tangential_amplitude: 0.001, 0.0025 mm",
-        "fixed radius: 50 mm",
-        "units mm, N, MPa",
-        "material young_modulus 73100, strength 927, strength_exponent -0.113, ductility 0.409, "
-        "ductility_exponent -0.713",
-    ):
-        assert line in lines, line
     assert archive.swt.slice(normal_force="150", phase="pi/2").SWT.dims == ("tangential_amplitude",)
     ratio = archive.swt.normalised("normal_force=200")
     np.testing.assert_allclose(ratio.sel(normal_force=150), archive.s[0] / archive.s[1])
-
-
-@pytest.mark.slow
-def test_figures_have_the_units(solved):
-    figure = solved.swt.figure()
-    assert [axes.get_xlabel() for axes in figure.axes[-2:]] == [r"$\psi$ (rad)"] * 2
-    assert [axes.get_ylabel().replace("\n", " ") for axes in figure.axes[::2]] == [
-        *(
-            r"$\mathrm{SWT}$ (MPa)",
-            "load cycles to a crack, $N$",
-            r"mean of SWT over a volume, $\mathrm{SWT}_\mathrm{volume}$ (MPa)",
-            "position of the critical point, $x$ (mm)",
-        )
-    ]
-    assert "$F_0$ = 150 N" in figure.axes[0].get_title(loc="left")
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels == ["$u_A$ = 0.001 mm", "$u_A$ = 0.0025 mm"]
-    over = solved.swt.panels(x="normal_force", hue="tangential_amplitude", panels="phase", y="SWT")
-    assert over.axes[0].get_xlabel() == "$F_0$ (N)"
 
 
 @pytest.mark.slow
@@ -215,10 +174,3 @@ def test_of_two_profiles_one_has_a_wavelength():
     text = text.replace("[fixed]", "[fixed]\nwaviness_amplitude = 1e-3\nwavelength = 2")
     study = Study.from_text(text.replace("[axes]", '[axes]\nprofile = ["paraboloid", "wavy_paraboloid"]'))
     assert stand_in.distinct(study) == study.grid.size == 16
-
-
-@pytest.mark.parametrize("name", ["body", "critical_distance"])
-def test_what_is_no_parameter_of_a_contact_is_not_sampled(name):
-    text = plain("quantities", "critical_distance", "phase")
-    sample = f'\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\n{name} = [0.1, 1]\n'
-    refused(f"sample.ranges.{name}: found unknown parameter '{name}'", Study.from_text, text + sample)

@@ -106,78 +106,6 @@ REFUSED = {
         r"file: found bytes in line 2 that are not UTF-8 \(.*\); allowed: encoding = \"cp1252\", which reads "
         "'delta .µm.,norm' there, or \"latin-1\"; or the file saved as UTF-8",
     ),
-    "unknown encoding": (
-        b"x",
-        'encoding = "cp9999"',
-        "encoding: found 'cp9999'; allowed: the name of an enc",
-    ),
-    "kN": (
-        table("time,Fn [kN],Ft [N]").encode(),
-        'columns = { normal = "Fn [kN]", tangential = "Ft [N]" }',
-        r"file: found 'Fn \[kN\]' in kN as normal, while \[units\] has force in N \(.*allowed: "
-        "scale = { normal = 1000 }; normal = 1 if",
-    ),
-    "kN in a row of units": (
-        table("time,normal,tangential\ns,kN,N").encode(),
-        "units_row = true",
-        "file: found 'normal' in kN as normal",
-    ),
-    "the inverse of a factor": (
-        table("time,normal [kN],tangential [N]").encode(),
-        'columns = { normal = "normal [kN]", tangential = "tangential [N]" }\nscale = { normal = -1e-3 }',
-        r"file: found 'normal \[kN\]' in kN .*, and scale has normal = -0.001 \(.*: scale = .* = 1000 }",
-    ),
-    "a word in the first row": (
-        table("time,normal,tangential\n0,zero,1").encode(),
-        "",
-        r"file: found 'zero' \(.*: line 2, normal\); allowed: a finite number; lines above the header are sk",
-    ),
-    "a word in the second row": (
-        table("time,normal,tangential\n0,1,1\n0,zero,1").encode(),
-        "",
-        r"file: found 'zero' \(.*: line 3, normal\); allowed: a finite number$",
-    ),
-    "a displacement": (
-        table("time,normal,u [µm]").encode(),
-        'columns = { tangential = "u [µm]" }\nscale = { tangential = 1e-3 }',
-        r"file: found 'u \[µm\]' in µm as tangential, which is a force \(.*; allowed: a column with a force",
-    ),
-    "a displacement in a row of units": (
-        table("time,normal,tangential\ns,N,mm").encode(),
-        "scale = { tangential = 1e-3 }\nunits_row = true",
-        "file: found 'tangential' in mm as tangential, which is a force",
-    ),
-    "the other sign": (
-        table("time,normal,tangential", rows=[(t, -n, q) for t, n, q in ROWS]).encode(),
-        "",
-        "absolute: found a mean normal load of -204; allowed: .* scale = { normal = -1 }",
-    ),
-    "another column to scale": (
-        table("time,normal,tangential").encode(),
-        "scale = { norml = 2 }",
-        "scale.norml: found 'norml'; allowed: did you mean normal",
-    ),
-    "no number to scale with": (
-        b"",
-        'scale = { normal = "kN" }',
-        "scale: found 'kN'; allowed: a table of numb",
-    ),
-    "frequency without a time": (
-        table("time,normal,tangential").encode(),
-        "frequency = 1",
-        "frequency: found 1",
-    ),
-    "a frequency below that of the record": (
-        table("time,normal,tangential").encode(),
-        "time = 'time'\nfrequency = 0.02",
-        "frequency: found 0.02, and a record of 0.75; allowed: a whole cycle",
-    ),
-    "frequency beside a period": (b"", "frequency = 1\nperiod = 1", "period, frequency: found both"),
-    "a missing value": (
-        b"normal,tangential\n1,2\n,3\n",
-        "",
-        "file: found nothing .*line 3, normal.; allowed: a fin",
-    ),
     "MATLAB": (
         b"MATLAB 5.0 MAT-file, Platform: GLNXA64\0",
         "",
@@ -186,11 +114,6 @@ REFUSED = {
     "old Excel": (b"\xd0\xcf\x11\xe0", "", "file: found an Excel workbook before 2007"),
     "zip": (b"PK\x03\x04", "", "file: found a zip archive"),
     "damaged Excel": (b"PK\x03\x04 xl/", "", "file: found a workbook that cannot be read"),
-    "a comma for a point": (
-        table("time;normal;tangential", ";", ",").encode(),
-        "decimal = '.'",
-        "file: found '200,5' .*; allowed: a finite number; a comma in numbers is decimal = ','",
-    ),
     "binary": (b"\0\1\2", "", "file: found a binary file"),
 }
 
@@ -218,21 +141,6 @@ def test_blanks_within_headers_part_no_names(tmp_path: Path, separator: str) -> 
     (tmp_path / "rig.txt").write_text(f"normal tangential |F|{separator}N\n1 2 3\n2 3 4\n3 3 4\n")
     if separator in ",;":
         assert read_signal(tmp_path / "rig.txt").values.tolist() == [[1, 2], [2, 3], [3, 3]]
-
-
-def test_units_of_depths_and_displacements_are_lengths(tmp_path: Path) -> None:
-    """Beside their amplitudes; a stress written as a quotient, and a name in brackets, are no lengths."""
-    rows = [(t, n / 1e4, q / 10) for t, n, q in ROWS]
-    (tmp_path / "rig.csv").write_text(table("time,normal [mm],tangential [µm]", rows=rows), encoding="utf-8")
-    own = 'columns = { normal = "normal [mm]", tangential = "tangential [µm]" }\n'
-    text = RIG.replace("[fixed]", "[fixed]\nnormal_amplitude = 1\n") + own
-    words = r"in µm as tangential, while \[units\] has length in mm .* = 0.001 }"
-    refused(words, Study.from_text, text, "s", tmp_path)
-    Study.from_text(text + "scale = { tangential = 1e-3 }", "s", tmp_path)
-    header = "normal (mean),tangential,bulk\nN,N,N/mm²"
-    (tmp_path / "rig.csv").write_text(table(header, rows=[(200 + n / 10, q, t) for t, n, q in ROWS]))
-    text = RIG + 'columns = { normal = "normal (mean)", bulk = "bulk" }\nunits_row = true\n'
-    Study.from_text(text, "s", tmp_path)
 
 
 def test_a_stress_that_is_a_quotient_is_compared_with_the_units(tmp_path: Path) -> None:
@@ -338,47 +246,6 @@ def test_points_and_traces_are_read_by_the_same_rules(tmp_path: Path) -> None:
     }
     profile = swtstudy.read_trace(tmp_path / "trace.txt", **given)
     np.testing.assert_allclose(profile.height, profile.radius**2 / 100.0, atol=1e-9)
-
-
-def test_a_load_that_is_absolute_and_not_said_to_be_is_asked_about(tmp_path: Path) -> None:
-    (tmp_path / "rig.csv").write_text(table("time,normal,tangential"))
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(RIG.replace("absolute = true", ""), "s", tmp_path)
-    assert str(caught.value.mistakes[0]).endswith(
-        "or absolute = true under [loads.rig], whose normal column is far from 0"
-    )
-
-
-def test_a_title_above_the_header_is_not_taken_for_it(tmp_path: Path) -> None:
-    """The line with most of the names asked for is the header, also where one of them is misspelt."""
-    (tmp_path / "rig.csv").write_text("Rig 7, Monday, run 3\n" + table("time,normal,tangental"))
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(RIG, "s", tmp_path)
-    line = str(caught.value).splitlines()[0]
-    assert "found the columns time, normal, tangental in line 2, which is most like the header; " in line
-    assert "line 1 is skipped, 'Rig 7 Monday run 3'" in line
-    assert "rig.csv: line 2" in line
-    columns = 'columns = { tangential = "Ft [N]" }'
-    with pytest.raises(StudyError, match=r"no column 'Ft \[N\]', which is to be tangential in line 2, "):
-        Study.from_text(RIG + columns, "s", tmp_path)
-    sample = 'title = "t"\n[sample]\nfile = "points.csv"\n'
-    (tmp_path / "points.csv").write_text("Points of Monday\nfriction,phase\n0.3,1\n0.4,2\n")
-    with pytest.warns(UserWarning, match="header is found in line 2: line 1 is skipped, 'Points of Monday'"):
-        assert Study.from_text(sample, "s", tmp_path).grid.samples["friction"] == (0.3, 0.4)
-
-
-def test_decimal_commas_beside_points_name_the_key(tmp_path: Path) -> None:
-    (tmp_path / "rig.csv").write_text("time;normal;tangential\n0;200.5;1\n1;1,5;2\n2;73,1e3;3\n")
-    hint = "; a comma in numbers is decimal = ','"
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(RIG, "s", tmp_path)
-    (line,) = str(caught.value).splitlines()
-    assert "found '1,5' (" in line
-    assert "line 3, normal" in line
-    assert hint in line
-    (tmp_path / "points.csv").write_text("friction;phase\n0,5;1.5\n0,6;1.7\n")
-    with pytest.raises(StudyError, match=r"friction: found '0,5' .* 1 more like it; .*" + hint):
-        Study.from_text('title = "t"\n[sample]\nfile = "points.csv"\n', "s", tmp_path)
 
 
 def test_all_mistakes_in_a_table_are_told_at_once(tmp_path: Path) -> None:

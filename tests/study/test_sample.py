@@ -1,12 +1,7 @@
-import re
-
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import stand_in
 from command import call, merged
-from drawn import draw, keys
-from matplotlib.colors import to_rgb
 from scipy import stats
 from told import refused, written
 
@@ -162,13 +157,6 @@ def test_a_stopped_run_goes_on(tmp_path):
     assert np.array_equal(found.s, undisturbed.s)
 
 
-@pytest.mark.slow
-def test_worker_processes_give_the_same(tmp_path):
-    study = sampled("sobol", 256)
-    here, there = (run(study, tmp_path / f"{n}.nc", workers=n, solver=stand_in.slow).s.values for n in (1, 2))
-    assert np.array_equal(here, there)
-
-
 def test_points_from_a_file(tmp_path):
     (tmp_path / "points.csv").write_text(
         "profile, frequency_ratio, phase, flat_radius\n"
@@ -204,10 +192,6 @@ def test_samples_of_the_same_parameters_are_merged(tmp_path):
     both = merged(tmp_path / "16.nc", tmp_path / "32.nc")
     assert both.s.shape == (32, 2)
     assert (both.status == 0).all()
-    plain = Study.from_text('title = "t"\naxes.phase = [0, 1]\n')
-    run(plain, tmp_path / "plain.nc", workers=1, solver=stand_in.smooth)
-    done = call("merge", tmp_path / "16.nc", tmp_path / "plain.nc", "-o", tmp_path / "both.nc")
-    assert "samples of different parameters" in done.stderr
 
 
 def test_results_of_a_sample_are_sliced_listed_and_searched(tmp_path):
@@ -242,145 +226,6 @@ def test_shapes_are_checked_row_by_row():
     assert "more like it" not in str(refused(words, Study.from_text, rows.format([0.9, 0])))
 
 
-@pytest.fixture(scope="module")
-def results(tmp_path_factory):
-    return run(sampled(), tmp_path_factory.mktemp("r") / "a.nc", workers=1, solver=stand_in.smooth)
-
-
-def with_points(axes):
-    """The lines of a panel, without those that the legend shows in their place."""
-    return [line for line in axes.lines if len(line.get_xdata())]
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_a_scatter_has_a_panel_for_each_parameter(results):
-    figure = draw(results)
-    assert [axes.get_xlabel() for axes in figure.axes] == [r"$\psi$ (rad)", r"$\mu$"]
-    for axes, name in zip(figure.axes, ("phase", "friction"), strict=True):
-        for line, profile in zip(with_points(axes), ("paraboloid", "rounded_punch"), strict=True):
-            assert line.get_xdata().tolist() == results[name].values.tolist()
-            assert line.get_ydata().tolist() == results.s.sel(profile=profile).values.tolist()
-    assert [text.get_text() for text in figure.legends[0].texts] == [
-        "paraboloid",
-        "rounded punch, $b/a_H$ = 0.5",
-    ]
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_values_of_hue_differ_in_a_scatter_in_grey_too(results):
-    (axes, *_), (legend,) = (lambda figure: (figure.axes, figure.legends))(draw(results))
-    first, second = with_points(axes)
-    assert first.get_marker() != second.get_marker()
-    grey = [np.dot(to_rgb(line.get_color()), [0.299, 0.587, 0.114]) for line in (first, second)]
-    assert abs(grey[0] - grey[1]) > 0.25
-    for handle, line in zip(legend.legend_handles, (first, second), strict=True):
-        assert handle.get_marker() == line.get_marker()
-        assert handle.get_markersize() > 2.0 * line.get_markersize()
-        assert handle.get_alpha() in (None, 1.0)
-
-
-def test_a_scatter_of_regimes_has_a_row_for_each(results):
-    (axes, _) = draw(results, keys("sample", y=("regime",), kind="scatter", hue="profile")).axes
-    assert [text.get_text() for text in axes.get_yticklabels()] == [
-        *("stick", "partial slip", "gross slip", "lift off", "not finite", "no equilibrium")
-    ]
-    assert axes.get_ylim() == (-0.5, 5.5)
-
-
-@pytest.mark.usefixtures("unwrapped")
-def test_a_histogram_counts_and_has_percentiles(results):
-    figure = draw(results, keys("sample", panels="profile", kind="histogram"))
-    for axes, profile in zip(figure.axes, ("paraboloid", "rounded_punch"), strict=True):
-        values = results.s.sel(profile=profile).values
-        assert [line.get_xdata()[0] for line in axes.lines] == np.percentile(values, [5, 50, 95]).tolist()
-        assert f"50 %: {np.median(values):.3g}" in axes.get_title(loc="left")
-        top = max(path.get_extents().y1 for path in (patch.get_path() for patch in axes.patches))
-        counts, _ = np.histogram(values, np.histogram_bin_edges(results.s.values, "auto"))
-        assert top == counts.max()
-    (axes,) = draw(results.isel(profile=0), keys("sample", y=("regime",), kind="histogram")).axes
-    ticks = dict(zip([label.get_text() for label in axes.get_xticklabels()], axes.get_xticks(), strict=True))
-    assert {words: ticks[words] for words in ("stick", "no equilibrium")} == {"stick": 0, "no equilibrium": 5}
-    plt.close("all")
-
-
-@pytest.mark.parametrize(
-    ("layout", "words"),
-    [
-        ({"x": "phase", "kind": "scatter"}, 'figure.x: found .phase.; allowed: "sample"'),
-        ({"x": "sample", "hue": "profile"}, "figure.x: found 'sample'; allowed: an axis"),
-        ({"x": "sample", "kind": "scatter", "panels": "profile"}, "figure.panels: found 'profile'"),
-        ({"x": "sample", "kind": "histogram", "vertical": "profile"}, "figure.vertical: found 'profile'"),
-        ({"x": "sample", "kind": "scatter", "hue": "profile", "regimes": True}, "figure.regimes: found true"),
-        ({"x": "sample", "kind": "scatter"}, "no place for the axis profile"),
-        ({"x": "profile", "kind": "heatmap", "vertical": "sample"}, "figure.vertical: found 'sample'"),
-    ],
-)
-def test_layouts_that_do_not_fit_a_sample(results, layout, words):
-    refused(words, draw, results, keys(**layout))
-
-
-DRAWN = "\nsample.ranges.phase=[0,1]"
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("sample.file = 'a.csv'\nsample.size=2", "size: found 2 beside file; allowed: only with a design"),
-        ("sample.file = 'a.csv'" + DRAWN, "sample.ranges: found .* beside file; allowed: only with a design"),
-        ("sample.file = 'none.csv'", "sample.file: found .*no such file"),
-        ("sample.points = {phase=[1,2], friction=[0.1]}", "sample.points: found 2 of phase, 1 of friction"),
-        ("sample.points = {phas=[1]}", "sample.points.phas: .*did you mean phase"),
-        ("sample.desgin = 'sobol'", "sample.desgin: found unknown key 'desgin'; allowed: did you mean des"),
-    ],
-)
-def test_wrong_samples_are_named(text, words):
-    refused(words, Study.from_text, HEAD + text)
-
-
-@pytest.mark.parametrize(
-    ("entry", "words"),
-    [
-        ("phas = [0, 1]", "sample.ranges.phas: found unknown parameter 'phas'; allowed: did you mean phase"),
-        ("flat_radius = [0.1, 1]", "flat_radius: found an axis, which no profile here has"),
-    ],
-)
-def test_wrong_ranges_are_named(entry, words):
-    text = f"{HEAD}[sample]\ndesign = 'random'\nsize = 2\n[sample.ranges]\n{entry}\n"
-    refused(f"a.toml: .*{words}", Study.from_text, text, "a.toml")
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("fixed.phase = 1", "phase: found both a fixed value and sampled"),
-        ("axes.phase = [1, 2]", "phase: found both an axis and sampled"),
-        ("fixed.normal_force_amplitude = 0.1", "normal_amplitude.*found both; allowed: one of the two"),
-    ],
-)
-def test_a_parameter_is_given_once(text, words):
-    sample = "sample.points = {phase = [1, 2], normal_amplitude = [0.1, 0.2]}\n"
-    refused(words, Study.from_text, HEAD + sample + text)
-
-
-@pytest.mark.parametrize(
-    ("content", "words"),
-    [
-        ("", "sample.file: found an empty file"),
-        ("phase,friction\n", "without points"),
-        ("phase,phase\n1,2\n", "the column phase twice .*line 1"),
-        ("phase,friction\n1,0.1\n2\n3,4,5\n", r"sample.file: found 3 cells under 2 columns .*line 4"),
-        ("phase,frictoin\n1,0.1\n", "sample.file.frictoin: .*did you mean friction"),
-        ("phase,strength\n1,900\n", "sample.file: found the column strength, a constant"),
-        ("phase,friction\n1,0.1\n1,x\n", r"sample.file.friction: found 'x' .* at \[1\]"),
-        (b"\xff\xfe\x00", "sample.file: found"),
-    ],
-)
-def test_wrong_files_are_named(tmp_path, content, words):
-    (tmp_path / "points.csv").write_bytes(content if isinstance(content, bytes) else content.encode())
-    (tmp_path / "mine.toml").write_text(HEAD + 'sample.file = "points.csv"')
-    refused(words, Study.from_toml, tmp_path / "mine.toml")
-
-
 def test_forces_may_be_sampled():
     text = f"{HEAD}[sample]\ndesign='sobol'\nsize=4\n[sample.ranges]\nnormal_force_amplitude=[0.1, 0.5]\n"
     grid = Study.from_text(text).grid
@@ -401,24 +246,6 @@ def test_the_sample_of_the_template_is_a_study(tmp_path):
     assert all(name in text for name in DESIGNS)
 
 
-def test_a_sample_in_words(tmp_path):
-    points = "[sample.points]\nphase = [0, 1, 0, 1]\nfriction = [0.1, 0.2, 0.3, 0.2]\n"
-    study = Study.from_text(f'title = "Four points"\n[sample]\n{points}')
-    found = run(study, tmp_path / "a.nc", workers=1)
-    lines = [" ".join(line.split()) for line in repr(found.swt).splitlines()]
-    # Two values are listed, three are a range.
-    assert "sampled phase: 0, 1" in lines
-    assert "sampled friction: from 0.1 to 0.3" in lines
-
-
-@pytest.mark.parametrize(("deviation", "factor"), [(5, "148"), (800, "inf")])
-def test_the_deviation_of_a_logarithm_is_no_length(deviation, factor):
-    entry = f"friction = {{distribution='lognormal', median=0.3, deviation={deviation}}}\n"
-    text = f'title = "t"\n[sample]\ndesign = "random"\nsize = 4\n[sample.ranges]\nphase = [0, 1]\n{entry}'
-    words = f"friction.deviation: found {deviation}, as a factor {factor}; allowed: that of the nat"
-    refused(words, Study.from_text, text)
-
-
 RIG_POINTS = """title = "points"
 units = { length = "mm", force = "N", stress = "MPa" }
 [fixed]
@@ -431,25 +258,6 @@ normal_force_amplitude = 0
 file = "points.csv"
 columns = { normal_force = "P", tangential_force_amplitude = "Q" }
 """
-
-
-@pytest.mark.parametrize(
-    ("rows", "more", "words"),
-    [
-        ("P [kN],Q [kN]\n0.2,0.05", "", "'P [kN]' in kN as normal_force, while [units] has force in N"),
-        ("P,Q\nkN,kN\n0.2,0.05", "", "'P' in kN as normal_force"),
-        ("P,Q\nkN,kN\n0.2,0.05", "units_row = true", "'Q' in kN as tangential_force_amplitude"),
-        ("P,Q\n200,50", "scale = { normal = 1000 }", "scale.normal: found 'normal'"),
-        ("P [mm],Q\n200,50", "", "'P [mm]' in mm as normal_force, which is a force"),
-    ],
-)
-@pytest.mark.filterwarnings("ignore:.*read as units")
-def test_points_of_a_file_have_the_units_of_the_study(tmp_path, rows, more, words):
-    header = rows.partition("\n")[0].split(",")
-    text = RIG_POINTS.replace('"P"', f'"{header[0]}"').replace('"Q"', f'"{header[1]}"')
-    (tmp_path / "points.csv").write_text(rows)
-    (tmp_path / "mine.toml").write_text(f"{text}{more}\n")
-    refused(re.escape(words), Study.from_toml, tmp_path / "mine.toml")
 
 
 @pytest.mark.filterwarnings("ignore:.*read as units")

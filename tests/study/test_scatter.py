@@ -22,10 +22,6 @@ strength = { strength = 900, ductility = -0.9 }
 ductility = { ductility = 1.6e-3 }
 strength_exponent = { strength_exponent = 4e-6 }
 """
-SMALL = """[sample.covariance]
-strength = { strength = 900, strength_exponent = -0.03 }
-strength_exponent = { strength_exponent = 4e-7 }
-"""
 SOUND = f"{CONTACT}{LOADS}{AXES}{SAMPLE}{RANGE}"
 
 
@@ -209,31 +205,7 @@ def test_bodies_of_different_materials_have_ranges_of_their_own(tmp_path: Path) 
     [
         (of_shear(SAMPLE + RANGE, TORSION), "strength, of which no life by fatemi_socie is made"),
         (of_shear(SAMPLE + SHEAR_RANGES), "shear_strength, a constant without a value; allowed: shear_str"),
-        (
-            SOUND.replace("strength = 927", "strength = [927, 900]"),
-            "strength, which is 927 and 900 in the bodies; allowed: strength_1, strength_2, or one of them",
-        ),
-        (f"{SOUND}strength_2 = [800, 900]\n", "strength_2 beside strength; allowed: one of the two"),
     ],
 )
 def test_constants_that_make_no_life_are_refused(text: str, words: str) -> None:
     refused(words, Study.from_text, text)
-
-
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        (SAMPLE + "[sample.ranges]\nshear_modulus = [1, 2]\n", "constants that can: strength, strength_exp"),
-        (SAMPLE + "[sample.ranges]\nstrength = 3\n", "sample.ranges.strength: found 3"),
-        (SAMPLE + COVARIANCE.replace("-0.9", "-9.0"), "a correlation of -7.5 between ductility and"),
-        # A correlation of -1.58, in units in which the other variance is 2e9 times as large.
-        (SAMPLE + SMALL, "a correlation of -1.58 between"),
-        (SAMPLE + COVARIANCE.replace("ductility =", "hardness ="), "sample.covariance.hardness: found"),
-        (SAMPLE + COVARIANCE.replace("900", "inf"), r"strength\.strength: found inf; allowed: its variance"),
-        (SAMPLE + COVARIANCE.replace("900", "9e6").replace("-0.9", "0"), "draws with the wrong sign"),
-        (SAMPLE.replace("2e5", "0") + RANGE, "sample.target_life: found 0"),
-        ("[sample.points]\nstrength = [900, 950]\nductility = [0.4]\n", "2 of strength, 1 of ductility"),
-    ],
-)
-def test_mistakes_are_told(more: str, words: str) -> None:
-    refused(words, Study.from_text, f"{CONTACT}{LOADS}{AXES}{more}")

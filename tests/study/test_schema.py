@@ -85,21 +85,6 @@ def test_three_mistakes(validator):
 
 
 @pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("friction = 0.3\n", "friction: found unknown key 'friction'; allowed: in [fixed] or [axes]"),
-        ('bodies = ["pad", "specimen"]\n', "bodies: found unknown key 'bodies'; allowed: in [fixed]"),
-        ("[units]\nnormal_force = 100\n", "unknown key 'normal_force'; allowed: in [fixed] or [axes]"),
-        ("[units]\n[material]\nfriction = 1\n", "unknown key 'friction'; allowed: in [fixed] or [axes]"),
-        ("rtoll = 1e-3\n", "unknown key 'rtoll'; allowed: did you mean rtol?"),
-    ],
-)
-def test_a_key_in_the_wrong_table_is_told_its_place(text, words):
-    error = refused("", Study.from_text, f'title = "t"\n{text}[axes]\nphase = [0, 1]\n')
-    assert words in str(error)
-
-
-@pytest.mark.parametrize(
     "line", ["wavelength = 0", "frequency_ratio = 65", "friction = true", "friction = [0.1]"]
 )
 def test_the_editor_refuses_what_the_study_refuses(line, validator):

@@ -139,48 +139,6 @@ def test_properties_of_shear_of_a_contact_in_python():
             assert found[f"FS_cycles{end}"].values[body] == pytest.approx(expected, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("lines", "criterion", "words"),
-    [
-        (
-            SHEAR.splitlines()[:3],
-            "fatemi_socie",
-            "shear_ductility_exponent: found nothing; allowed: a negative number, beside shear_strength",
-        ),
-        ([*SHEAR.splitlines()[1:]], "fatemi_socie", "material.shear_strength: found nothing; allowed: a pos"),
-        (
-            [SHEAR.replace("530", "-530")],
-            "fatemi_socie",
-            "material.shear_strength: found -530; allowed: a positive stress in MPa",
-        ),
-        (
-            [SHEAR.replace("-0.55", "0.55")],
-            "fatemi_socie",
-            "material.shear_ductility_exponent: found 0.55; allowed: a negative number",
-        ),
-        (
-            [SHEAR.replace("shear_ductility =", "shear_ductilty =")],
-            "fatemi_socie",
-            "unknown key 'shear_ductilty'; allowed: did you mean shear_ductility",
-        ),
-        ([SHEAR], "swt", "material: found shear constants alone; allowed: the criterion fatemi_socie"),
-        *(
-            ([each], "findley", "material: found constants with the criterion findley alone; allowed: none")
-            for each in (SHEAR, TENSILE)
-        ),
-        (["findley_limit = 0"], "findley", "material.findley_limit: found 0; allowed: a positive stress in"),
-        (["findley_limt = 9"], "findley", "unknown key 'findley_limt'; allowed: did you mean findley_limit"),
-    ],
-)
-def test_wrong_properties_of_shear_have_one_message(lines, criterion, words):
-    assert len(refused(words, study, *lines, criterion=f'"{criterion}"').mistakes) == 1
-
-
-def test_a_shear_modulus_needs_the_other_constants_of_shear():
-    error = refused("material.shear_strength: found nothing", study, "shear_modulus = 80e3")
-    assert len(error.mistakes) == 4
-
-
 def test_a_shear_modulus_is_asked_for_where_the_bodies_have_none(tmp_path):
     several = FIXED.replace("poisson_ratio = 0.3", "").replace("0.3", '0.3\ncriterion = "fatemi_socie"')
     text = f'title = "t"\n{UNITS}[material]\nyield_strength = 400\n{SHEAR}\n[fixed]\n{several}\n'
@@ -193,20 +151,6 @@ def test_a_shear_modulus_is_asked_for_where_the_bodies_have_none(tmp_path):
     named = text.replace(f"yield_strength = 400\n{SHEAR}", 'file = "materials.toml"\nname = ["a", "b"]')
     words = "shear_strength: found that of one body; allowed: that of both"
     refused(words, Study.from_text, named, "s", tmp_path)
-
-
-def test_wrong_properties_of_shear_in_python():
-    own = OWN | {"criterion": "findley"}
-    refused("findley_limit: found -1; allowed: a positive stress", swtstudy.physical, **own, findley_limit=-1)
-    words = "shear_constants: found 3; allowed: a ShearConstants, or a pair"
-    refused(words, swtstudy.physical, **own, shear_constants=3)
-
-
-def test_a_limit_in_another_unit_is_warned_of():
-    with pytest.warns(UserWarning, match="material.findley_limit 0.15 over young_modulus 210000"):
-        study("findley_limit = 0.15", criterion='"findley"')
-    with pytest.warns(UserWarning, match="material.shear_strength 5.3e.08 over young_modulus 210000"):
-        study(SHEAR.replace("530", "530e6"))
 
 
 FIGURE = """

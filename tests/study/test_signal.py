@@ -28,10 +28,6 @@ def write(path: Path, values: np.ndarray, header: str, separator: str = ",", dec
     path.write_text("\n".join([header, *rows, ""]), encoding="utf-8")
 
 
-def mistakes_of(text: str, folder: Path) -> list[str]:
-    return [*map(str, refused("", Study.from_text, text, "s", folder).mistakes)]
-
-
 def smooth(phase: np.ndarray) -> np.ndarray:
     """Loads of a smooth cycle at phases."""
     normal = 200.0 + 20.0 * np.sin(phase + 0.3)
@@ -151,8 +147,6 @@ def test_cycles_that_are_no_cycles_are_refused(tmp_path: Path, recorded_cycles: 
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"recorded_cycles": 10}, "each cycle repeats 2 times: recorded_cycles = 20?"),
-        ({"recorded_cycles": 4}, "each cycle repeats 5 times: recorded_cycles = 20?"),
         ({"period": 800}, "each cycle repeats 2 times: period = 400?"),
         ({"time": "time", "frequency": 5e-4}, "each cycle repeats 5 times: frequency = 0.0025?"),
     ],
@@ -186,30 +180,10 @@ def told_of(path: Path, **given: object) -> list[str]:
     return [str(each.message) for each in told]
 
 
-@pytest.mark.parametrize(
-    ("shares", "ends", "words"),
-    [
-        (np.minimum(1.0, np.arange(0.5, 40.0) / 10.0), 4, "4 cycles have"),
-        (1.0 - 0.3 * np.arange(40) / 39, 4, "4 cycles have"),
-        (np.array([0.2, 0.6, *np.ones(8)]), 2, "2 cycles have"),
-        (np.array([*np.ones(9), 0.5]), 1, "cycle has"),
-    ],
-    ids=["start-up", "drift", "short start-up", "stop"],
-)
-def test_first_or_last_cycles_of_another_amplitude_are_told(
-    tmp_path: Path, shares: np.ndarray, ends: int, words: str
-) -> None:
-    path = recorded(tmp_path / "rig.csv", shares)
-    (line,) = told_of(path, recorded_cycles=len(shares), absolute=True)
-    found = re.fullmatch(
-        f"rig: the first {words} a tangential amplitude of (.*), the last of (.*), and their mean, (.*), "
-        "is the load: cut the rows of a start-up from the file, or run all cycles .* keep_cycles = true",
-        line,
-    )
-    amplitudes = [160.0 * each.mean() for each in (shares[:ends], shares[-ends:], shares)]
-    np.testing.assert_allclose([float(each) for each in found.groups()], amplitudes, rtol=0.02)
-    # Kept cycles are no mean.
-    text = RIG + f'[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = {len(shares)}\n'
+def test_kept_cycles_may_have_amplitudes_of_their_own(tmp_path: Path) -> None:
+    """They are no mean, of which a start-up would be told."""
+    recorded(tmp_path / "rig.csv", np.minimum(1.0, np.arange(0.5, 40.0) / 10.0))
+    text = RIG + '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 40\n'
     Study.from_text(f"{text}keep_cycles = true\n", "s", tmp_path)
 
 
@@ -219,24 +193,6 @@ def test_amplitudes_that_only_scatter_are_not_told(tmp_path: Path) -> None:
         spread = (0.0, 0.03, 0.1, 0.3)[seed % 4]
         path = recorded(tmp_path / "rig.csv", 1.0 + spread * random.uniform(-1.0, 1.0, count), seed)
         assert not told_of(path, recorded_cycles=count, absolute=True)
-
-
-@pytest.mark.parametrize(("period", "shift"), [(400, 0.0), (402, 0.0), (416, -16 / 416), (388, 12 / 388)])
-def test_cycles_that_drift_are_told_with_the_period_that_fits(tmp_path: Path, period: int, shift) -> None:
-    """At a period that is a little wrong they are alike, and their mean has lost of its amplitude."""
-    noise = np.random.default_rng(1).normal(size=(4000, 3)) * [2.0, 0.6, 0.3]
-    signal = smooth(2.0 * np.pi * np.arange(4000) / 400) * [0.0, 1.0, 1.0] + noise
-    write(tmp_path / "rig.csv", signal, "normal,tangential,bulk")
-    found = told_of(tmp_path / "rig.csv", period=period)
-    assert len(found) == bool(shift)
-    if shift:
-        words = (
-            "rig: each of its [0-9]+ cycles comes (.*)% of a period (.*); is the period (.*) and not (.*)[?]"
-        )
-        ((share, side, right, wrong),) = re.findall(words, found[0])
-        assert (side, int(wrong)) == ("late" if shift > 0.0 else "early", period)
-        assert float(share) == pytest.approx(100.0 * abs(shift), rel=0.1)
-        assert float(right) == pytest.approx(400.0, rel=5e-3)
 
 
 def test_harmonics_are_those_of_least_squares(tmp_path: Path) -> None:
@@ -274,63 +230,6 @@ def test_a_noisy_signal_with_harmonics_has_the_swt_of_the_smooth_cycle(tmp_path:
     contact = swtstudy.physical(**told.RIG, load=loop)
     assert contact.normal_force == pytest.approx(200.0)
     np.testing.assert_allclose(found.SWT, contact.solve().SWT, rtol=5e-3)
-
-
-@pytest.mark.parametrize(
-    ("table", "words"),
-    [
-        ("absolute = 1", "loads.rig.absolute: found 1; allowed: true or false"),
-        ('separator = "ab"', "loads.rig.separator: found 'ab'; allowed: one of"),
-        ('decimal = ","', "loads.rig.separator, decimal: found both ','; allowed: two different"),
-        ("recorded_cycles = 1.5", "loads.rig.recorded_cycles: found 1.5; allowed: a whole number"),
-        ("recorded_cycles = 2\nperiod = 3", "loads.rig.recorded_cycles, period: found both; allowed: one"),
-        ("recorded_cycles = 4", "loads.rig.recorded_cycles: found 1.5 samples a cycle; allowed: 2 samples"),
-        ("period = 7", "loads.rig.period: found 7, and a record of 5; allowed: a whole cycle at least"),
-        ("period = -1", "loads.rig.period: found -1; allowed: a positive number"),
-        ("harmonics = 3", "loads.rig.harmonics: found 3 with 6 samples; allowed: less than half"),
-        (
-            "recorded_cycles = 2\nharmonics = 2",
-            "loads.rig.harmonics: found 2 with 6 samples; allowed: less than half as many as samples at diff",
-        ),
-        (
-            "period = 3\nharmonics = 2",
-            r"loads.rig.harmonics: .* phases of the cycle; a period of 3 is one of samples, without the",
-        ),
-        ("harmonics = 65", "loads.rig.harmonics: found 65; allowed: a whole number, 1 to 64"),
-        ('columns = "Ft"', "loads.rig.columns: found 'Ft'; allowed: a table of headers, such as"),
-        ('columns = { norml = "a" }', "loads.rig.columns.norml: found 'norml'; allowed: did you mean normal"),
-        (
-            'columns = { normal = "Fn" }',
-            r"loads.rig.file: found no column 'Fn', which is to be normal \(.*line 1\); allowed: .*normal",
-        ),
-        (
-            'separator = ";"',
-            r"loads.rig.file: found cells parted by ',', while separator is ';' \(.*line 1\); allowed: separ",
-        ),
-        (
-            'columns = { normal = "tangential" }',
-            r"loads.rig.file: found the column 'tangential' as normal and tangential \(.*; allowed: a column",
-        ),
-        (
-            'columns = { normal = "Fn", tangential = "Ft" }\nseparator = "|"',
-            r"loads.rig.file: found cells parted by ',', while separator is '\|' \(.*line 1\); allowed: ",
-        ),
-        ('time = "normal"', "loads.rig.file: found the column 'normal' as time and normal"),
-        ('time = "tme"', "loads.rig.file: found no column 'tme', which is to be time"),
-        ('time = "bulk"', r"loads.rig.file: found 10 after 30 \(.*line 4, time\); allowed: times that asc"),
-        (
-            'absolute = true\ncolumns = { normal = "tangential", tangential = "normal" }',
-            "loads.rig.absolute: found a mean normal load of -10; allowed: a mean above 0",
-        ),
-        ("mean_normal = 3", "loads.rig: found mean_normal beside file; allowed: beside file only columns"),
-    ],
-)
-def test_one_message_for_each_mistake_in_a_signal(tmp_path: Path, table: str, words: str) -> None:
-    write(tmp_path / "rig.csv", CYCLE, "normal,tangential,bulk")
-    given = "normal_force = 200\nnormal_force_amplitude = 1\ntangential_force_amplitude = 1\n"
-    text = RIG + given * ("absolute" not in table) + f'[loads.rig]\nfile = "rig.csv"\n{table}\n'
-    (line,) = mistakes_of(text, tmp_path)
-    assert re.match(f"s: {words}", line), line
 
 
 def test_a_folder_is_no_signal() -> None:
@@ -378,15 +277,6 @@ def test_times_of_day_are_seconds_from_the_first(tmp_path: Path, form: str) -> N
     assert (found.count, found.period) == (2, 10.0)
 
 
-def test_one_cycle_does_not_repeat(tmp_path: Path) -> None:
-    """Samples beside one another are alike."""
-    wave = np.sin(2.0 * np.pi * np.arange(200) / 200)
-    write(tmp_path / "rig.csv", np.stack([200.0 + 20.0 * wave, 60.0 * wave], axis=1), "normal,tangential")
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        read_signal(tmp_path / "rig.csv", absolute=True)
-
-
 def test_exchanged_columns_are_told(tmp_path: Path) -> None:
     wave = np.sin(2.0 * np.pi * np.arange(50) / 50)
     write(tmp_path / "rig.csv", np.stack([60.0 * wave, 200.0 + 20.0 * wave], axis=1), "normal,tangential")
@@ -409,53 +299,11 @@ def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:
         read_signal(tmp_path / f"{name}.csv", time="time", absolute=True, period=0.05)
 
 
-def test_a_closed_record_is_warned_of(tmp_path: Path) -> None:
+def test_by_a_period_the_last_sample_is_of_the_next_cycle(tmp_path: Path) -> None:
     closed = np.array([[0.0, 200, 0], [0.25, 260, 60], [0.5, 200, 0], [0.75, 200, -60], [1.0, 200, 0]])
     write(tmp_path / "closed.csv", closed, "time,normal,tangential")
-    with pytest.warns(
-        UserWarning, match="closed: the last sample is the first again: leave it out if closed"
-    ):
-        read_signal(tmp_path / "closed.csv", time="time", absolute=True)
-    # By a period the last one is of the next cycle.
     signal = read_signal(tmp_path / "closed.csv", time="time", absolute=True, period=1.0)
     assert signal.mean_normal == pytest.approx(215.0)
-
-
-def test_kept_cycles_have_no_harmonics(tmp_path: Path) -> None:
-    write(tmp_path / "rig.csv", np.tile(CYCLE, (2, 1)), "normal,tangential,bulk")
-    table = '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 2\nharmonics = 2\n'
-    (found,) = mistakes_of(f"{RIG}{table}keep_cycles = true\n", tmp_path)
-    assert "loads.rig: found keep_cycles and harmonics; allowed: one of the two" in found
-
-
-def test_a_file_with_next_to_no_samples_is_named(tmp_path: Path) -> None:
-    write(tmp_path / "one.csv", np.array([[200.0, 0.0]]), "normal,tangential")
-    refused(r"one\.csv: found 1 samples; allowed: 2 at least", read_signal, tmp_path / "one.csv")
-
-
-def with_a_spike(folder: Path) -> np.ndarray:
-    """A record of 25 cycles of 50 samples, with one sample of 15 times the amplitude in row 513."""
-    phase = 2.0 * np.pi * np.arange(1250) / 50
-    values = smooth(phase) + np.random.default_rng(1).normal(size=(1250, 3)) * [2.0, 0.6, 0.3]
-    write(folder / "clean.csv", values, "normal,tangential,bulk")
-    values[512, 1] = 900.0
-    write(folder / "spike.csv", values, "normal,tangential,bulk")
-    return values
-
-
-def test_a_spike_is_named_and_taken_out_if_asked(tmp_path: Path) -> None:
-    with_a_spike(tmp_path)
-    given = {"recorded_cycles": 25, "absolute": True}
-    with pytest.warns(
-        UserWarning, match=r"spike: tangential 900 in cycle 11, line 514 of the file, .* despike = true"
-    ):
-        spoilt = read_signal(tmp_path / "spike.csv", **given)
-    clean = read_signal(tmp_path / "clean.csv", despike=True, **given)
-    words = r"^spike: 1 spike replaced, tangential 900 in cycle 11, line 514 of the file, by [-\d.]+$"
-    with pytest.warns(UserWarning, match=words):
-        found = read_signal(tmp_path / "spike.csv", despike=True, **given)
-    assert np.abs(spoilt.mean_cycle - clean.mean_cycle).max() > 30.0
-    np.testing.assert_allclose(found.mean_cycle, clean.mean_cycle, atol=0.1)
 
 
 @pytest.mark.parametrize("cycles", [1, 2, 3, 20])
@@ -521,37 +369,8 @@ def test_steep_cycles_that_come_a_little_late_have_no_spikes(tmp_path: Path) -> 
     read_signal(tmp_path / "square.csv", recorded_cycles=25)
 
 
-def test_a_record_of_many_cycles_read_as_one_is_told(tmp_path: Path) -> None:
-    with_a_spike(tmp_path)
-    for name in ("clean", "spike"):
-        found = told_of(tmp_path / f"{name}.csv")
-        assert f"{name}: the record repeats 25 times: recorded_cycles = 25?" in found
-        assert any("a spike?" in line for line in found) == (name == "spike")
-    # The period of the normal load and of the tangential one: together they do not repeat.
+def test_loads_of_periods_of_their_own_do_not_repeat_together(tmp_path: Path) -> None:
     phase = 2.0 * np.pi * np.arange(500) / 500
     both = np.stack([20.0 * np.sin(5.0 * phase), 60.0 * np.sin(7.0 * phase)], axis=1)
     write(tmp_path / "both.csv", both, "normal,tangential")
-    read_signal(tmp_path / "both.csv")
-
-
-def test_a_spike_in_the_first_cycle_is_told_once(tmp_path: Path) -> None:
-    values = np.tile(CYCLE[:, :2] if CYCLE.shape[0] > 8 else np.repeat(CYCLE[:, :2], 8, axis=0), (8, 1))
-    values[5, 0] += 900.0
-    write(tmp_path / "spike.csv", values, "normal,tangential")
-    with pytest.warns(UserWarning, match=r"in cycle 1, line 7 of the file, .*: a spike\?") as told:
-        read_signal(tmp_path / "spike.csv", recorded_cycles=8, absolute=True)
-    assert len(told) == 1
-
-
-def test_nan_is_a_missing_value_and_a_picture_no_table(tmp_path: Path) -> None:
-    rows = [f"{k / 40},{200 + k % 7},{60 * np.sin(np.pi * k / 20)}" for k in range(40)]
-    rows[7] = f"{7 / 40},NaN,0"
-    (tmp_path / "rig.csv").write_text("\n".join(["time,normal,tangential", *rows]))
-    with pytest.warns(UserWarning, match=r"rig\.csv: line 9 left out: a value is missing"):
-        read_signal(tmp_path / "rig.csv", time="time")
-    words = r"line 9, normal: found 'NaN'; allowed: a finite number; with the header of the time"
-    refused(words, read_signal, tmp_path / "rig.csv")
-    for content, words in ((b"\x89PNG\r\n\x00\xff", "a binary file"), (b"", "an empty file")):
-        (tmp_path / "rig.csv").write_bytes(content)
-        given = {"time": "time", "columns": {"normal": "Fn"}}
-        refused(f"found {words}", read_signal, tmp_path / "rig.csv", **given)
+    assert told_of(tmp_path / "both.csv") == []

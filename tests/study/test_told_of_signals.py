@@ -84,6 +84,7 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
         601.0,
         ["the last sample is the first again: leave it out if closed"],
     ),
+    (wave(200, 200), {}, "1 cycle of 200 samples", 40000.0, []),
     (wave(100, 33.2), {}, "1 cycle of 100 samples", 19998.5, ["the record repeats 2.9 times: period = 34?"]),
     (
         wave(100, 20) + [1.0, 0.0] * noise(100, 9.0, 2),

@@ -91,8 +91,6 @@ def test_a_trace_is_a_profile_of_a_contact(tmp_path: Path) -> None:
     same = RIG | {"normal_force": 2000.0, "tangential_force_amplitude": 300.0}
     measured, exact = (swtstudy.physical(**same | own) for own in ({"profile": ball, "radius": None}, {}))
     assert measured.contact_radius == pytest.approx(exact.contact_radius, rel=0.01)
-    few = write(tmp_path / "few.csv", x[:2], z[:2])
-    refused("few.csv: found 2 points; allowed: 32 at least", read_trace, few)
 
 
 def test_a_trace_upside_down_is_named(tmp_path: Path) -> None:
@@ -141,12 +139,6 @@ tangential_force_amplitude = 300
     assert ball == own
     # Between two samples there is less of it.
     assert 0.5e-5 * np.sqrt(2.0) < own.smoothing < 1.5e-5
-    for wrong, words in (
-        (("position", "psition"), "ball.columns.psition: found 'psition'; allowed: did you mean pos"),
-        (('separator = ";"', 'separator = "ab"'), "profiles.ball.separator: found 'ab'; allowed: one of"),
-        (("two_sided = true", "two_sided = 1"), "profiles.ball.two_sided: found 1; allowed: true or false"),
-    ):
-        refused(words, swtstudy.Study.from_text, text.replace(*wrong), "s", tmp_path)
 
 
 def test_a_trace_at_one_position_is_told(tmp_path: Path) -> None:

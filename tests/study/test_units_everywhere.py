@@ -47,21 +47,12 @@ def test_extrema_of_any_quantity(solved):
     np.testing.assert_array_equal(found.minimum, solved.cycles.sel(tangential_force_amplitude=60.0))
     assert "cycles" in found.minimum.attrs["long_name"]
     assert solved.swt.extrema("normal_force").maximum.attrs["units"] == "unit of stress"
-    for dim, y, words in (
-        ("normal_force", "regime", "whose values are flags"),
-        ("phase", "SWT", "not a dimension of SWT"),
-        ("normal_force", "SWOT", "not a quantity"),
-    ):
-        with pytest.raises(ValueError, match=words):
-            solved.swt.extrema(dim, y)
 
 
 def test_the_stress_field_is_in_lengths_and_stresses(rig):
     """Hertz's pressure, in MPa, at places in mm."""
     a, p0 = rig.contact_radius, rig.peak_pressure
     x = np.array([0.0, 0.5 * a])
-    refused("z: found -0.1; allowed: depths z ≥ 0", rig.stress_field, x, 0.0, -0.1)
-    refused("x: found 'a'; allowed: finite positions, which are lengths", rig.swt_field, "a", 0.0, 0.0)
     field = rig.stress_field(x, 0.0, 0.0, time=0.0)
     np.testing.assert_allclose(field.x, x, rtol=1e-12)
     np.testing.assert_allclose(-field.sigma_zz, p0 * np.sqrt(1.0 - x**2 / a**2), rtol=1e-6)
@@ -82,7 +73,6 @@ def test_a_point_of_a_study_is_a_contact(solved):
     contact = point.swt.contact()
     assert contact.grid.fixed["normal_force"] == 200.0
     assert contact.parameters() == physical(**RIG).parameters()
-    refused("results without units", swtstudy.solve(rtol=1e-2).swt.contact)
 
 
 def test_an_inspected_contact_is_in_forces_and_stresses(rig):
@@ -116,15 +106,8 @@ def test_the_best_life_is_the_longest(rig):
     assert (lives.cycles.sel(case="best") > lives.cycles.sel(case="worst")).all()
 
 
-def test_wrong_optima_are_named(rig):
-    refused("minimise: found 'cycles'", rig.optimise, {"phase": (0, 1)}, "cycles")
-    refused("over.phasee: found not a parameter that is a number", rig.optimise, {"phasee": (0, 1)})
+def test_an_end_of_a_range_that_cannot_be_is_named(rig):
     refused(r"over.radius\[0\]: found -1", rig.optimise, {"radius": (-1, 1)})
-    words = r"over.radius: found \(60, 40\); allowed: the lower end first"
-    refused(words, rig.optimise, {"radius": (60, 40)})
-    words = "critical_distance: found several"
-    refused(words, rig.optimise, {"radius": (40, 60)}, critical_distance=[0.1, 0.2])
-    refused("several contacts", physical(**RIG | {"radius": [40.0, 50.0]}).optimise, {"phase": (0, 1)})
 
 
 STUDY = f"""
@@ -165,8 +148,6 @@ def test_bodies_have_names(tmp_path):
     first = found.swt.slice(body="test piece")
     assert (first.body, {*first.swt.to_table().body}) == (1, {"test_piece"})
     refused("body: found 'rod' .*; allowed: test piece, pad", found.swt.slice, body="rod")
-    rod = STUDY.replace("bodies =", 'body = "rod"\nbodies =')
-    refused("fixed.body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'", Study.from_text, rod)
     # Alone by its name; written and read again.
     one = Study.from_text(STUDY.replace("bodies =", 'body = "pad"\nbodies =').replace('hue = "body"\n', ""))
     assert one.grid.fixed["body"] == 2.0
@@ -174,54 +155,9 @@ def test_bodies_have_names(tmp_path):
     assert (again.grid.body_names, again.grid.fixed["body"]) == (("test piece", "pad"), 2.0)
 
 
-@pytest.mark.parametrize("bodies", ['["pad"]', '"pad"', '["pad", "pad"]', '["pad", 2]', '["", "pad"]'])
-def test_wrong_names_are_refused(bodies):
-    wrong = STUDY.replace('["test piece", "pad"]', bodies)
-    refused("fixed.bodies: found .*; allowed: two names", Study.from_text, wrong)
-    refused("unknown parameter", Study.from_text, 'title = "t"\n[fixed]\nbodies = ["a", "b"]')
-
-
 def test_names_in_python():
     contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"))
     assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
-
-
-def shown_numbers(axis):
-    """What the ticks of an axis stand for, over where they are."""
-    words = [label.get_text().replace("−", "-") for label in axis.get_ticklabels()]
-    return np.array([float(word) for word in words]), np.array(axis.get_ticklocs())
-
-
-@pytest.mark.slow
-def test_all_panels_of_a_contact_have_its_units(rig):
-    figure, point = rig.inspect(body=2), rig.inspect_point(body=2)
-    panels = {each.get_title("left")[5:].replace("\n", " "): each for each in figure.axes}
-    at = f"on the critical plane at $x$ = {float(point.shown_x):.4g} unit of length"
-    plane = next(each for each in figure.axes if "load plane" in each.get_title("left"))
-    assert plane.get_xlabel() == "$F_x$ (unit of force)"
-    # Where 50 is written there are 50 of the 100 that friction bears.
-    numbers, places = shown_numbers(plane.xaxis)
-    np.testing.assert_allclose(places, numbers / 100.0)
-    assert 50.0 in numbers
-    (strain,) = [each for each in figure.axes if each.get_ylabel() == r"$\varepsilon_n$"]
-    assert at in panels
-    # Where 0.002 is written there is a strain of 0.002: that of the line drawn.
-    numbers, places = shown_numbers(strain.yaxis)
-    (drawn,) = [line for line in strain.lines if line.get_label() == r"$\varepsilon_n$"]
-    scale = point.normal_strain.values / np.where(drawn.get_ydata(), drawn.get_ydata(), np.nan)
-    np.testing.assert_allclose(numbers, places * np.nanmedian(scale), atol=1e-12)
-    forces = panels[r"forces over the cycle, dotted: $\pm\mu F_N$"]
-    assert forces.get_ylabel() == "force (unit of force)"
-    normal, tangential, *bounds = (line.get_ydata() for line in forces.lines[:4])
-    np.testing.assert_allclose(normal, 200.0)
-    assert tangential.max() == pytest.approx(60.0, rel=1e-3)
-    np.testing.assert_allclose(bounds, [[100.0] * len(normal), [-100.0] * len(normal)])
-    # The area of the loop, as a polygon.
-    u, force = point.displacement.values, point.tangential_force.values
-    area = 0.5 * abs(np.sum(u[:-1] * np.diff(force) - force[:-1] * np.diff(u)))
-    (words,) = [title for title in panels if title.startswith("fretting loop, dissipation ")]
-    assert float(words.split()[3]) == pytest.approx(area, rel=2e-2)
-    assert words.endswith(" unit of work")
 
 
 def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path, shown):
@@ -240,9 +176,6 @@ def test_the_title_of_a_contact_says_what_was_given_and_its_validity(tmp_path, s
 def test_the_command_shows_a_study(tmp_path, shown):
     file = tmp_path / "pad.toml"
     file.write_text(STUDY, encoding="utf-8")
-    done = call("show", file, "-o", tmp_path / "pad.png")
-    assert done.exit_code == 2
-    assert "several values of phase; allowed: one of each, such as --phase VALUE" in done.stderr
     words = shown(file, "--phase", "90 deg", "--tangential-amplitude", "1e-3", "--body", "2")
     for given in (r"$\psi$ = π/2", "$u_A$ = 0.001 mm", "pad"):
         assert given in words
@@ -250,8 +183,6 @@ def test_the_command_shows_a_study(tmp_path, shown):
     assert "pad" in shown(file, "--phase", "90 deg", "--body", "pad")
     done = call("show", file, "--phase", "90 deg", "--body", "rod")
     assert "body: found 'rod'; allowed: 1 or 2 or 'test piece' or 'pad'" in done.stderr
-    done = call("show", "plane_contacts", "--profile", "paraboloid", "--body", "1")
-    assert "body: found '1'; allowed: no body in a study without units" in done.stderr
 
 
 def title(contact, body=1):

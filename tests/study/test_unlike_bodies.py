@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import warnings
-
 import pytest
-from real import CONTACT
 from told import refused
 
 import swtstudy
-from swtstudy import Study
 
 #: Steel on aluminium, and 52100 steel on Ti-6Al-4V: Young's moduli and Poisson ratios.
 PAIRS = {
@@ -36,20 +32,3 @@ def test_low_friction_is_refused_and_similar_accepts_it() -> None:
     refused(words, swtstudy.physical, **given, friction=[0.3, 0.6])
     with pytest.warns(UserWarning, match="0.38 times the friction 0.3"):
         swtstudy.physical(**given, friction=[0.3, 0.6], similar=0.39)
-
-
-def test_like_bodies_and_no_friction_go_without_a_word() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        swtstudy.physical(**LOADS, young_modulus=210e3, poisson_ratio=0.3, friction=0.3)
-        swtstudy.physical(**PAIRS["aluminium"], radius=50.0, normal_force=200.0, friction=0.0,
-                          tangential_amplitude=0.0)  # fmt: skip
-
-
-def test_a_study_is_told() -> None:
-    loads = "normal_force = 200\ntangential_force_amplitude = 40\n"
-    text = f"{CONTACT}{loads}".replace("73.1e3", "[210e3, 71e3]").replace("0.33", "[0.3, 0.33]")
-    with pytest.warns(UserWarning, match="0.23 times the friction 0.5"):
-        Study.from_text(text)
-    words = r"fixed\.young_modulus, fixed\.poisson_ratio: found bodies that are not"
-    refused(words, Study.from_text, text.replace("friction = 0.5", "friction = 0.2"))

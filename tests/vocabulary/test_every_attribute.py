@@ -9,7 +9,7 @@ import stand_in
 import xarray as xr
 from asking import EVERY
 from folders import sections
-from real import CONSTANTS, CONTACT, CRITERIA
+from real import CONTACT, CRITERIA
 
 import swtstudy
 
@@ -39,7 +39,6 @@ UNITS = (
     .replace("rtol = 1e-3", f"rtol = 1e-3\nquantities = {list(EVERY)}")
     .replace("[axes]", "critical_distance = 0.05\nbulk_stress_phase = 0\n[axes]")
 )
-TORSION = "".join(f"shear_{line}\n" for line in CONSTANTS.splitlines())
 LOADS = """body = 1
 [loads.start-up]
 absolute = true

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-import re
-
 import numpy as np
 import pytest
-import stand_in
-from command import call
-from made_up import save
 from solved import REGIMES
 
 import swtstudy
@@ -76,7 +71,7 @@ phase = [0, 1]
 """
 
 
-def test_a_run_keeps_what_has_no_equilibrium_and_says_what_is_prescribed(tmp_path) -> None:
+def test_a_run_keeps_what_has_no_equilibrium(tmp_path) -> None:
     path = tmp_path / "forces.nc"
     dataset = run(Study.from_text(STUDY.format(normal=0.4)), path, workers=1)
     assert (dataset.status == 0).all()
@@ -93,49 +88,6 @@ def test_a_run_keeps_what_has_no_equilibrium_and_says_what_is_prescribed(tmp_pat
 
     again = run(Study.from_text(STUDY.format(normal=0.4)), path, solver=fail, workers=1)
     np.testing.assert_array_equal(again.s, found.s)
-    shown = call("info", path).output
-    assert re.search(r"prescribed +forces", shown)
-    assert "2 no_equilibrium" in shown
-    (tmp_path / "forces.toml").write_text(STUDY.format(normal=0.4))
-    planned = call("plan", tmp_path / "forces.toml").output
-    assert re.search(r"prescribed +forces", planned)
-
-
-def test_archives_that_prescribe_different_things_are_not_merged(tmp_path) -> None:
-    texts = STUDY.format(normal=0.4), STUDY.format(normal=0.4).replace("tangential_force", "tangential")
-    for number, text in enumerate(texts):
-        run(Study.from_text(text), tmp_path / f"{number}.nc", solver=stand_in.smooth, workers=1)
-    words = r"forces in .*0\.nc, normal_force\+tangential_displacement in .*1\.nc"
-    answer = call("merge", tmp_path / "0.nc", tmp_path / "1.nc", "-o", tmp_path / "both.nc")
-    assert answer.exit_code == 2
-    assert re.search(words, answer.output)
-
-
-def test_an_archive_whose_control_contradicts_its_parameters_is_refused(tmp_path) -> None:
-    path = tmp_path / "forces.nc"
-    run(Study.from_text(STUDY.format(normal=0.4)), path, solver=stand_in.smooth, workers=1)
-    save(open_results(path).assign_coords(control="displacements"), path)
-    with pytest.raises(ValueError, match="control: found 'displacements'; allowed: 'forces'"):
-        open_results(path)
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        (
-            {"normal_force_amplitude": 0.1, "normal_amplitude": 0.2},
-            "normal_amplitude, normal_force_amplitude: found both; allowed: one of the two: it says what is "
-            "prescribed",
-        ),
-        ({"tangential_force_amplitude": -0.1}, r"tangential_force_amplitude: found -0.1 \(out of range\)"),
-        ({"normal_force_amplitude": "much"}, "normal_force_amplitude: found 'much'"),
-    ],
-)
-def test_one_message_for_each_mistake(given: dict[str, object], words: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        swtstudy.solve(**given)
-    assert len(caught.value.mistakes) == 1
-    assert re.match(words, str(caught.value))
 
 
 def test_waves_are_refused_at_the_depth_that_a_force_reaches() -> None:

@@ -10,7 +10,7 @@ import pytest
 import stand_in
 from command import call
 
-from swtstudy import Study, StudyError, open_results, run
+from swtstudy import Study, open_results, run
 
 STUDY = 'title = "t"\nrtol = 1e-2\n[axes]\nfriction = [0.1, 0.2]\n'
 FIGURE = '[figure]\nx = "friction"\n'
@@ -163,14 +163,3 @@ def test_a_line_that_is_no_style_is_told(tmp_path: Path, caplog: pytest.LogCaptu
     result = call("plot", path, "--style", style)
     assert result.exit_code == 0, result.output
     assert f"Missing colon in file '{style}', line 2 ('lines.linewidth 2')" in caplog.text
-
-
-def test_a_mistake_is_told_once() -> None:
-    text = 'title = "t"\n[sample]\ndesign = "foo"\nsize = 1e3\nseed = 0.5\nranges = {friction = [0.1, 0.2]}\n'
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(text)
-    assert sorted(each.key for each in caught.value.mistakes) == [
-        "sample.design",
-        "sample.seed",
-        "sample.size",
-    ]
