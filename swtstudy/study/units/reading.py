@@ -305,7 +305,7 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
 
 
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
-    """What hints at a wrong unit or number.
+    """Hints at a wrong unit or number.
 
     Contacts larger than their radius or pressed beyond any metal, friction of no metal, and forces that
     multiply a measured load.
