@@ -96,8 +96,7 @@ def _draw_line(
     if flag_words(whole):
         look["drawstyle"] = "steps-mid"
     elif may_jump(y):
-        with np.errstate(divide="ignore"):
-            gaps = place_jumps(np.log(curve) if is_life(whole.attrs) else curve, y)
+        gaps = place_jumps(curve, y)
     if "zone" in part:  # of another model
         gaps = np.union1d(gaps, np.flatnonzero(np.diff(part.zone.values)) + 1)
 
@@ -134,13 +133,12 @@ def _draw_line(
 
 
 def may_jump(name: str) -> bool:
-    """Return whether a quantity belongs to the place of a maximum, which jumps where another one takes over.
+    """Return whether a quantity is the place of a maximum, or its plane: these jump where another takes over.
 
-    Places and planes themselves, and what is found about a place: means over a volume or a line.
+    The maximum itself does not, nor does the largest mean of all places.
     """
-    about = ("_position", "_volume", "_point", "_line")
     place = name in QUANTITIES and QUANTITIES[name].is_place
-    return place or name in ("critical_x", "critical_angle") or name.endswith(about)
+    return place or name in ("critical_x", "critical_angle") or name.endswith("_position")
 
 
 def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
@@ -150,8 +148,7 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
     A step without one on either side is none: the curve may be steep there.
     """
-    with np.errstate(invalid="ignore"):
-        step = np.diff(curve)  # none of two infinite lives
+    step = np.diff(curve)
     if name == "critical_angle":
         step = (step + 90.0) % 180.0 - 90.0  # a plane has no direction
     known = curve[np.isfinite(curve)]
