@@ -146,7 +146,6 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
 
     A step is a jump if it is a fair share of the range of the curve, and much longer than steps beside it in
     its direction: a steep part of a curve has steps of its length there, a point between two jumps has not.
-    A step without one on either side is none: the curve may be steep there.
     """
     step = np.diff(curve)
     if name == "critical_angle":
@@ -154,8 +153,8 @@ def place_jumps(curve: NDArray[Any], name: str) -> IndexArray:
     known = curve[np.isfinite(curve)]
     if len(known) < 3:
         return np.array([], dtype=np.intp)
-    before, after = np.append(np.nan, step[:-1]), np.append(step[1:], np.nan)
-    beside = np.maximum(np.maximum(before * np.sign(step), after * np.sign(step)), 0.0)
+    before, after = np.append(0.0, step[:-1]), np.append(step[1:], 0.0)
+    beside = np.fmax(np.fmax(before * np.sign(step), after * np.sign(step)), 0.0)
     least = max(0.02 * np.ptp(known), 1e-6 * np.abs(known).max())  # a constant has a range of rounding
     return np.flatnonzero((np.abs(step) > least) & (np.abs(step) > 3.0 * beside)) + 1
 
