@@ -230,9 +230,3 @@ def test_a_line_breaks_where_the_stick_zone_is_of_another_model(over: tuple[str,
             int(np.argmax(X >= 2.0)) - 1,
             int(np.argmax(X >= 2.0)),
         ]
-
-
-def test_a_steep_first_step_of_few_is_no_jump() -> None:
-    """After points without a place, or from the first point on."""
-    for before in ([], [np.nan, np.nan]):
-        assert jumps_of(np.array([*before, 0.1, 0.8, 0.88, 0.9, 0.91])) == []
