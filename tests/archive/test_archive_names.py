@@ -10,6 +10,18 @@ from command import call
 from swtstudy import StudyError, run
 
 
+def told_by_commands(stem, words, *commands):
+    """Words that commands on a study of this name say in their one line, and so does a merge."""
+    for arguments in (
+        *([each, f"{stem}.toml"] for each in commands),
+        ["merge", "good.nc", "-o", f"{stem}.nc"],
+    ):
+        result = call(*arguments)
+        assert result.exit_code == 2
+        (line,) = result.stderr.splitlines()
+        assert words in line
+
+
 @pytest.mark.parametrize(
     ("stem", "words"),
     [
@@ -31,17 +43,7 @@ def test_a_name_that_no_archive_can_have_is_found_out_before(
     Path(f"{stem}.toml").write_text(small_text)
     run(small, Path("good.nc"), solver=stand_in.smooth)
     before = sorted(tmp_path.iterdir())
-    for arguments in (
-        ["validate", f"{stem}.toml"],
-        ["plan", f"{stem}.toml"],
-        ["run", f"{stem}.toml"],
-        ["audit", f"{stem}.toml"],
-        ["merge", "good.nc", "-o", f"{stem}.nc"],
-    ):
-        result = call(*arguments)
-        assert result.exit_code == 2
-        (line,) = result.stderr.splitlines()
-        assert words in line
+    told_by_commands(stem, words, "validate", "plan", "run", "audit")
     assert sorted(tmp_path.iterdir()) == before
 
 
@@ -55,15 +57,7 @@ def test_a_name_that_is_too_long_is_found_out_before(small, small_text, tmp_path
     monkeypatch.chdir(tmp_path)
     Path(f"{stem}.toml").write_text(small_text)
     run(small, Path("good.nc"), solver=stand_in.smooth)
-    for arguments in (
-        ["run", f"{stem}.toml"],
-        ["audit", f"{stem}.toml"],
-        ["merge", "good.nc", "-o", f"{stem}.nc"],
-    ):
-        result = call(*arguments)
-        assert result.exit_code == 2
-        (line,) = result.stderr.splitlines()
-        assert "File name too long" in line
+    told_by_commands(stem, "File name too long", "run", "audit")
 
 
 def test_the_longest_name_leaves_archive_and_figure(small_text, tmp_path, monkeypatch):
