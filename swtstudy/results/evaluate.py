@@ -127,19 +127,19 @@ def quantity(dataset: xr.Dataset, y: str) -> xr.DataArray:
             raise refused("figure.y", f"{literal(y)} (not a quantity)", known)
         return known_regime(dataset) if name == "regime" else dataset[name]
     name, value = place
-    ratio = dataset.s / _at_place(dataset, name, value).s
+    ratio = dataset.s / _at_place(dataset, name, value).s.drop_vars(name)
     attributes = {"long_name": f"s over s at {name} = {value}", "units": "1", "symbol": "s/s_0"}
     return ratio.rename("s").assign_attrs(attributes)
 
 
 def _at_place(dataset: xr.Dataset, name: str, value: Value) -> xr.Dataset:
-    """The part of results at one value of a parameter, without it; of a list of points the only one there."""
-    there = slice_at(dataset, {name: value}).drop_vars(name)
+    """The part of results at one value of a parameter; of a list of points the only one there."""
+    there = slice_at(dataset, {name: value})
     for dim in {*dataset[name].dims} - {name}:
         if there.sizes[dim] > 1:
             found = f"{there.sizes[dim]} points with {name} = {value}, of a list of points"
             raise refused("figure.y", found, f"one such point, or {name} as an axis")
-        there = there.squeeze(dim, drop=True)
+        there = there.squeeze(dim, drop=True).assign_coords({name: there[name].item()})
     return there
 
 
@@ -159,10 +159,10 @@ def quantity_error(dataset: xr.Dataset, y: str) -> xr.DataArray | None:
     if place is None:
         return dataset[error]
     name, value = place
-    own, reference_error = (each.s_error / abs(each.s) for each in (dataset, _at_place(dataset, name, value)))
+    there = _at_place(dataset, name, value)
+    own, reference_error = (part.s_error / abs(part.s) for part in (dataset, there.drop_vars(name)))
     both = abs(quantity(dataset, y)) * (own + reference_error)
-    # At the place itself it is 1.
-    return both.where(dataset[name] != slice_at(dataset, {name: value})[name].values.flat[0], 0.0)
+    return both.where(dataset[name] != there[name].item(), 0.0)
 
 
 def extrema(dataset: xr.Dataset, dim: str, y: str | None = None) -> xr.Dataset:
