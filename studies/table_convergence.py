@@ -89,7 +89,7 @@ def of_noise(box: Points, face: float, amounts: tuple[float, ...], rtol: float) 
     shares, errors = [], []
     for amount in amounts:
         tables = [noisy(face, amount, seed) for seed in range(DRAWS)]
-        shares.append(float(np.mean([table.smoothed_share for table in tables])))
+        shares.append(float(np.mean([table.smoothed_share(1.0) for table in tables])))
         errors.append(np.abs([of_profile(box, table, {}, rtol) / exact - 1.0 for table in tables]).ravel())
     return np.array(shares), errors
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Mapping
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -97,6 +97,10 @@ class Grid:
     def definitions(self) -> dict[int, Definition]:
         """The user's definitions, by their codes in canonical rows."""
         return {each.code: each for each in self.given}
+
+    def profiles_at_rest(self) -> Iterator[tuple[Value, float]]:
+        """Each profile with its mean depth, or in the plane its load, in its own unit."""
+        return ((profile, 1.0) for profile in self.values("profile"))
 
     @property
     def given(self) -> tuple[Definition, ...]:

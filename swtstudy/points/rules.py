@@ -161,10 +161,11 @@ def doubts(grid: Grid, where: str = "") -> Iterator[str]:
     idle = {"phase": not moves, "frequency_ratio": not moves, "bulk_stress_phase": not pulled}
     for name in (name for name, still in idle.items() if still and name in grid.axes):
         yield f"{where}{name} has no effect: what it is of does not oscillate"
-    tables = [each for each in grid.definitions.values() if isinstance(each, TabulatedProfile)]
     largest: dict[str, float] = {}
-    for table in tables:
-        largest[table.name] = max(table.smoothed_share, largest.get(table.name, 0.0))
+    for profile, depth in grid.profiles_at_rest():
+        if isinstance(profile, TabulatedProfile):
+            share = profile.smoothed_share(depth)
+            largest[profile.name] = max(share, largest.get(profile.name, 0.0))
     for name, share in largest.items():
         if share > ROUGH:
             yield (

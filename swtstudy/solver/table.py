@@ -179,13 +179,9 @@ class TabulatedProfile(Definition):
         """The radius of the largest contact that is one disc or strip, within the table."""
         return float(np.hypot(self._largest[0], self.flat_radius))
 
-    @cached_property
-    def smoothed_share(self) -> float:
-        """The smoothing over the rise of heights within the contact at the depth, or N/N_0, 1."""
-        s, _ = self._sampled
-        depth = self.rise(s)[0] / (MEAN_LOAD if self.plane else 1.0)
-        radius = np.interp(1.0, depth, np.hypot(s, self.flat_radius))
-        return self.smoothing / float(self.fit(radius))
+    def smoothed_share(self, depth: float) -> float:
+        """The smoothing over the rise of heights within the contact at a depth, or in the plane at N/N_0."""
+        return self.smoothing / float(self.fit(np.interp(depth, *self._contacts))) if self.smoothing else 0.0
 
     def least_smoothing(self, radius: float) -> float | None:
         """The least smoothing above its own with which contacts are one disc or strip up to a radius.
@@ -234,6 +230,12 @@ class TabulatedProfile(Definition):
         """Places s up to the table's end, and the slope there."""
         s = np.linspace(0.0, self.end, RADII)
         return s, self.slope(np.hypot(s, self.flat_radius))
+
+    @cached_property
+    def _contacts(self) -> tuple[FloatArray, FloatArray]:
+        """Depths, or N/N_0, of contacts up to these places, and their radii."""
+        s, _ = self._sampled
+        return self.rise(s)[0] / (MEAN_LOAD if self.plane else 1.0), np.hypot(s, self.flat_radius)
 
     @cached_property
     def _density(self) -> CubicSpline:

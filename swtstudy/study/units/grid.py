@@ -6,7 +6,7 @@ loads of plane contacts are per length, unless their length is given.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
@@ -267,6 +267,10 @@ class PhysicalGrid(ContactDetails, Grid):
         tables = (contact.pure_profile for contact in self.distinct)
         loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Definition)}
+
+    def profiles_at_rest(self) -> Iterator[tuple[Value, float]]:
+        """See `Grid.profiles_at_rest`."""
+        return ((contact.profile, contact.depth) for contact in self.distinct)
 
     def along(self, name: str) -> xr.Variable:
         """The numbers of a parameter, over its dimension if it has one."""
