@@ -2,8 +2,7 @@
 
 from build_steps.markdown import table
 from swtstudy.vocabulary.choices import FAMILIES, PLAIN, PLAIN_STRIP, Family
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS, Parameter
 
 
 def parameters() -> str:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import versions
 from swtstudy.archive.netcdf import read_archive
 from swtstudy.archive.parts import known_points, parts_folder, read_parts
 from swtstudy.points.canonical import Distinct
@@ -20,8 +19,8 @@ from swtstudy.points.chunk import Found, matching
 from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.solver.definitions import definitions_text
 from swtstudy.study.definition import Study
-from swtstudy.vocabulary.variables import FAILED
-from swtstudy.vocabulary.version import __version__
+from swtstudy.vocabulary.quantities import FAILED
+from swtstudy.vocabulary.version import __version__, versions
 
 REFERENCE = "E. Willert, Eng 2024, 5, 333-346, doi:10.3390/eng5010018"
 

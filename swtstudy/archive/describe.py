@@ -10,8 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.recall import request_of
+from swtstudy.points.chunk import read_runs
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside_words, point_words, validity_lines
 from swtstudy.points.values import index_at, unit_of
@@ -26,8 +26,7 @@ from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.derived import FAILED as FAILED_SHARE
 from swtstudy.vocabulary.derived import LIFE, LIVES, PERCENTS
 from swtstudy.vocabulary.parameters import CONTACT_AXES, LOOP_AMPLITUDE, PARAMETERS
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING
-from swtstudy.vocabulary.variables import COMPUTED, CONTACT, FAILED, STATES, has_units
+from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, DISTANCE, FAILED, NOTHING, STATES, has_units
 from swtstudy.vocabulary.wording import coordinate_words, listed, number_of, number_words, numbers_words
 
 #: Lives over more critical distances are a range.

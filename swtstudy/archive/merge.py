@@ -11,7 +11,6 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.archive.archive import build, history_line, open_results
-from swtstudy.archive.attributes import read_figure
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
 from swtstudy.points.canonical import Distinct, canonical_number, describe_point, group_rows
@@ -19,13 +18,13 @@ from swtstudy.points.chunk import Found, join, look_up, matching
 from swtstudy.points.grid import Grid
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
+from swtstudy.study.figure import read_figure
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
-from swtstudy.vocabulary.quantities import Request, error_of
-from swtstudy.vocabulary.variables import COMPUTED, CONTACT, MISSING
+from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, MISSING, Request, error_of
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12

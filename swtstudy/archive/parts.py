@@ -22,10 +22,9 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.paths import ArchiveError, refuse_link
 from swtstudy.points.canonical import NAMES, ROW, group_rows
-from swtstudy.points.chunk import Found, join
+from swtstudy.points.chunk import Found, join, read_runs
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.files import replacing, unfinished
 

@@ -9,23 +9,36 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.attributes import read_figure, read_runs
 from swtstudy.points.canonical import Distinct
-from swtstudy.points.chunk import Found
+from swtstudy.points.chunk import Found, read_runs
 from swtstudy.points.grid import SAMPLE, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import check_pairs
 from swtstudy.points.rules import shapes_needed
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.solver.definitions import defined_in
+from swtstudy.study.figure import read_figure
 from swtstudy.study.units.reading import check_contacts, completed, read_contact
 from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, Report, is_rtol, literal, plain_number
 from swtstudy.vocabulary.parameters import PARAMETERS, Control, replaced_by
-from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, NAMED, NONLOCAL, Request, attributes_of
-from swtstudy.vocabulary.variables import ATTRIBUTES, COMPUTED, CONTACT, SOLVED, STATES, has_units, require
+from swtstudy.vocabulary.quantities import (
+    ATTRIBUTES,
+    COMPUTED,
+    CONTACT,
+    DISTANCE,
+    EVERY_VARIABLE,
+    NAMED,
+    NONLOCAL,
+    SOLVED,
+    STATES,
+    Request,
+    attributes_of,
+    has_units,
+    require,
+)
 
 
 def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
@@ -170,8 +183,8 @@ def _check_attributes(dataset: xr.Dataset, source: str) -> None:
             report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = without_units(dataset)
     known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
-    known |= {name: entry["units"] for name, entry in ATTRIBUTES.items() if "units" in entry}
-    known |= {name: attributes_of(name)["units"] for name in EVERY_VARIABLE}
+    every_name = (*ATTRIBUTES, *EVERY_VARIABLE)
+    known |= {name: row["units"] for name in every_name if "units" in (row := attributes_of(name))}
     every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
     every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
     for attribute, name, allowed in every:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from swtstudy.archive import parts
-from swtstudy.archive.attributes import versions
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.work import Work, assess
 from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
@@ -26,7 +25,7 @@ from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.version import SOLVER_VERSION
+from swtstudy.vocabulary.version import SOLVER_VERSION, versions
 
 if TYPE_CHECKING:
     import xarray as xr

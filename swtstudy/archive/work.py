@@ -14,8 +14,7 @@ from swtstudy.points.chunk import Found, chunk_of, cut, look_up, matching, solve
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.study.definition import Study
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
-from swtstudy.vocabulary.quantities import Request
-from swtstudy.vocabulary.variables import MISSING
+from swtstudy.vocabulary.quantities import MISSING, Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 

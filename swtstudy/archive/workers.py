@@ -25,7 +25,7 @@ import cloudpickle
 from swtstudy.points.chunk import Arrays, Chunk, Solver, blank, solve_chunk
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
-from swtstudy.vocabulary.variables import FAILED
+from swtstudy.vocabulary.quantities import FAILED
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 if TYPE_CHECKING:

@@ -15,8 +15,7 @@ from swtstudy.study.shipped import find_study
 from swtstudy.study.units.rows import Units, rows
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, literal, refused
-from swtstudy.vocabulary.parameter import Parameter, short
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PARAMETERS, QUANTITY_AXES, Parameter, short
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import raised
 

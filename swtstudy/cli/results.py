@@ -82,7 +82,7 @@ def plot(
     from swtstudy.figures.draw import draw, layout_of
     from swtstudy.figures.style import save_figure
     from swtstudy.study.figure import FigureLayout
-    from swtstudy.vocabulary.variables import MISSING
+    from swtstudy.vocabulary.quantities import MISSING
 
     target = Path(output) if output else Path(archive).with_suffix(".png")
     dataset = swtstudy.open_results(archive)
@@ -147,7 +147,7 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.recall import grid_of, request_of
     from swtstudy.archive.work import not_in
     from swtstudy.points.canonical import Distinct
-    from swtstudy.vocabulary.variables import MISSING
+    from swtstudy.vocabulary.quantities import MISSING
 
     target = Path(output)
     check_archive_path(target)

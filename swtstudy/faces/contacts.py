@@ -42,8 +42,7 @@ from swtstudy.vocabulary.mistakes import (
 )
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PAIRS, PARAMETERS
-from swtstudy.vocabulary.quantities import COUNTED, DISTANCE, Request, read_quantities
-from swtstudy.vocabulary.variables import ATTRIBUTES
+from swtstudy.vocabulary.quantities import ATTRIBUTES, COUNTED, DISTANCE, Request, read_quantities
 from swtstudy.vocabulary.wording import html_table, plain_words
 
 if TYPE_CHECKING:

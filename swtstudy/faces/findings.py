@@ -25,7 +25,7 @@ from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES, PARAMETERS
-from swtstudy.vocabulary.variables import has_units
+from swtstudy.vocabulary.quantities import has_units
 from swtstudy.vocabulary.wording import numbers_words
 
 #: The parameter whose values have an s of another kind each.

@@ -35,7 +35,7 @@ from swtstudy.study.units.results import measures
 from swtstudy.vocabulary.choices import CRITERIA, FIGURES
 from swtstudy.vocabulary.mistakes import StudyError
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.variables import COMPUTED, CONTACT, has_units
+from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, has_units
 from swtstudy.vocabulary.wording import number_words
 
 #: Larger drawings are pictures of pixels, bytes; so many in an inch.

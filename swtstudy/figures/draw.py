@@ -23,7 +23,7 @@ from swtstudy.study.figure import NO_AXIS, FigureLayout, wrong_axes, wrong_layou
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.mistakes import Mistake, StudyError
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.variables import require
+from swtstudy.vocabulary.quantities import require
 from swtstudy.vocabulary.wording import axis_words
 
 #: Width of a colour bar on a screen, inches.

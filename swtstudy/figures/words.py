@@ -20,8 +20,7 @@ from swtstudy.points.values import as_number
 from swtstudy.study.figure import reference
 from swtstudy.vocabulary.choices import CRITERIA, SWT, family_of
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.quantities import EVERY_VARIABLE, QUANTITIES, attributes_of
-from swtstudy.vocabulary.variables import ATTRIBUTES
+from swtstudy.vocabulary.quantities import ATTRIBUTES, EVERY_VARIABLE, QUANTITIES, attributes_of
 from swtstudy.vocabulary.wording import as_text, pi_words, place_words
 
 #: Width of a letter of a tick over the size of its font.
@@ -48,7 +47,7 @@ def quantity_words(values: xr.DataArray, y: str) -> str:
         return f"$s = {CRITERIA[criterion].over_unit}$" if criterion in CRITERIA else "$s$"
     symbol, units = (values.attrs.get(key) for key in ("symbol", "units"))
     # Arrays computed from a variable keep its symbol in xarray: it would be wrong for them.
-    known = {**ATTRIBUTES, **{name: attributes_of(name) for name in EVERY_VARIABLE}}
+    known = {name: attributes_of(name) for name in (*ATTRIBUTES, *EVERY_VARIABLE)}
     kept = any(symbol == row.get("symbol") for name, row in known.items() if name != values.name)
     words = str(values.name).replace("_", " ") if kept or not symbol else f"${symbol}$"
     # A symbol alone says too little of a life, a mean of SWT, a usage, a place.

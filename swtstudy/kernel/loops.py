@@ -1,4 +1,4 @@
-"""Loops of vertices and sums of harmonics, by NumPy alone: studies are checked without a compiler."""
+"""Loops of vertices, sums of harmonics and their phases, by NumPy: studies are checked without a compiler."""
 
 from itertools import combinations
 
@@ -8,6 +8,8 @@ import numpy as np
 STRAIGHT = 4.0 * float(np.finfo(float).eps)
 #: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
 SAMPLES = 32
+#: Turns that a phase is off a multiple of its period by rounding.
+WHOLE_TURNS = 1e-12
 
 
 def without_collinear(loop):
@@ -49,3 +51,57 @@ def ends_of_sum(rows):
             at += rate / bend if bend else 0.0
         ends.append(float(rest + least(values[best], size @ np.sin(order * at + phase))))
     return ends[0], ends[1]
+
+
+def fold_phase(phase, p, q):
+    """Fold ψ into one symmetry period of s(ψ): 2π/p for even q, π/p for odd q.
+
+    Shifting time by π/ω2 flips u and mirrors x.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    p, q
+        Shape (n,), ω2/ω1 = p/q in lowest terms.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent phase in [0, period), and whether x and the plane's angle change sign with it.
+    """
+    folded, is_odd = _folded(phase, np.where(q % 2 == 0, 2.0, 1.0) * np.pi / p)
+    return folded, (q % 2 == 1) & is_odd
+
+
+def fold_bulk_phase(phase, moves, mirrored, both_ways):
+    """Fold ψ_B of bulk stresses that oscillate with the tangential load, once ψ is folded.
+
+    Mirroring x leaves a bulk stress as it is, but the shift of time by π/ω2 that flips u flips its
+    oscillation, too.
+
+    Parameters
+    ----------
+    phase
+        Shape (n,), rad.
+    moves
+        Shape (n,): whether the bulk stress oscillates; elsewhere it has no phase.
+    mirrored
+        Shape (n,): where `fold_phase` mirrors x.
+    both_ways
+        Shape (n,): whether that shift of time leaves ψ as it is, so that ψ_B + π mirrors x.
+
+    Returns
+    -------
+    folded, mirrored
+        The equivalent ψ_B in [0, π) or [0, 2π), and whether x is mirrored by both folds together.
+    """
+    phase = phase + np.where(mirrored, np.pi, 0.0)
+    folded, is_odd = _folded(phase, np.where(both_ways, 1.0, 2.0) * np.pi)
+    return np.where(moves, folded, 0.0), mirrored ^ (moves & both_ways & is_odd)
+
+
+def _folded(phase, period):
+    """Phases in [0, period), and whether they were an odd number of periods away."""
+    turns = np.floor(phase / period + WHOLE_TURNS)
+    return np.maximum(phase - turns * period, 0.0), turns % 2 == 1

@@ -24,7 +24,7 @@ from swtstudy.study.sample import drawn_rows
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.files import read_table
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.variables import flag_attributes
+from swtstudy.vocabulary.quantities import flag_attributes
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: An audit's files have this before the name of the study.

@@ -15,10 +15,8 @@ from swtstudy.points.values import Value, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it, nearest, plain_number
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, PARAMETERS
-from swtstudy.vocabulary.quantities import COUNTED_SIZES, DISTANCE, EVERY_VARIABLE
-from swtstudy.vocabulary.variables import ATTRIBUTES
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS, Parameter
+from swtstudy.vocabulary.quantities import ATTRIBUTES, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE
 
 #: A number with a comma, for which there is a key where numbers come from files.
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.solver.loop import Loop
-from swtstudy.solver.phases import fold_bulk_phase, fold_phase
 from swtstudy.solver.points import Points
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import FAMILIES, MOVED, PLAIN_OF, SWT, families_with, family_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
@@ -16,8 +17,21 @@ from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
-from swtstudy.vocabulary.quantities import DISTANCE, NONLOCAL, NOTHING, YIELD, Request
-from swtstudy.vocabulary.variables import COMPUTED, FAILED, MISSING, SOLVED
+from swtstudy.vocabulary.files import read_json
+from swtstudy.vocabulary.mistakes import literal
+from swtstudy.vocabulary.quantities import (
+    COMPUTED,
+    COUNTS,
+    DISTANCE,
+    FAILED,
+    MISSING,
+    NAMED,
+    NONLOCAL,
+    NOTHING,
+    SOLVED,
+    YIELD,
+    Request,
+)
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: Arrays of shape (n, …) by name.
@@ -203,6 +217,23 @@ class Run:
     def to_json(self) -> dict[str, Any]:
         """The run as JSON has it; without quantities, if there are none."""
         return {name: value for name, value in asdict(self).items() if value != ()}
+
+
+def read_runs(text: object) -> tuple[Run, ...]:
+    """The runs that made the values of an archive, from its attribute.
+
+    Raises
+    ------
+    ValueError
+        With the reason, if the text is not what `Run.to_json` makes.
+    """
+    runs: tuple[Run, ...] = read_json(tuple[Run, ...], text)
+    for run in runs:
+        if not {*run.quantities} <= {*NAMED, COUNTS, DISTANCE}:
+            raise ValueError(f"quantities of a run: {literal(run.quantities)}")
+        if not 0.0 <= run.seconds < math.inf:
+            raise ValueError(f"seconds of a run: {literal(run.seconds)}")
+    return runs
 
 
 @dataclass

@@ -18,7 +18,6 @@ from swtstudy.solver.loop import Loop
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.choices import is_plane
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.parameter import Parameter
 from swtstudy.vocabulary.parameters import (
     AXES,
     LOOP_AMPLITUDE,
@@ -26,6 +25,7 @@ from swtstudy.vocabulary.parameters import (
     PARAMETERS,
     STRAIN_SHARE,
     Control,
+    Parameter,
     replaced_by,
 )
 from swtstudy.vocabulary.quantities import Request

@@ -18,10 +18,16 @@ from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, HARMONIC, QUANTITY_AXES, SHIFT
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, QUANTITIES, STICK_ENDS, Request, attributes_of
-from swtstudy.vocabulary.variables import ATTRIBUTES, SOLVED
+from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, HARMONIC, QUANTITY_AXES, SHIFT, Parameter
+from swtstudy.vocabulary.quantities import (
+    DISTANCE,
+    NOTHING,
+    QUANTITIES,
+    SOLVED,
+    STICK_ENDS,
+    Request,
+    attributes_of,
+)
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -79,9 +85,8 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHI
     variables: dict[str, Any] = {}
     for name, values in arrays.items():
         dims = of_quantities.get(name, ())
-        attributes = attributes_of(name) if name in of_quantities else dict(ATTRIBUTES[name])
         tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
-        variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes
+        variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes_of(name)
     dataset = xr.Dataset(variables, coordinates)
     _name_criteria(dataset, grid, asked)
     dataset = grid.presented(dataset, asked)

@@ -20,8 +20,14 @@ from swtstudy.points.grid import Grid, complete
 from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import (
+    CONTACT_AXES,
+    MANY_TURNS,
+    PAIRS,
+    PARAMETERS,
+    QUANTITY_AXES,
+    Parameter,
+)
 from swtstudy.vocabulary.quantities import DISTANCE
 
 #: Definitions of the user, by parameter and name.

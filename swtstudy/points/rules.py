@@ -18,8 +18,7 @@ from swtstudy.solver.table import ROUGH, TabulatedProfile
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, SWT, families_with, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import Report, literal, more_like_it
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES, PAIRS, PARAMETERS, Parameter, replaced_by
 
 #: Parameters that scale the columns of a loop.
 AMPLITUDES = ("normal_amplitude", "tangential_amplitude", "bulk_stress_amplitude")

@@ -22,8 +22,7 @@ from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request, read_quantities
-from swtstudy.vocabulary.variables import SOLVED
+from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, SOLVED, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
 
 if TYPE_CHECKING:

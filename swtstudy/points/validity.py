@@ -14,7 +14,7 @@ from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.mistakes import plain
 from swtstudy.vocabulary.parameters import NORMAL_AMPLITUDES
-from swtstudy.vocabulary.variables import COMPUTED, ZONES, has_units, require
+from swtstudy.vocabulary.quantities import COMPUTED, ZONES, has_units, require
 from swtstudy.vocabulary.wording import coordinate_words, number_words, numbers_words
 
 #: Strain–life constants are known for lives between these.

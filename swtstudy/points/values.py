@@ -18,8 +18,7 @@ import numpy as np
 
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import is_number, plain, plain_number
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import PARAMETERS
+from swtstudy.vocabulary.parameters import PARAMETERS, Parameter
 from swtstudy.vocabulary.wording import unit_words
 
 if TYPE_CHECKING:

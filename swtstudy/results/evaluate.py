@@ -19,8 +19,7 @@ from swtstudy.study.figure import QUANTITY, reference
 from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import AXES
-from swtstudy.vocabulary.quantities import COUNTED, error_of
-from swtstudy.vocabulary.variables import COMPUTED
+from swtstudy.vocabulary.quantities import COMPUTED, COUNTED, error_of
 from swtstudy.vocabulary.wording import coordinate_words
 
 #: Values of an axis that a message lists one by one; of longer axes the first and the last.

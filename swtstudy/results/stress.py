@@ -25,7 +25,7 @@ from swtstudy.results.one_point import (
 )
 from swtstudy.vocabulary.choices import CRITERIA
 from swtstudy.vocabulary.mistakes import refused
-from swtstudy.vocabulary.variables import flag_attributes
+from swtstudy.vocabulary.quantities import flag_attributes
 
 #: Relative accuracy of swt over the instants that are chosen for a position, and of the field of swt as its
 #: series over time tell it: a thirtieth of what is said of it, since a maximum may be narrower than these.

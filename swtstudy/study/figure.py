@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import asdict, fields
 from typing import Annotated, ClassVar
 
@@ -16,6 +16,7 @@ from swtstudy.points.grid import SAMPLE, Grid
 from swtstudy.points.values import Value, index_of, read_exact, read_value
 from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.derived import lacking
+from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest
 from swtstudy.vocabulary.parameters import AXES, LETTERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COUNTED, EVERY_VARIABLE, Request
@@ -288,3 +289,20 @@ def wrong_formula(text: str) -> str | None:
         # Without the name of the parser's error.
         return str(error).strip().splitlines()[-1].partition(": ")[2]
     return None
+
+
+def read_figure(text: object, others: Collection[str] = ()) -> FigureLayout:
+    """The layout of an archive's figure, which may show others than what every study may have.
+
+    Raises
+    ------
+    ValueError
+        With the reason, if no study has such a layout.
+    """
+    layout: FigureLayout = read_json(FigureLayout, text)
+    for key, found, allowed in wrong_layout(layout):
+        raise ValueError(f"{key.removeprefix('figure.')}: found {found}; allowed: {allowed}")
+    for y in layout.y:
+        if reference(y) is None and y.strip() not in (*VARIABLES, *EVERY_VARIABLE, *others):
+            raise ValueError(f"{literal(y)} is not a quantity")
+    return layout

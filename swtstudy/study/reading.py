@@ -31,8 +31,7 @@ from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.files import parse_toml
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, refused
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.parameters import AXES, PARAMETERS, Parameter
 from swtstudy.vocabulary.quantities import DISTANCE, EVERY_VARIABLE, Request, read_quantities
 
 #: Columns of the file of a profile.

@@ -29,7 +29,7 @@ from swtstudy.study.units.material import KEYS
 from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
-from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import Parameter
 
 #: Designs whose size is a power of 2: a Sobol sequence is balanced only there.
 BALANCED = ("sobol", "saltelli")

@@ -12,8 +12,7 @@ from swtstudy.study.sample import DISTRIBUTIONS
 from swtstudy.study.units.material import BY_NAME, PROPERTIES
 from swtstudy.study.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, UNIT_KINDS, kind_of
 from swtstudy.vocabulary.choices import families_with
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES, Parameter
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 #: Name of the schema's file beside studies; their first line points to it.

@@ -14,8 +14,7 @@ from swtstudy.study.units.rows import Units, rows
 from swtstudy.study.writing import quoted
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.vocabulary.parameter import Parameter, short
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES, Parameter, short
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 

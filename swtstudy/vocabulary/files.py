@@ -11,6 +11,7 @@ import tempfile
 import tomllib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from functools import cache
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -227,3 +228,28 @@ def _sync(path: Path) -> None:
             raise
     finally:
         os.close(handle)
+
+
+@cache
+def _reader(kind: Any) -> Any:
+    """pydantic's reader of a type: it takes a millisecond to make one."""
+    from pydantic import TypeAdapter
+
+    return TypeAdapter(kind)
+
+
+def read_json(kind: Any, text: object) -> Any:
+    """The value of a type that is written as JSON.
+
+    Raises
+    ------
+    ValueError
+        With the first thing that is wrong in it.
+    """
+    from pydantic import ValidationError
+
+    try:
+        return _reader(kind).validate_json(text, strict=True)
+    except ValidationError as error:
+        wrong = error.errors()[0]
+        raise ValueError(": ".join([*map(str, wrong["loc"]), wrong["msg"]])) from None

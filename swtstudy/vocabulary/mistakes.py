@@ -11,8 +11,7 @@ from decimal import Decimal
 from numbers import Integral, Real
 from typing import TypeGuard
 
-from swtstudy.vocabulary.parameter import spelled
-from swtstudy.vocabulary.parameters import SYMBOLS
+from swtstudy.vocabulary.parameters import SYMBOLS, spelled
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from inspect import cleandoc, signature
 from textwrap import fill, indent
 from typing import Any, TypeVar
 
-from swtstudy.vocabulary.parameter import Parameter
+from swtstudy.vocabulary.parameters import Parameter
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

@@ -1,6 +1,6 @@
-"""The table of quantities that may be asked of every point beside s.
+"""The tables of what results hold: the data variables they always have, and quantities that may be asked.
 
-Reading, validation, the schema, attributes, figures and the command line read it; none of them repeats a
+Reading, validation, the schema, attributes, figures and the command line read them; none of them repeats a
 name, a symbol or a meaning. A quantity is the same at a point and at its mirror image, but for places.
 """
 
@@ -8,11 +8,39 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from swtstudy.vocabulary.choices import REGIMES
 from swtstudy.vocabulary.files import read_table
-from swtstudy.vocabulary.mistakes import Report, literal, nearest
+from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
 from swtstudy.vocabulary.parameters import DIRECTIONS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+#: The attribute of results with units that says what their coordinates do not say of the contacts.
+CONTACT = "contact"
+#: States of a point, in the order of their flag values.
+STATES = ("computed", "failed", "missing")
+COMPUTED, FAILED, MISSING = range(3)
+#: Variables that the solver finds at every point.
+SOLVED = ("s", "s_error", "critical_x", "critical_angle", "regime", "s_surface")
+
+#: Where the stick zone is in s, under a bulk stress that moves.
+ZONES = ("in_place", "moved", "moved_approximately")
+
+
+def flag_attributes(words: Sequence[str]) -> dict[str, Any]:
+    """CF attributes of flags, from the words of their values 0, 1, …"""
+    import numpy as np
+
+    return {"flag_values": np.arange(len(words), dtype=np.int8), "flag_meanings": " ".join(words)}
+
+
+#: Attributes of the data variables, following the CF conventions. The unit 1 is left out of a Dataset.
+ATTRIBUTES: dict[str, dict[str, Any]] = read_table(__file__, "variables")
+for _name, _words in {"stick_zone": ZONES, "regime": REGIMES, "status": STATES}.items():
+    ATTRIBUTES[_name]["flag_meanings"] = " ".join(_words)
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
@@ -136,7 +164,11 @@ EVERY_VARIABLE = tuple(variable for row in QUANTITIES.values() for variable in r
 
 
 def attributes_of(variable: str) -> dict[str, Any]:
-    """CF attributes of a data variable."""
+    """CF attributes of a data variable that results always have, or that may be asked."""
+    if variable in ATTRIBUTES:
+        attributes = dict(ATTRIBUTES[variable])
+        meanings = attributes.pop("flag_meanings", "").split()
+        return attributes | (flag_attributes(meanings) if meanings else {})
     row = QUANTITIES.get(variable)
     if row is None:
         row = QUANTITIES[variable.removesuffix(error_of(""))]
@@ -166,3 +198,14 @@ def read_quantities(raw: object, key: str, report: Report) -> tuple[str, ...]:
     names = [name for name in raw if isinstance(name, str) and name in NAMED]
     ends = STICK_ENDS if {*names} & {*STICK_ENDS} else ()
     return tuple(dict.fromkeys((*names, *ends)))
+
+
+def has_units(dataset: xr.Dataset) -> bool:
+    """Return whether results belong to real contacts."""
+    return CONTACT in dataset.attrs
+
+
+def require(dataset: xr.Dataset, *names: str) -> None:
+    """Raise a StudyError if results have been left without some of their data variables."""
+    if lacking := [name for name in names if name not in dataset]:
+        raise refused("results", f"none of {', '.join(lacking)}", "results that still have them")

@@ -12,7 +12,6 @@ import pytest
 import stand_in
 
 from swtstudy import Study, run
-from swtstudy.archive.attributes import read_runs
 from swtstudy.archive.parts import (
     clear_parts,
     keeping,
@@ -23,7 +22,7 @@ from swtstudy.archive.parts import (
     read_parts,
     save_part,
 )
-from swtstudy.points.chunk import Found
+from swtstudy.points.chunk import Found, read_runs
 
 LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = [0.1, 0.2, 0.3]\n'
 

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from swtstudy import LoadPath, TabulatedProfile
+from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.solver.loop import checked_name
-from swtstudy.solver.phases import fold_bulk_phase, fold_phase
 
 SQUARE = [[0, 1], [0.5, 1], [0.5, -1], [0, -1]]
 r = np.linspace(0.0, 2.0, 21)

@@ -25,8 +25,13 @@ from swtstudy.study.units.rows import AT_REST_NAMES, MEAN_LOADS, SCALES, SIMILAR
 from swtstudy.vocabulary.choices import CRITERIA, SHARP, family_of, is_plane
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.mistakes import StudyError, refused
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import LOOP_AMPLITUDE, NORMAL_AMPLITUDES, PARAMETERS, STRAIN_SHARE
+from swtstudy.vocabulary.parameters import (
+    LOOP_AMPLITUDE,
+    NORMAL_AMPLITUDES,
+    PARAMETERS,
+    STRAIN_SHARE,
+    Parameter,
+)
 from swtstudy.vocabulary.quantities import YIELD, Request
 
 if TYPE_CHECKING:

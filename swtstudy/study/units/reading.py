@@ -27,9 +27,9 @@ from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, is_plane, without_life
 from swtstudy.vocabulary.definition import Definition
+from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, replaced_by
+from swtstudy.vocabulary.parameters import AXES, FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, Parameter, replaced_by
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import unit_words
 
@@ -266,12 +266,10 @@ def read_contact(text: object) -> ContactDetails:
     ValueError
         With the reason, if it cannot be read.
     """
-    from pydantic import TypeAdapter, ValidationError
-
     try:
-        given = TypeAdapter(ContactDetails).validate_json(str(text))
-    except ValidationError as error:
-        raise ValueError(f"not a contact: {error.errors()[0]['msg']}") from None
+        given: ContactDetails = read_json(ContactDetails, text)
+    except ValueError as error:
+        raise ValueError(f"not a contact: {error}") from None
     several = [each for name, each in vars(given).items() if isinstance(each, tuple) and name != "blocks"]
     sound = given.pairs.keys() <= {*units.OF_BODIES} and math.isfinite(given.similar)
     if not sound or {*map(len, several)} - {0, len(units.LABELS)}:

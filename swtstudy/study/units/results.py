@@ -16,8 +16,7 @@ from swtstudy.study.units.rows import LABELS, TABLES
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
 from swtstudy.vocabulary.derived import DERIVED, LIFE, LIVES, NORMALISED, PERCENTS, RANKS, REPETITIONS, SHARE
-from swtstudy.vocabulary.quantities import COUNTED, COUNTED_SIZES, Request
-from swtstudy.vocabulary.variables import CONTACT, has_units
+from swtstudy.vocabulary.quantities import CONTACT, COUNTED, COUNTED_SIZES, Request, has_units
 from swtstudy.vocabulary.wording import number_words, numbers_words
 
 if TYPE_CHECKING:

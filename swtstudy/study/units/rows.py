@@ -16,8 +16,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from swtstudy.vocabulary.files import parse_toml, read_text
 from swtstudy.vocabulary.mistakes import Mistake, Report, literal, nearest, plain_number, refused
-from swtstudy.vocabulary.parameter import Parameter
-from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, PAIRS, PARAMETERS, QUANTITY_AXES, STRAIN_SHARE
+from swtstudy.vocabulary.parameters import (
+    AXES,
+    CONTACT_AXES,
+    PAIRS,
+    PARAMETERS,
+    QUANTITY_AXES,
+    STRAIN_SHARE,
+    Parameter,
+)
 
 if TYPE_CHECKING:
     from swtstudy.study.units.at_rest import Contact
