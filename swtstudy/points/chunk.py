@@ -39,8 +39,8 @@ Arrays = dict[str, NDArray[Any]]
 #: Solves points to a relative accuracy; None for `swtstudy.solver.points.solve_points`.
 Solver = Callable[[Points, float], Solution] | None
 
-#: Pieces of the load cycles of a chunk, all together, and what a point counts at least where means over the
-#: body are asked: some 0.1 s of work, short enough to lose.
+#: Pieces of the load cycles of a chunk, all together, and what a point counts at least for the largest stress
+#: or each mean over the body that is asked: some 0.1 s of work, short enough to lose.
 PIECES, PIECES_OF_BODY = 128, 16
 
 
@@ -85,7 +85,7 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
     if {YIELD, DISTANCE} & {*asked.items}:
-        pieces = np.maximum(pieces, PIECES_OF_BODY)
+        pieces = np.maximum(pieces, PIECES_OF_BODY * max(1, len(asked.distances)))
     found: list[IndexArray] = []
     for own in alike(points.rows if wanted.all() else points.rows[places], *points.distances[places].T):
         own = places[own]

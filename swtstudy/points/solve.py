@@ -1,9 +1,11 @@
-"""s for named parameters, computed in this process."""
+"""s for named parameters, computed in threads of this process."""
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -13,7 +15,7 @@ from numpy.typing import NDArray
 
 from swtstudy.points.arguments import listed, spanned
 from swtstudy.points.canonical import Distinct, check_count
-from swtstudy.points.chunk import Arrays, blank, chunks, fill, put
+from swtstudy.points.chunk import Arrays, Chunk, blank, chunks, fill, put
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import read_distances, read_grid
 from swtstudy.points.rules import doubts
@@ -158,10 +160,17 @@ def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tupl
     points = Distinct.of(grid, asked, places)
     count = len(points.rows)
     found = blank(count)
-    with Progress(count) as progress:
-        for chunk in chunks(points, np.ones(count, bool), asked):
-            arrays = blank(len(chunk.places))
-            fill(arrays, chunk, rtol)
+    every = [*chunks(points, np.ones(count, bool), asked)]
+
+    def solved(chunk: Chunk) -> Arrays:
+        arrays = blank(len(chunk.places))
+        fill(arrays, chunk, rtol)
+        return arrays
+
+    with Progress(count) as progress, ThreadPoolExecutor(os.cpu_count()) as threads:
+        # The first thread starts with the second chunk: to start one takes as long as to solve a point.
+        each = threads.map(solved, every) if len(every) > 1 else map(solved, every)
+        for chunk, arrays in zip(every, each, strict=True):
             put(found, chunk.places, arrays)
             progress.add(len(chunk.places))
     return points, values_at(grid, points, found, asked, places)

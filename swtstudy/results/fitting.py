@@ -6,12 +6,13 @@ import math
 import re
 import warnings
 from collections.abc import Callable, Mapping, Sequence
+from copy import copy
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import cache
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import pandas as pd
@@ -58,6 +59,9 @@ LEAST_SCATTER = 1e-3
 DISTANCES = np.geomspace(0.004, 1.2, 17)
 #: Relative accuracy of s: means are known to 1e-3.
 RTOL = 1e-3
+#: Distances on each side of the best one, with which other frictions are tried; how closely a friction is
+#: found, since lives are known no closer than means.
+BESIDE, OF_FRICTION = 4, 3e-3
 #: Step of logarithms in second differences, well above what means are off by; upper bound of friction.
 STEP, MOST_FRICTION = 0.02, 3.0
 #: Distances of the first look for the best one.
@@ -129,12 +133,11 @@ def fit(
         raise refused("friction", f"{own:g}", allowed)
     ratio = _force_ratio(grid)
     with Progress(None, "fit"):
-        tests_of = _Tests(grid, np.log10(observed), runout, y)
         # The least friction that bears the tangential forces.
-        best = _likeliest(tests_of, max(1.001 * ratio * own, 1e-3) if friction else None)
-    low, high = np.log(tests_of.distances[[0, -1]])
-    if not low + STEP < best[0] < high - STEP:
-        ends = " to ".join(f"{math.exp(end):.3g}" for end in (low, high))
+        least = max(1.001 * ratio * own, 1e-3) if friction else None
+        tests_of, best = _likeliest(_Tests(grid, np.log10(observed), runout, y), least)
+    if not tests_of.is_within(best[0]):
+        ends = " to ".join(f"{end:.3g}" for end in tests_of.distances[[0, -1]])
         words = f"the best one is at an end of the range tried, {ends} {grid.labels.length}"
         raise refused(DISTANCE, words, "tests whose lives depend on it within that range")
     return _labelled(tests_of, best, float(confidence))
@@ -165,6 +168,18 @@ class _Tests:
         self.distances = DISTANCES * float(grid.each(lambda contact: contact.contact_radius).min())
         self.curve = cache(self._curve)
         self.distances = self.distances[: self.curve(None).x.size]
+
+    def beside(self, logarithm: float) -> Self:
+        """The same tests, with no other distances than those beside one."""
+        k, found = int(np.searchsorted(np.log(self.distances), logarithm)), copy(self)
+        found.distances = self.distances[max(k - BESIDE, 0) : k + BESIDE]
+        found.curve = cache(found._curve)
+        return found
+
+    def is_within(self, logarithm: float) -> bool:
+        """True if a distance is not at an end of the distances."""
+        low, high = np.log(self.distances[[0, -1]])
+        return bool(low + STEP < logarithm < high - STEP)
 
     def _curve(self, friction: float | None) -> Any:
         """log10 of lives, shape (n,), over the logarithm of the distance, as far as all are finite.
@@ -213,39 +228,55 @@ class _Tests:
         return float(np.where(self.runout, -log_ndtr(z), 0.5 * z * z + x[-1]).sum())
 
 
-def _likeliest(tests: _Tests, least: float | None) -> FloatArray:
-    """Arguments of the least misfit; ``least`` is the least friction, None if it is not fitted.
+def _likeliest(tests: _Tests, least: float | None) -> tuple[_Tests, FloatArray]:
+    """The tests with the distances that were tried, and the arguments of the least misfit.
 
-    With little scatter the misfit over distance and scatter is a narrow valley. Over the distance alone, with
-    the best scatter at each, it falls towards the best one from afar.
+    ``least`` is the least friction, None if it is not fitted. Means over large distances take longest: other
+    frictions are tried with distances beside the best one at the study's friction, and with all of them only
+    if the best distance is not among those.
     """
+    best = _best_distance(tests).x
+    if least is None:
+        return tests, np.array([best, _best_scatter(tests, best).x])
+    if not least < MOST_FRICTION:
+        found = f"tangential forces that need {least:.3g} at least"
+        raise refused("friction", found, f"forces that {MOST_FRICTION:g} bears")
+    some = tests.beside(best)
+    own = _best_friction(some, least)
+    if not some.is_within(own[0]):
+        some, own = tests, _best_friction(tests, least)
+    return some, np.array([*own, _best_scatter(some, *own).x])
+
+
+def _best_friction(tests: _Tests, least: float) -> tuple[float, float]:
+    """Logarithms of the best distance and friction."""
+    ends = math.log(least), math.log(MOST_FRICTION)
+    friction = _least(lambda own: _best_distance(tests, own).fun, *ends, OF_FRICTION).x
+    return _best_distance(tests, friction).x, friction
+
+
+def _least(misfit: Callable[[float], float], low: float, high: float, within: float = 1e-7) -> Any:
     from scipy.optimize import minimize_scalar
 
+    return minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": within})
+
+
+def _best_scatter(tests: _Tests, *x: float) -> Any:
+    """The least misfit over the scatter at logarithms of distance and friction."""
+    return _least(lambda scatter: tests.misfit([*x, scatter]), math.log(LEAST_SCATTER), 5.0)
+
+
+def _best_distance(tests: _Tests, *own: float) -> Any:
+    """The least misfit over distance and scatter at a friction: beside the best distance of a first look.
+
+    With little scatter the misfit over both is a narrow valley. Over the distance alone, with the best
+    scatter at each, it falls towards the best one from afar.
+    """
     first, last = np.log(tests.distances[[0, -1]])
     distances = np.linspace(first, last, FINE)
-
-    def least_over(misfit: Callable[[float], float], low: float, high: float, within: float = 1e-7) -> Any:
-        return minimize_scalar(misfit, bounds=(low, high), method="bounded", options={"xatol": within})
-
-    def scatter_at(*x: float) -> Any:
-        """The best scatter at logarithms of distance and friction."""
-        return least_over(lambda scatter: tests.misfit([*x, scatter]), math.log(LEAST_SCATTER), 5.0)
-
-    def at(*own: float) -> Any:
-        """The best distance at a friction: between those beside the best of the first look."""
-        k = int(np.argmin([tests.misfit([each, *own, tests.spread([each, *own])]) for each in distances]))
-        low, high = distances[max(k - 1, 0)], distances[min(k + 1, FINE - 1)]
-        return least_over(lambda distance: scatter_at(distance, *own).fun, low, high)
-
-    own: list[float] = []
-    if least is not None:
-        if not least < MOST_FRICTION:
-            found = f"tangential forces that need {least:.3g} at least"
-            raise refused("friction", found, f"forces that {MOST_FRICTION:g} bears")
-        ends = math.log(least), math.log(MOST_FRICTION)
-        own = [least_over(lambda friction: at(friction).fun, *ends, 1e-4).x]
-    distance = at(*own).x
-    return np.array([distance, *own, scatter_at(distance, *own).x])
+    k = int(np.argmin([tests.misfit([each, *own, tests.spread([each, *own])]) for each in distances]))
+    low, high = distances[max(k - 1, 0)], distances[min(k + 1, FINE - 1)]
+    return _least(lambda distance: _best_scatter(tests, distance, *own).fun, low, high)
 
 
 def _force_ratio(grid: PhysicalGrid) -> float:
