@@ -26,6 +26,9 @@ TRIMMED = (0.005, 0.995)
 #: The first and the last cycles are a tenth and a quarter of all. They differ by a share of the amplitude, or
 #: of a tenth of the largest load, and by more than amplitudes scatter but for a chance of Student's t.
 ENDS, UNEVEN, LEAST_LOAD, CHANCE = (10, 4), 0.05, 0.1, 1e-5
+#: Standard deviations of the chance likeness of white noise to itself; an amplitude over the largest one that
+#: counts; a divisor for 0.
+WHITE, SMALL, TINY = 4.0, 0.1, 1e-300
 #: Share of a cycle's standard deviation, and standard deviations of its noise, by which parts of a cycle that
 #: repeats may differ.
 SAME, NOISE_OF_MEAN = 0.02, 3.0
@@ -63,6 +66,47 @@ def scatter(cycles: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(variance.mean(axis=0)))
 
 
+def structure(rest: FloatArray) -> FloatArray:
+    """Root mean square of what is no white noise in columns (k, d) of even samples, by column, shape (d,).
+
+    White noise has no likeness to itself one or two samples later. A record less a load that it does not
+    follow has: the rest of a wave is alike one sample later, of a wave of four samples two samples later.
+    """
+    count, rest = len(rest), rest - rest.mean(axis=0)
+    if count < FEWEST_SAMPLES:
+        return np.zeros(rest.shape[1])
+    alike = [np.abs((rest[lag:] * rest[:-lag]).sum(axis=0)) / (count - lag) for lag in (1, 2)]
+    chance = WHITE / np.sqrt(count) * rest.var(axis=0)
+    return np.asarray(np.sqrt(np.maximum(np.max(alike, axis=0) - chance, 0.0)))
+
+
+def repeated(time: FloatArray, period: float, cycle: FloatArray) -> FloatArray:
+    """The values at each time, (k, d), of a cycle (m, d) at even phases that repeats."""
+    at, phase = np.arange(len(cycle)), np.mod((time - time[0]) / period, 1.0) * len(cycle)
+    return np.stack([np.interp(phase, at, column, period=len(cycle)) for column in cycle.T], axis=-1)
+
+
+def beside(values: FloatArray, load: FloatArray) -> FloatArray:
+    """What a record (k, d) has beside a load (k, d), noise left out, over the load's movement, shape (d,).
+
+    The movement is the standard deviation of the load, or a share of the largest value.
+    """
+    movement = np.maximum(load.std(axis=0), LEAST_LOAD * np.abs(values).max(axis=0))
+    return np.asarray(structure(values - load) / np.maximum(movement, TINY))
+
+
+def cut_off(cycle: FloatArray, samples: float) -> tuple[FloatArray, int]:
+    """Share of amplitudes that straight lines between so many samples a cycle cut off, by column of (m, d).
+
+    The lines meet a wave anywhere between its samples: on average they leave sinc²(order/samples) of it. The
+    second result is the highest order with a share of the largest amplitude of a column.
+    """
+    squares = np.abs(np.fft.rfft(cycle - cycle.mean(axis=0), axis=0)) ** 2
+    off = 1.0 - np.sinc(np.arange(len(squares)) / samples)[:, None] ** 2
+    orders = np.flatnonzero((squares > SMALL**2 * squares.max(axis=0)).any(axis=1))
+    return (off * squares).sum(axis=0) / np.maximum(squares.sum(axis=0), TINY), int(max([1, *orders]))
+
+
 def drift(cycles: FloatArray) -> float:
     """Share of the period by which each of the cycles, (c, m, d), comes late; 0 for a single one.
 
@@ -76,7 +120,10 @@ def drift(cycles: FloatArray) -> float:
     means = (v.mean(axis=0)[:, some] / size[some] for v in (cycles, np.diff(cycles, axis=0)))
     mean, step = (np.fft.rfft(v, axis=0)[1:4] for v in means)
     slope = 2j * np.pi * np.arange(1, len(mean) + 1)[:, None] * mean
-    return float(-(slope.conj() * step).sum().real / max((np.abs(slope) ** 2).sum(), 1e-300))
+    steepness, change = (np.abs(slope) ** 2).sum(), (np.abs(step) ** 2).sum()
+    if steepness <= change * np.finfo(float).eps:  # the mean cycle does not move
+        return 0.0
+    return float(-(slope.conj() * step).sum().real / steepness)
 
 
 def uneven_ends(cycles: FloatArray) -> tuple[int, int, list[float]] | None:
@@ -141,8 +188,7 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
     if count < FEWEST_CYCLES:
         return out, usual
     cycle = np.median(folded(time, values, period, count), axis=0)
-    at, phase = np.arange(len(cycle)), np.mod((time - time[0]) / period, 1.0) * len(cycle)
-    median = np.stack([np.interp(phase, at, column, period=len(cycle)) for column in cycle.T], axis=-1)
+    median = repeated(time, period, cycle)
     off = np.abs(values - median)
     # A pulse of every cycle is a load.
     out &= off > 0.5 * np.abs(values - usual)

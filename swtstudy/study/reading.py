@@ -145,14 +145,15 @@ class StudyReader:
             kinds["tangential"] = "force"
         if "tangential_amplitude" in given:
             kinds["tangential"] = "length"
-        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds)
+        kept = table.keep_cycles and bool(parts.blocks)  # without blocks the mean is the load
+        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}
-        kept = {each.name: each for each in signal.loops}
-        self.cycles[name] = [*kept]
-        for each in (each for each in kept if each in parts.loads):
+        single = {each.name: each for each in signal.loops}
+        self.cycles[name] = [*single]
+        for each in (each for each in single if each in parts.loads):
             self.report(f"loads.{each}", f"the name of a cycle of loads.{name}", "another name")
-        return {name: signal.loop, **kept}
+        return {name: signal.loop, **single}
 
     def _profiles(self) -> dict[str, Definition]:
         """The profiles that are tables, by name; a wrong one stands for any."""

@@ -26,9 +26,17 @@ ROUNDING = 1e-6
 #: Drift of the cycles all over a record, over the period, with which a harmonic load loses a hundredth of its
 #: amplitude when they are folded, 1 − sin(πx)/πx.
 MOST_DRIFT = 0.08
+#: Differences of cycles over the movement of their mean that are told: of a wave whose phase changes, folding
+#: has taken half a hundredth. Multiples of a period among which the right one is looked for, and the share of
+#: the differences that it leaves at most.
+UNLIKE, MOST_TIMES, ALIKE = 0.1, 12, 0.3
+#: Shares that are told: of a load's movement that harmonics leave out, and of its amplitude that straight
+#: lines cut off. Distance of samples from the corners of a loop, over a step, that is none.
+LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 1e-3
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
+NAMES = (*COLUMNS, BULK)
 #: Kinds of columns, with units.
 KINDS = {"normal": "force", "tangential": "force", "bulk": "stress"}
 
@@ -84,6 +92,14 @@ class Signal:
         return cycles.scatter(self.cycles)
 
     @cached_property
+    def unlike(self) -> FloatArray:
+        """What the record has beside its mean cycle, over what that moves by, by column; 0 for one cycle."""
+        if self.count < 2:
+            return np.zeros(self.values.shape[1])
+        load = cycles.repeated(self.time, self.period, self.mean_cycle)
+        return cycles.beside(self.values[: self._used], load[: self._used])
+
+    @cached_property
     def mean_normal(self) -> float | None:
         """The mean normal load; None where the column is its deviation from that.
 
@@ -134,8 +150,7 @@ class Signal:
         """Root mean square of what the harmonics leave out of the samples, by column; 0 without them."""
         if not self.highest:
             return np.zeros(self.values.shape[1])
-        fits = np.stack([fit for _, fit in self._fits], axis=1)
-        return np.asarray(np.sqrt(np.mean((self.values[: self._used] - fits) ** 2, axis=0)))
+        return np.asarray(np.sqrt(np.mean((self.values[: self._used] - self.fit) ** 2, axis=0)))
 
     @property
     def words(self) -> str:
@@ -146,9 +161,19 @@ class Signal:
         rounding = np.finfo(float).eps * self.count * np.abs(self.values).max(axis=0)
         for verb, found in (("the cycles scatter by", self.scatter), ("the harmonics miss", self.missed)):
             if np.any(found > rounding):
-                each = zip((*COLUMNS, BULK), found, strict=False)
+                each = zip(NAMES, found, strict=False)
                 said.append(f"{verb} {', '.join(f'{value:.2g} ({name})' for name, value in each)}")
         return "; ".join(said)
+
+    @property
+    def step(self) -> float:
+        """Mean time from a sample to the next."""
+        return float((self.time[-1] - self.time[0]) / (len(self.time) - 1))
+
+    @property
+    def fit(self) -> FloatArray:
+        """The harmonics at each sample within the whole cycles, (k, d)."""
+        return np.stack([fit for _, fit in self._fits], axis=1)
 
     @property
     def _used(self) -> int:
@@ -233,9 +258,17 @@ def read_signal(path: str | PathLike[str], *, name: str | None = None, **given: 
 
 
 def signal_from(
-    path: Path, name: str, given: SignalTable, labels: Labels = None, kinds: Mapping[str, str] = KINDS
+    path: Path,
+    name: str,
+    given: SignalTable,
+    labels: Labels = None,
+    kinds: Mapping[str, str] = KINDS,
+    kept: bool = False,
 ) -> Signal:
-    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units."""
+    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units.
+
+    ``kept`` tells that its cycles are used one by one: they need not be alike.
+    """
     keys = ("recorded_cycles", "period", "frequency")
     lengths = [key for key in keys if getattr(given, key) is not None]
     if len(lengths) > 1:
@@ -278,24 +311,52 @@ def signal_from(
         if key == "period" and not given.time:
             allowed += f"; a period of {period:g} is one of samples, without the column of the time"
         raise refused("harmonics", f"{highest} with {samples * count:.0f} samples", allowed)
-    # Cycles have less in common than what tells them apart, in each column: their mean is not the load.
-    kept = getattr(given, "keep_cycles", False)
-    if signal.count > 1 and not kept and np.all(signal.scatter > signal.mean_cycle.std(axis=0)):
-        found = f"{getattr(given, key):g}: its {signal.count} cycles differ by more than their mean moves"
-        raise refused(key, found, "that of the record; keep_cycles = true for single cycles")
-    for line in _doubts(signal, key, given):  # without spikes, which are told already
+    if signal.count > 1 and not kept:
+        _refuse_unlike(signal, key)
+    for line in _doubts(signal, key, given.recorded_cycles is None, kept):  # spikes are told already
         warnings.warn(f"{name}: {line}", stacklevel=2)
     return signal if given.despike else raw
 
 
-def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
-    """Lines on a gap in the time, a closed record, one that repeats, and cycles that are none or drift."""
-    unsaid, kept = given.recorded_cycles is None, getattr(given, "keep_cycles", False)
+def _refuse_unlike(signal: Signal, key: str) -> None:
+    """Raise if cycles have less in common than what tells them apart: their mean is not the load."""
+    unlike, moves = signal.unlike, signal.mean_cycle.std(axis=0)
+    if np.any(unlike > 1.0) or np.all(signal.scatter > moves):
+        k = int(unlike.argmax())
+        length = 1.0 / signal.period if key == "frequency" else signal.period
+        given = signal.count if key == "recorded_cycles" else length
+        found = f"{given:.7g}: its {signal.count} cycles differ by more than their mean moves, the "
+        found += f"{NAMES[k]} load by {signal.scatter[k]:.3g} and {moves[k]:.3g}"
+        allowed = (
+            f"that of the record{_better(signal, key)}; keep_cycles = true in a block of single cycles; "
+        )
+        raise refused(key, found, f"{allowed}scale = {{ {NAMES[k]} = 0 }} if that column is noise")
+
+
+def _better(signal: Signal, key: str) -> str:
+    """The length of cycles that are alike, in words; empty if none is found."""
+    lengths = [signal.period * (1.0 + cycles.drift(signal.cycles))]
+    lengths += [signal.period * times for times in range(2, min(signal.count // 2, MOST_TIMES) + 1)]
+    whole = signal.time[-1] - signal.time[0] + signal.step
+    for period in lengths:
+        other = replace(signal, period=period, count=int(whole / period + ROUNDING))
+        if other.count > 1 and other.unlike.max() < ALIKE * signal.unlike.max():
+            own = f"frequency = {1.0 / period:.7g}" if key == "frequency" else f"period = {period:.7g}"
+            return f", such as {own}"
+    return ""
+
+
+def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]:
+    """Lines on a gap in the time, a closed record, one that repeats, and cycles that are none or differ.
+
+    ``unsaid`` tells that nothing was said of cycles, and ``kept`` that they are used one by one.
+    """
     values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
     gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
     if gap > max(0.25 * period, 3.0 * most):
         found = f"a gap of {gap:.4g} in the time, at {at:.4g}, where most steps are {most:.4g}"
         yield f"{found}: the loads there are unknown"
+        return
     if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
         yield "the last sample is the first again: leave it out if closed"
     if key == "recorded_cycles" and unsaid and (times := cycles.repeats(signal.time, values)):
@@ -308,17 +369,56 @@ def _doubts(signal: Signal, key: str, given: SignalTable) -> Iterator[str]:
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
-    if abs(shift := cycles.drift(signal.cycles)) * count > MOST_DRIFT:
-        found = f"each of its {count} cycles comes {abs(shift):.1%} of a period"
-        late = "late" if shift > 0.0 else "early"
-        yield f"{found} {late}; is the period {period * (1.0 + shift):.4g} and not {period:.4g}?"
-    elif not kept and (uneven := cycles.uneven_ends(signal.cycles)):
+    yield from _differences(signal, key, kept)
+    yield from _losses(signal)
+
+
+def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
+    """A line on cycles that drift, that are of a start-up, or that differ in another way."""
+    count, shift, unlike = signal.count, cycles.drift(signal.cycles), signal.unlike
+    better = _better(signal, key) if not kept and unlike.max() > UNLIKE else ""
+    if abs(shift) * count > MOST_DRIFT:
+        found = f"its {count} cycles come {abs(shift) * count:.1%} of a period"
+        late, right = "late" if shift > 0.0 else "early", signal.period * (1.0 + shift)
+        yield f"{found} {late} altogether; is the period {right:.7g} and not {signal.period:.7g}?"
+    elif kept:
+        return
+    elif not better and (uneven := cycles.uneven_ends(signal.cycles)):
         column, ends, (first, last, mean) = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"
-        name = (*COLUMNS, BULK)[column]
-        found = f"the first {each} a {name} amplitude of {first:.4g}, the last of {last:.4g}"
+        found = f"the first {each} a {NAMES[column]} amplitude of {first:.4g}, the last of {last:.4g}"
         out = "cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles = true"
         yield f"{found}, and their mean, {mean:.4g}, is the load: {out}"
+    elif unlike.max() > UNLIKE:
+        k = int(unlike.argmax())
+        moves = signal.mean_cycle[:, k].std()
+        found = (
+            f"the cycles' {NAMES[k]} loads differ by {signal.scatter[k]:.3g}, and their mean, which is the "
+        )
+        out = f"is the cycle another{better}?" if better else "a block with keep_cycles = true runs each"
+        yield f"{found}load, moves by {moves:.3g} (standard deviations): {out}"
+
+
+def _losses(signal: Signal) -> Iterator[str]:
+    """Lines on what straight lines between samples cut off, and on what harmonics leave out."""
+    if signal.highest:
+        values = signal.values[: signal._used]
+        left = cycles.beside(values, signal.fit)
+        if left.max() > LEFT_OUT:
+            k = int(left.argmax())
+            out, moves = cycles.structure(values - signal.fit)[k], values[:, k].std()
+            found = f"harmonics = {signal.highest} leaves out {out:.3g} of the {NAMES[k]} load, which moves"
+            yield f"{found} by {moves:.3g} (standard deviations): more harmonics, or none"
+        return
+    samples = signal.period / signal.step
+    places = signal.phase / (2.0 * np.pi) * len(signal.mean_cycle)
+    if signal._is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
+        return  # the samples are the corners of the loop
+    off, order = cycles.cut_off(signal.mean_cycle, samples)
+    if (most := off.max()) > CUT_OFF:
+        found = f"{samples:.4g} samples a cycle, at other phases in each: straight lines between them take"
+        name = NAMES[int(off.argmax())]
+        yield f"{found} {most:.1%} off the {name} load; harmonics = {order} takes nothing off"
 
 
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:
@@ -331,7 +431,7 @@ def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatAr
     row, column = int(rows[0]), int(columns[0])
     cycle = int((time[row] - time[0]) / signal.period) + 1
     place = f"cycle {cycle}, line {lines[row]} of the file"
-    found = f"{(*COLUMNS, BULK)[column]} {values[row, column]:g} in {place}"
+    found = f"{NAMES[column]} {values[row, column]:g} in {place}"
     more = f", and {rows.size - 1} more" if rows.size > 1 else ""
     if despike:
         told = f"{number_of(rows.size, 'spike')} replaced, {found}, by {usual[row, column]:.4g}{more}"

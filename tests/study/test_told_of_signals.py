@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from pathlib import Path
 from typing import Any
@@ -9,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from swtstudy import read_signal
+from swtstudy import StudyError, read_signal
 
 NORMAL = [200.0, 210.0, 190.0, 205.0]
 
@@ -51,6 +52,10 @@ MEAN_OF = (
     "is the load: cut the rows of a start-up from the file, or run all cycles in a block with keep_cycles "
 )
 MEAN_OF += "= true"
+BESIDE = (
+    "the cycles' tangential loads differ by {}, and their mean, which is the load, moves by {} (standard "
+    "deviations)"
+)
 #: Values, keys, what the signal is, the sum of its mean cycle, and what is told of it.
 SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
     (
@@ -209,28 +214,28 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
         {"period": 39},
         "4 cycles of 39 samples; the cycles scatter by 0.85 (normal), 8.5 (tangential)",
         7824.14259,
-        ["each of its 4 cycles comes 2.4% of a period late; is the period 39.95 and not 39?"],
+        ["its 4 cycles come 9.8% of a period late altogether; is the period 39.95282 and not 39?"],
     ),
     (
         wave(160, 40, 0.1),
         {"period": 41},
         "3 cycles of 41 samples; the cycles scatter by 0.68 (normal), 6.7 (tangential)",
         8209.45127,
-        [],
+        [BESIDE.format("6.71", "41.6") + ": is the cycle another, such as period = 39.95176?"],
     ),
     (
         wave(400, 40, 0.1),
         {"period": 39.7},
         "10 cycles of 40 samples; the cycles scatter by 0.6 (normal), 6 (tangential)",
         8005.56121,
-        [],
+        [BESIDE.format("6", "42.1") + ": is the cycle another, such as period = 39.99673?"],
     ),
     (
         wave(400, 40, 0.1, (1, 2, 3, 4)),
         {"period": 40.5},
         "9 cycles of 40 samples; the cycles scatter by 1.7 (normal), 17 (tangential)",
         8028.20741,
-        ["each of its 9 cycles comes 1.3% of a period early; is the period 39.96 and not 40.5?"],
+        ["its 9 cycles come 12.0% of a period early altogether; is the period 39.96224 and not 40.5?"],
     ),
     (
         wave(400, 40, 0.5),
@@ -321,21 +326,21 @@ SIGNALS: list[tuple[np.ndarray, dict[str, Any], str, float, list[str]]] = [
         {"recorded_cycles": 4},
         "4 cycles of 20 samples; the cycles scatter by 0.56 (normal), 11 (tangential)",
         3999.64572,
-        [],
+        [BESIDE.format("10.6", "37.1") + ": a block with keep_cycles = true runs each"],
     ),
     (
         cycles([0.5, 1.0, 1.0, 1.0], 0.01),
         {"recorded_cycles": 4},
         "4 cycles of 20 samples; the cycles scatter by 0.011 (normal), 11 (tangential)",
         3999.99291,
-        [],
+        [BESIDE.format("10.6", "37.1") + ": a block with keep_cycles = true runs each"],
     ),
     (
         cycles([0.5, 1.0, 1.0], 0.01),
         {"recorded_cycles": 3},
         "3 cycles of 20 samples; the cycles scatter by 0.011 (normal), 12 (tangential)",
         3999.98707,
-        [],
+        [BESIDE.format("12.2", "35.4") + ": a block with keep_cycles = true runs each"],
     ),
     (
         cycles([0.93] + [1.0] * 19, 0.01),
@@ -417,3 +422,95 @@ def test_what_is_said_of_a_signal(
     assert repr(found) == f"<Signal r: {words}>"
     assert found.mean_cycle.sum() == pytest.approx(total, rel=1e-8)
     assert [str(each.message) for each in caught] == [f"r: {line}" for line in told]
+
+
+TIME = np.arange(2000) / 100
+#: A tangential load of 60 N over the time, keys, and what is told of it or refused, the normal load having a
+#: cycle of 1; empty if nothing is.
+MISLED: dict[str, tuple[np.ndarray, np.ndarray, dict[str, Any], str]] = {
+    "half the frequency": (TIME, np.sin(np.pi * TIME), {"period": 1}, "moves.* such as period = 2;.*noise"),
+    "two cycles": (TIME, np.sin(np.pi * TIME), {"period": 2}, ""),
+    "strokes that alternate": (
+        TIME,
+        np.where(TIME % 2 < 1, 1.0, 0.6) * np.sin(2.0 * np.pi * TIME),
+        {"frequency": 1},
+        r"tangential loads differ by 8.71, .* moves by 33.9 .* such as frequency = 0.5\?$",
+    ),
+    "strokes that scatter": (
+        TIME,
+        np.repeat(np.random.default_rng(1).uniform(0.5, 1.0, 20), 100) * np.sin(2.0 * np.pi * TIME),
+        {"period": 1},
+        "differ by .*a block with keep_cycles = true runs each$",
+    ),
+    "too few harmonics": (
+        TIME,
+        np.sin(16.0 * np.pi * TIME),
+        {"period": 1, "harmonics": 5},
+        r"harmonics = 5 leaves out 37.6 of the tangential load, which moves by 42.4 .*: more harmonics",
+    ),
+    "enough harmonics": (TIME, np.sin(16.0 * np.pi * TIME), {"period": 1, "harmonics": 8}, ""),
+    "a misfit of a fast load": (
+        np.arange(1228) / 400,
+        np.sin(16.0 * np.pi * np.arange(1228) / 400),
+        {"recorded_cycles": 3},
+        "recorded_cycles: found 3: its 3 cycles .* such as period = 0.999",
+    ),
+    "a phase that wanders": (
+        TIME,
+        np.sin(2.0 * np.pi * (TIME + 0.15 * np.sin(0.1 * np.pi * TIME))),
+        {"period": 1},
+        "differ by 26.7, .* moves by 33.5 ",
+    ),
+    "a long drift of a fast load": (
+        np.arange(99 * 200) / 200,
+        np.sin(16.0 * np.pi * np.arange(99 * 200) / 200),
+        {"period": 1.0007},
+        "found 1.0007: its 98 cycles .* such as period = 0.999999",
+    ),
+    "a drift of many cycles": (
+        np.arange(20000) / 20,
+        np.sin(2.0 * np.pi * np.arange(20000) / 20),
+        {"period": 1.0003},
+        r"its 999 cycles come 30.2% of a period early altogether; is the period 0.99999\d+ and not 1.0003\?",
+    ),
+    "few samples": (
+        np.arange(195) / 6.5,
+        np.sin(2.0 * np.pi * np.arange(195) / 6.5),
+        {"period": 1},
+        "6.5 samples a cycle, at other phases .* 7.5% off the normal load; harmonics = 1 takes nothing off",
+    ),
+    "few samples at the same phases": (
+        np.arange(210) / 7,
+        np.sin(2.0 * np.pi * np.arange(210) / 7),
+        {"period": 1},
+        "",
+    ),
+    "few samples of a fast load": (
+        np.arange(2000) / 100.3,
+        np.sin(16.0 * np.pi * np.arange(2000) / 100.3),
+        {"period": 1},
+        "100.3 samples a cycle.* 2.1% off the tangential load; harmonics = 8 takes nothing off",
+    ),
+    "a half that does not move": (
+        TIME,
+        np.zeros(2000),
+        {"period": 0.5},
+        "normal loads differ by 14.3, .* such as period = 1[?]",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", MISLED)
+def test_a_mean_cycle_that_is_not_the_load_is_told(case: str, tmp_path: Path) -> None:
+    time, tangential, given, words = MISLED[case]
+    normal = 200.0 + 20.0 * np.sin(2.0 * np.pi * time + 0.5)
+    table = np.stack([time, normal, 60.0 * tangential], axis=1)
+    np.savetxt(tmp_path / "r.csv", table, delimiter=",", header="time,normal,tangential", comments="")
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        try:
+            read_signal(tmp_path / "r.csv", time="time", absolute=True, **given)
+            said = [str(each.message) for each in seen]
+        except StudyError as error:
+            said = [str(error)]
+    assert any(re.search(words, each) for each in said) if words else not said, said
