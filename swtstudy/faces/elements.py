@@ -16,7 +16,7 @@ import pandas as pd
 import xarray as xr
 
 from swtstudy.points.values import read_exact
-from swtstudy.results.history import TINY, criterion_of_history, swt_of_history
+from swtstudy.results.history import TINY, criterion_of_history, longest_chord, swt_of_history
 from swtstudy.study.columns import UserTable, read_table, unknown_names, wrong_unit
 from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
@@ -305,14 +305,15 @@ def cycle_shares(
 
     memory, own, found = new_record(COUNTING), ask(poisson_ratio, 0.0, 1e-6, criterion, **parameters), []
     memory["points"] = count = stress.shape[1]
+    if count > len(memory["swing"]):
+        raise refused(STEP, f"{count} steps", f"at most {len(memory['swing'])} for counted cycles")
     for history, normal in zip(stress, normals, strict=True):
         tension, *curves = curves_on_plane(history, normal, poisson_ratio, criterion == SWT)
         swing = curves[0]
         if criterion != SWT:
             shear = np.stack(curves, axis=1)
-            squares = np.square(shear[:, None] - shear[None]).sum(axis=-1)
-            one, other = np.unravel_index(squares.argmax(), squares.shape)
-            swing = shear @ (shear[one] - shear[other]) / max(float(np.sqrt(squares.max())), TINY)
+            chord = longest_chord(shear)
+            swing = shear @ chord / max(float(np.linalg.norm(chord)), TINY)
         memory["swing"][:count], memory["stress"][:count] = swing, tension
         count_cycles(memory, own)
         values = memory["value"][: memory["cycles"]]

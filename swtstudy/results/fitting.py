@@ -24,9 +24,10 @@ from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
-from swtstudy.study.columns import number, read_table
+from swtstudy.study.columns import UserTable, number, read_table, wrong_unit
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
+from swtstudy.study.units.rows import kind_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -46,6 +47,15 @@ from swtstudy.vocabulary.wording import number_of
 
 #: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
 LIFE, RUNOUT = "life", "runout"
+#: Other headers of them, in small letters.
+ALIASES = {
+    LIFE: LIFE,
+    RUNOUT: RUNOUT,
+    "run_out": RUNOUT,
+    "run-out": RUNOUT,
+    "run out": RUNOUT,
+    "runouts": RUNOUT,
+}
 #: Marks of a run-out, and of a test that ended with a crack.
 YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "", "nan")
 #: Likeness of a column's name to a parameter's name from which it is a misspelling (difflib).
@@ -370,7 +380,8 @@ def _read(
     """The tests as a sample of the study's contacts, their lives, and which are lower bounds, shape (n,)."""
     if not isinstance(study, str | PathLike):
         raise refused("study", literal(study), "the path of a study file")
-    raw, (columns, lines) = tables_of(study), _columns(tests)
+    raw, (columns, table) = tables_of(study), _columns(tests)
+    lines = [line for line, _ in table.cells] if table else []
     place = str(tests) if lines else ""
     lives, runout, report = _observed(columns, lines, place, parameters)
     own = {name: values for name, values in columns.items() if name not in (LIFE, RUNOUT)}
@@ -398,6 +409,10 @@ def _read(
                 if key != mistake.key:
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
+    if table and isinstance(grid, PhysicalGrid):
+        for name in (each for each in columns if each in AXES):
+            if kind := kind_of(name):
+                report += wrong_unit(table, name, kind, grid.labels.label(kind))
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
@@ -442,17 +457,21 @@ def _observed(
     return numbers, runout, report
 
 
-def _columns(tests: object) -> tuple[dict[str, list[Any]], list[int]]:
-    """The columns of a table of tests by name, and the lines of a file's rows."""
+def _columns(tests: object) -> tuple[dict[str, list[Any]], UserTable | None]:
+    """The columns of a table of tests by name, and the table in a file."""
     if not isinstance(tests, str | PathLike):
         try:
             frame = pd.DataFrame(tests)
         except (TypeError, ValueError) as error:
             allowed = "a CSV file, or columns by name, with a value for each test"
             raise refused("tests", f"{literal(tests)} ({error})", allowed) from None
-        return {str(name): frame[name].tolist() for name in frame}, []
-    table = read_table(Path(tests), (LIFE,), AXES, None, LONGEST_AXIS)
+        named = {str(name).lower(): name for name in frame}
+        other = {named[alias]: name for alias, name in ALIASES.items() if alias in named}
+        return {str(other.get(name, name)): frame[name].tolist() for name in frame}, None
+    table = read_table(Path(tests), (LIFE,), {*AXES, RUNOUT}, None, LONGEST_AXIS, ALIASES)
     if not table.cells:
         raise refused("", "no tests", "a row for each test", str(tests))
     columns = {name: table.values(name) for name in table.headers if name}
-    return columns, [line for line, _ in table.cells]
+    if table.decimal == ",":  # also in ">1,5e7", which is no number
+        columns[LIFE] = [each.replace(",", ".") if isinstance(each, str) else each for each in columns[LIFE]]
+    return columns, table

@@ -28,6 +28,8 @@ ROUNDING, SAME = 1e-12, 1e-9
 TINY = 1e-300
 #: Steps towards the smallest sphere for each point and each dimension.
 MOST_STEPS = 60
+#: Pairs of points of a path that are looked at together.
+PAIRS = 1_000_000
 
 
 class CriticalPlane(NamedTuple):
@@ -209,6 +211,16 @@ def smallest_sphere(points: FloatArray) -> tuple[FloatArray, float]:
         if stop[first] < 1.0:
             on.append(first)
     return centre, float(np.sqrt(((points - centre) ** 2).sum(axis=1).max()))
+
+
+def longest_chord(path: FloatArray) -> FloatArray:
+    """The longest difference of two of the points of a path, shape (k, d)."""
+    found = np.zeros(path.shape[1])
+    for some in np.array_split(path, len(path) ** 2 // PAIRS + 1):
+        chords = (some[:, None] - path).reshape(-1, path.shape[1])
+        longest = chords[np.square(chords).sum(axis=1).argmax()]
+        found = max(found, longest, key=np.linalg.norm)
+    return found
 
 
 def _checked(stress: ArrayLike, poisson_ratio: float, young_modulus: float) -> tuple[FloatArray, Report]:

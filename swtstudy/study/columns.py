@@ -141,9 +141,7 @@ class UserTable:
                 raise self.refused(f"line {place}", f"{len(own)} cells under {width} columns", allowed)
             own += [""] * (width - len(own))
         if self.decimal is None:
-            texts = [own[k] for _, own in self.cells[:WITHIN] for k in needed or range(width)]
-            comma, point = (any(re.match(rf"[+-]?\d*[{sign}]\d", text) for text in texts) for sign in ",.")
-            self.decimal = "," if separator != "," and comma and not point else "."
+            self.decimal = "," if separator != "," and self._has_commas(needed) else "."
             if self.decimal == ",":
                 notices.append("numbers with a comma are read with decimal = ','")
         for words in notices if not self.report else ():
@@ -157,6 +155,15 @@ class UserTable:
             other if other and other not in named and meant.count(other) == 1 else name
             for name, other in zip(named, meant, strict=True)
         ]
+
+    def _has_commas(self, needed: Sequence[int]) -> bool:
+        """Return whether numbers have decimal commas: those that are needed, or all if these are integers."""
+        for columns in (needed, range(len(self.headers))):
+            texts = [own[k] for _, own in self.cells[:WITHIN] for k in columns if _is_number(own[k])]
+            comma, point = (any(sign in text for text in texts) for sign in ",.")
+            if comma or point:
+                return not point
+        return False
 
     def column(self, name: str) -> int:
         """The place of a column."""
@@ -454,6 +461,8 @@ def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mista
         found = f"{column} in {unit} as {name}, while [units] has {kind} in {label}"
         found += "" if own is None else f", and scale has {name} = {own:g}"
         allowed = f"scale = {{ {name} = {factor:g} }}; {name} = 1 if the unit in the file is wrong"
+        if not table.has_keys:
+            allowed = f"a column in {label}: its values times {factor:g}"
     return [Mistake("", found, allowed, table.source)]
 
 

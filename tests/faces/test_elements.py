@@ -252,6 +252,14 @@ def test_columns_without_one_unit_are_refused(
         read_history(of_a_point(tmp_path, units), **form)
 
 
+@pytest.mark.filterwarnings("ignore:.*decimal = ','")
+def test_stresses_with_decimal_commas(tmp_path: Path) -> None:
+    """The step, which is needed, has none."""
+    rows = ["step;xx;yy;zz;yz;xz;xy", "0;1,5;0;0;0;0;0", "1;-2,5;0;0;0;0;1"]
+    (tmp_path / "a.csv").write_text("\n".join(rows))
+    assert read_history(tmp_path / "a.csv").stress.values[0, :, 0].tolist() == [1.5, -2.5]
+
+
 def test_other_headers_have_units_and_places_of_their_own(tmp_path: Path) -> None:
     """Without the step, wherever it stands."""
     rows = ["a [Pa],b [Pa],c [Pa],d [Pa],e [Pa],f [Pa],step", *(f"1,2,3,4,5,{k}e6,{k}" for k in (6, 7))]

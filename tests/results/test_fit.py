@@ -387,6 +387,32 @@ def test_a_table_of_tests_is_told_no_keys_that_it_has_not(rig, tmp_path):
     refused(r"line 1: found the columns .*; allowed: a header with life$", swtstudy.fit, rig[0], path)
 
 
+@pytest.mark.filterwarnings("ignore:tests.csv")
+def test_tables_of_spreadsheets_are_read_as_they_are_meant(rig, monkeypatch, tmp_path):
+    """With decimal commas, headers of other spelling, and marks of run-outs."""
+    path, forces, lives = tmp_path / "tests.csv", [30.5, 60.0, 70.0], [100.0, 60.0, 45.0]
+    monkeypatch.setattr(fitting, "_lives", Law(forces))
+    expected = swtstudy.fit(
+        rig[0], {"tangential_force_amplitude": forces, "life": lives, "runout": [0, 0, 1]}
+    )
+    for text in (
+        "tangential_force_amplitude;life\n30,5;100\n60;60\n70;>4,5e1\n",
+        "Tangential_Force_Amplitude,Life,Run_Out\n30.5,100,no\n60,60,no\n70,45,yes\n",
+    ):
+        path.write_text(text)
+        xr.testing.assert_identical(swtstudy.fit(rig[0], path), expected)
+    frame = pd.DataFrame({"tangential_force_amplitude": forces, "Life": lives, "Run-out": [0, 0, 1]})
+    xr.testing.assert_identical(swtstudy.fit(rig[0], frame), expected)
+
+
+@pytest.mark.filterwarnings("ignore:.*read as units")
+def test_tests_in_another_unit_are_refused(rig, tmp_path):
+    path = tmp_path / "tests.csv"
+    path.write_text("tangential_force_amplitude,life\nkN,cycles\n0.03,1e5\n0.06,1e4\n")
+    words = "tests.csv: found 'tangential_force_amplitude' in kN .* in N; allowed: a column in N: .* 1000$"
+    refused(words, swtstudy.fit, rig[0], path)
+
+
 def test_mistakes_in_a_file_of_tests_name_it(rig, tmp_path):
     path = tmp_path / "tests.csv"
     path.write_text("normal_forc,tangential_force_amplitude,life\n200,60,1e6\n200,80,1e5\n")

@@ -15,7 +15,7 @@ from solved import REGIMES
 
 import swtstudy
 from swtstudy import StudyError
-from swtstudy.results.history import one_of_both, smallest_sphere
+from swtstudy.results.history import longest_chord, one_of_both, smallest_sphere
 from swtstudy.results.inspection import load_and_springs, marked_instants
 from swtstudy.results.optimise import Planes, lowest_of, newton, read_ranges, tangent_planes
 
@@ -216,6 +216,17 @@ def test_spheres_around_points() -> None:
             middle, size = smallest_sphere(order)
             np.testing.assert_allclose(middle, centre, atol=1e-9)
             assert size == pytest.approx(radius, abs=1e-9)
+
+
+def test_the_longest_chord_of_a_path() -> None:
+    """Of many points, too, whose pairs are looked at in parts, and of one."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 2001)[:-1]
+    ellipse = np.stack([3.0 + 2.0 * np.cos(angle), np.sin(angle)], axis=1)
+    np.testing.assert_allclose(np.abs(longest_chord(ellipse)), [4.0, 0.0], atol=1e-12)
+    np.testing.assert_array_equal(longest_chord(ellipse[:1]), [0.0, 0.0])
+    cloud = np.random.default_rng(4).normal(size=(1500, 2))
+    longest = np.sqrt(np.square(cloud[:, None] - cloud).sum(axis=-1)).max()
+    assert np.linalg.norm(longest_chord(cloud)) == pytest.approx(longest, rel=1e-12)
 
 
 def test_of_two_opposite_normals_the_one_with_a_positive_first_component_is_told() -> None:
