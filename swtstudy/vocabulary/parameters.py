@@ -284,4 +284,4 @@ SYMBOLS: dict[str, tuple[str, str]] = {
 }
 #: And the names of values, with the words that others have for them.
 SYMBOLS |= {word.lower(): ("paraboloid", word) for word in ("sphere", "ball", "Hertz")}
-SYMBOLS |= {"fs": ("fatemi_socie", "FS")}
+SYMBOLS |= {"fs": ("fatemi_socie", "FS")} | {word: ("cycles", "N") for word in ("life", "lifetime", "nf")}

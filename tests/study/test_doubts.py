@@ -53,6 +53,15 @@ def cap(factor: float, power: float, depth: float) -> str:
         (CONTACT, []),
         (MATERIAL + CONTACT, []),
         (
+            f"{CONTACT.replace('60', '0.6')}normal_force_amplitude = 0.2\n",
+            [
+                "s: normal_force_amplitude 0.2 N is 0.001 of the normal force: is it meant as a share of that?",
+                "s: tangential_force_amplitude 0.6 N is 0.006 of friction times the normal force: is it meant "
+                "as a share of that?",
+            ],
+        ),
+        (f"{CONTACT}normal_force_amplitude = 5\n", []),
+        (
             MATERIAL.replace("927", "[9, 92700]") + CONTACT,
             [
                 f"material.strength 9 over young_modulus 73100 is 0.000123, {OF_METALS}",

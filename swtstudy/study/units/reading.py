@@ -29,7 +29,15 @@ from swtstudy.vocabulary.choices import CRITERIA, FATEMI_SOCIE, is_plane, withou
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import Report, StudyError, literal, meant, more_like_it, plain_number
-from swtstudy.vocabulary.parameters import AXES, FORCE_OF, LOOP_AMPLITUDE, PARAMETERS, Parameter, replaced_by
+from swtstudy.vocabulary.parameters import (
+    AXES,
+    FORCE_OF,
+    HARMONIC,
+    LOOP_AMPLITUDE,
+    PARAMETERS,
+    Parameter,
+    replaced_by,
+)
 from swtstudy.vocabulary.quantities import DISTANCE
 from swtstudy.vocabulary.wording import unit_words
 
@@ -42,8 +50,9 @@ MOST_CONTACTS = 300_000
 _SAID = ("radius", *units.MEAN_LOADS, *SHAPE_COLUMNS)
 #: Pressure over E* that no metal sustains.
 LARGEST_PRESSURE = 0.1
-#: Friction of no metal, and a factor of a measured load that is probably a load itself.
-MOST_FRICTION, MOST_TIMES = 2.0, 10.0
+#: Friction of no metal, a factor of a measured load that is probably a load itself, and a force over the
+#: normal load that is probably meant as a share of it.
+MOST_FRICTION, MOST_TIMES, SMALL_SHARE = 2.0, 10.0, 0.02
 
 
 def read_contacts(
@@ -305,8 +314,8 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
 def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
     """Hints at a wrong unit or number.
 
-    Contacts larger than their radius or pressed beyond any metal, friction of no metal, and forces that
-    multiply a measured load.
+    Contacts larger than their radius or pressed beyond any metal, friction of no metal, forces that multiply
+    a measured load, and forces that look like shares of the normal load.
     """
     if (most := max(map(as_number, grid.values("friction")))) > MOST_FRICTION:
         yield f"friction {most:g}: metals have some 0.1 to 1.5"
@@ -316,6 +325,16 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
         if (most := max(map(as_number, grid.values(name)), default=0.0)) > MOST_TIMES:
             column = f"the column {name.partition('_')[0]} of {', '.join(measured)}"
             yield f"{name} {most:g} multiplies {column}: 1 takes it as it is"
+    for amplitude in rules.AMPLITUDES if HARMONIC in grid.values("load") else ():
+        name = grid.control.given_for(amplitude)
+        most, share = (
+            max(map(as_number, grid.values(name)), default=0.0),
+            float(grid.numbers[amplitude].max()),
+        )
+        if name != amplitude and 0.0 < most <= 1.0 and share < SMALL_SHARE:
+            of = "friction times " * (amplitude == "tangential_amplitude") + "the normal force"
+            found = f"{name} {most:g}{unit_words(grid.labels.force)} is {share:.2g} of {of}"
+            yield f"{found}: is it meant as a share of that?"
     lines: dict[str, str] = {}
     unit = unit_words(grid.labels.length)
     for contact in grid.distinct:
