@@ -86,7 +86,8 @@ def check_options(context: click.Context, command: click.Command, args: list[str
     try:
         _, _, order = command.make_parser(own).parse_args(list(args))
     except click.NoSuchOption as error:
-        names = {name: f"--{name.replace('_', '-')}" for name in (p.name for p in command.params) if name}
+        options = [name for each in command.params for name in each.opts if name.startswith("--")]
+        names = {name.removeprefix("--").replace("-", "_"): name for name in options}
         close = meant(error.option_name, names)
         if close is None:
             raise

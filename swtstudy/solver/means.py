@@ -17,8 +17,9 @@ paraboloid: beside that the pressure is infinite like a logarithm, and so slow i
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -60,8 +61,8 @@ WORTH_A_LOOK, FALL, WORTH_A_CLIMB = 0.7, 0.03, 0.9
 #: Columns are no nearer than this share of ℓ, but for lines.
 FINEST = 1.0 / 16.0
 #: Sine of an angle by which the critical plane turns at once, or nearly; places among which that is looked
-#: for, and how closely.
-JUMP, LOOKS, HALVINGS = 0.05, 17, 20
+#: for beside the highest mean, and how closely; and how closely between columns.
+JUMP, LOOKS, HALVINGS, ROUGH_HALVINGS = 0.05, 17, 20, 6
 #: Straight down, to the right and down.
 DOWN = (0.0, 1.0)
 #: Gauss's nodes t of a column, at depths 2ℓt², and their weights in the mean over the depths.
@@ -74,6 +75,8 @@ FARTHEST = 8.0
 MOST_COLUMNS, NARROW, LOWEST = 400, 0.1, 0.02
 #: A mean about a place, and its error.
 Mean = Callable[[float], tuple[float, float]]
+#: The direction of a column from a place: to the right, and down.
+Direction = Callable[[float], tuple[float, float]]
 
 
 #: Distances of columns from the middle of a ball, over ℓ.
@@ -147,33 +150,34 @@ def worst_means(points: Points, solution: Solution, distance: FloatArray) -> dic
 
 def _largest(opened: Opened, critical: float, s: float, distance: float) -> dict[str, FloatArray]:
     """By kind the largest means over ℓ in each direction, their errors and their places, (directions, 3)."""
+    directions: tuple[Direction, ...] = (lambda _: DOWN), cache(partial(direction_at, opened))
 
     def mean(kind: str, way: int, known: float, rtol: float, first: int, x: float) -> tuple[float, float]:
-        direction = DOWN if way == 0 else direction_at(opened, x)
-        return mean_about(opened, KINDS[kind], x, direction, distance, known, rtol, first)
+        return mean_about(opened, KINDS[kind], x, directions[way](x), distance, known, rtol, first)
 
-    least = min(mean(kind, 0, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in KINDS)
-    x, estimates = _columns(opened, critical, s, distance, least)
-    spacing, far, near, found = _spacing(opened, distance), far_field_of(opened), _spacing(opened, 0.0), {}
-    for kind, estimate in estimates.items():
-        rows, most, starts = [], float(estimate.max()), list(x[_tops(estimate)])
-        step = 0.5 * spacing if kind == "line" else 0.25 * distance
-        if min(abs(start - critical) for start in starts) > 0.5 * distance:
-            starts.append(critical)
-        for way in range(1 if kind == "volume" else len(DIRECTIONS)):
+    spacing, far, near = _spacing(opened, distance), far_field_of(opened), _spacing(opened, 0.0)
+    found: dict[str, list[tuple[float, float, float]]] = {kind: [] for kind in KINDS}
+    for way, into in enumerate(directions):
+        kinds = [kind for kind in KINDS if way == 0 or kind != "volume"]
+        least = min(mean(kind, way, 0.0, ROUGH, ROUGHLY, critical)[0] for kind in kinds)
+        x, estimates = _columns(opened, critical, s, distance, least, into, kinds)
+        for kind, estimate in estimates.items():
+            most, starts = float(estimate.max()), list(x[_tops(estimate)])
+            step = 0.5 * spacing if kind == "line" else 0.25 * distance
+            if min(abs(start - critical) for start in starts) > 0.5 * distance:
+                starts.append(critical)
+            starts += [place for _, _, place in found[kind] if np.isfinite(place)]
             rough = partial(mean, kind, way, most, ROUGH, ROUGHLY)
             close = partial(mean, kind, way, most, CLOSE[kind], FIRST)
             place, known = _climb_all(rough, close, starts, step, near, CLOSE[kind])
-            # Along the critical plane means may be largest where those straight down are not.
-            high = x[estimate >= WORTH_A_LOOK * most]
-            starts += [place, *high[:: -(-len(high) // LOOKS)]]
             if way == 1:
-                places = [place, *_beside_jumps(opened, place, distance)]
+                around = place + distance * np.linspace(-1.0, 1.0, LOOKS)
+                places = [place, *_beside_jumps(around, into, HALVINGS)]
                 known, place = max((close(x)[0] if x != place else known, x) for x in places)
             value, error = mean(kind, way, known, RTOL, FIRST, place)
-            rows.append((far, 0.0, np.nan) if far > value else (value, error + OF_PLACE * value, place))
-        found[kind] = np.array(rows)
-    return found
+            told = (far, 0.0, np.nan) if far > value else (value, error + OF_PLACE * value, place)
+            found[kind].append(told)
+    return {kind: np.array(rows) for kind, rows in found.items()}
 
 
 def _ball_means(x: FloatArray, columns: FloatArray, of_ball: FloatArray) -> FloatArray:
@@ -186,9 +190,15 @@ def _ball_means(x: FloatArray, columns: FloatArray, of_ball: FloatArray) -> Floa
 
 
 def _columns(
-    opened: Opened, critical: float, s: float, distance: float, limit: float
+    opened: Opened,
+    critical: float,
+    s: float,
+    distance: float,
+    limit: float,
+    into: Direction,
+    kinds: list[str],
 ) -> tuple[FloatArray, dict[str, FloatArray]]:
-    """Columns where the surface exceeds a limit: their x, ascending, and estimates of the means there."""
+    """Columns where the surface exceeds a limit: their x, ascending, and estimates of the means of kinds."""
     place, value = surface_above(opened, max(limit, LOWEST * s), s)
     high = (value[:-1] > limit) | (value[1:] > limit) | (limit < LOWEST * s)
     end = largest_radius(opened) + distance
@@ -205,15 +215,17 @@ def _columns(
     if opened.point.load["mirrored"]:
         x = x[x >= -distance]
     of_ball = OF_DISC if opened.point.profile["plane"] else OF_SPHERE
-    columns = _columns_at(opened, x, distance, limit)
+    x = np.unique(np.concatenate([x, _beside_jumps(x, into, ROUGH_HALVINGS)]))
+    columns = _columns_at(opened, x, distance, limit, into)
     while True:
-        volume = _ball_means(x / distance, columns, of_ball)
-        estimates = {"volume": volume, "point": columns @ OF_POINT, "line": columns @ OF_LINE}
+        estimates = {"point": columns @ OF_POINT, "line": columns @ OF_LINE}
+        if "volume" in kinds:
+            estimates["volume"] = _ball_means(x / distance, columns, of_ball)
         wide = _wide_gaps(x, estimates, distance)
         if not wide.size:
             return x, estimates
         new = 0.5 * (x[wide] + x[wide + 1])
-        columns = np.insert(columns, wide + 1, _columns_at(opened, new, distance, limit), axis=0)
+        columns = np.insert(columns, wide + 1, _columns_at(opened, new, distance, limit, into), axis=0)
         x = np.insert(x, wide + 1, new)
 
 
@@ -237,10 +249,11 @@ def _spacing(opened: Opened, distance: float) -> float:
     return max(min(0.5 * distance, NARROW * radius), 2.0 * (radius + distance) / MOST_COLUMNS)
 
 
-def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float) -> FloatArray:
-    """Values at `NODE` beneath places of the line, (n, len(NODE)); below the limit they may be low."""
+def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float, into: Direction) -> FloatArray:
+    """Values at `NODE` into the body from places, (n, len(NODE)); below the limit they may be low."""
+    depth, ways = 2.0 * distance * NODE**2, np.array([into(float(each)) for each in x])
     at = np.zeros((len(x), len(NODE), 3))
-    at[..., 0], at[..., 2] = x[:, None], 2.0 * distance * NODE**2
+    at[..., 0], at[..., 2] = x[:, None] + ways[:, :1] * depth, ways[:, 1:] * depth
     return criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)
 
 
@@ -277,24 +290,20 @@ def _climb_all(
     return best, largest
 
 
-def _beside_jumps(opened: Opened, place: float, reach: float) -> list[float]:
-    """Places next to a place at which the critical plane jumps, on both sides of each jump.
+def _beside_jumps(x: FloatArray, into: Direction, halvings: int) -> list[float]:
+    """Places next to places at which the critical plane jumps, on both sides of each jump between places.
 
     There two planes are equally high, and the mean along the critical plane jumps, too.
     """
-    x = place + reach * np.linspace(-1.0, 1.0, LOOKS)
-    ways = [direction_at(opened, each) for each in x]
     found = []
-    for k in range(LOOKS - 1):
-        (a, b), (of_a, of_b) = x[k : k + 2], ways[k : k + 2]
-        for _ in range(HALVINGS):
-            if not _turned(of_a, of_b):
+    for a, b in itertools.pairwise(map(float, x)):
+        for _ in range(halvings):
+            if not _turned(into(a), into(b)):
                 break
             middle = 0.5 * (a + b)
-            way = direction_at(opened, middle)
-            a, b, of_a, of_b = (middle, b, way, of_b) if _turned(way, of_b) else (a, middle, of_a, way)
+            a, b = (middle, b) if _turned(into(middle), into(b)) else (a, middle)
         else:
-            found += [float(a), float(b)]
+            found += [a, b]
     return found
 
 

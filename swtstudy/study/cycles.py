@@ -107,6 +107,12 @@ def cut_off(cycle: FloatArray, samples: float) -> tuple[FloatArray, int]:
     return (off * squares).sum(axis=0) / np.maximum(squares.sum(axis=0), TINY), int(max([1, *orders]))
 
 
+def is_load(cycles: FloatArray) -> BoolArray:
+    """Whether the mean of cycles, (c, m, d), moves by more than what is left in it of their noise, (d,)."""
+    noise = np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
+    return np.asarray(cycles.mean(axis=0).std(axis=0) > noise)
+
+
 def drift(cycles: FloatArray) -> float:
     """Share of the period by which each of the cycles, (c, m, d), comes late; 0 for a single one.
 
@@ -157,10 +163,10 @@ def repetitions(cycles: FloatArray) -> int:
     wave, length = mean - mean.mean(axis=0), len(mean)
     size, noise = wave.std(axis=0), np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
     squares = 2.0 * np.abs(np.fft.rfft(wave, axis=0) / length) ** 2
-    is_load = size > noise
-    if not is_load.any():
+    moving = is_load(cycles)
+    if not moving.any():
         return 1
-    order = int((squares[:, is_load] / size[is_load] ** 2).sum(axis=1).argmax())
+    order = int((squares[:, moving] / size[moving] ** 2).sum(axis=1).argmax())
     most = np.maximum(noise, SAME * size) ** 2
     for times in range(min(order, length // FEWEST_IN_CYCLE), 1, -1):
         if order % times == 0 and np.all(squares.sum(axis=0) - squares[::times].sum(axis=0) <= most):

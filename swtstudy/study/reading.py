@@ -145,7 +145,9 @@ class StudyReader:
             kinds["tangential"] = "force"
         if "tangential_amplitude" in given:
             kinds["tangential"] = "length"
-        kept = table.keep_cycles and bool(parts.blocks)  # without blocks the mean is the load
+        kept = table.keep_cycles and bool(parts.blocks)
+        if table.keep_cycles and not kept:
+            warnings.warn(f"{name}: without [[blocks]] the mean of its cycles is the load", stacklevel=4)
         signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}

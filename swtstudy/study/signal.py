@@ -14,6 +14,7 @@ import numpy as np
 
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop, checked_name
+from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study import cycles
 from swtstudy.study.columns import Labels, read_columns
 from swtstudy.study.keys import SignalTable, with_keys
@@ -27,9 +28,9 @@ ROUNDING = 1e-6
 #: amplitude when they are folded, 1 − sin(πx)/πx.
 MOST_DRIFT = 0.08
 #: Differences of cycles over the movement of their mean that are told: of a wave whose phase changes, folding
-#: has taken half a hundredth. Multiples of a period among which the right one is looked for, and the share of
-#: the differences that it leaves at most.
-UNLIKE, MOST_TIMES, ALIKE = 0.1, 12, 0.3
+#: has taken half a hundredth. Multiples of a period among which the right one is looked for, the share of the
+#: differences that it leaves at most, and how often a drift corrects it.
+UNLIKE, MOST_TIMES, ALIKE, CORRECTIONS = 0.1, 12, 0.3, 4
 #: Shares that are told: of a load's movement that harmonics leave out, and of its amplitude that straight
 #: lines cut off. Distance of samples from the corners of a loop, over a step, that is none.
 LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 1e-3
@@ -324,25 +325,33 @@ def _refuse_unlike(signal: Signal, key: str) -> None:
     if np.any(unlike > 1.0) or np.all(signal.scatter > moves):
         k = int(unlike.argmax())
         length = 1.0 / signal.period if key == "frequency" else signal.period
-        given = signal.count if key == "recorded_cycles" else length
-        found = f"{given:.7g}: its {signal.count} cycles differ by more than their mean moves, the "
-        found += f"{NAMES[k]} load by {signal.scatter[k]:.3g} and {moves[k]:.3g}"
+        found = f"{signal.count if key == 'recorded_cycles' else length:.7g}: the {NAMES[k]} loads of its "
+        found += f"{signal.count} cycles differ by {signal.scatter[k]:.3g}, more than their mean moves by, "
         allowed = (
             f"that of the record{_better(signal, key)}; keep_cycles = true in a block of single cycles; "
         )
-        raise refused(key, found, f"{allowed}scale = {{ {NAMES[k]} = 0 }} if that column is noise")
+        allowed += f"scale = {{ {NAMES[k]} = 0 }} if that column is noise"
+        raise refused(key, f"{found}{moves[k]:.3g}", allowed)
 
 
 def _better(signal: Signal, key: str) -> str:
-    """The length of cycles that are alike, in words; empty if none is found."""
-    lengths = [signal.period * (1.0 + cycles.drift(signal.cycles))]
-    lengths += [signal.period * times for times in range(2, min(signal.count // 2, MOST_TIMES) + 1)]
+    """The length of cycles that are alike, in words; empty if none is found.
+
+    It is near the one that is given, the time after which the record repeats, or a multiple of the given one.
+    """
     whole = signal.time[-1] - signal.time[0] + signal.step
-    for period in lengths:
-        other = replace(signal, period=period, count=int(whole / period + ROUNDING))
-        if other.count > 1 and other.unlike.max() < ALIKE * signal.unlike.max():
-            own = f"frequency = {1.0 / period:.7g}" if key == "frequency" else f"period = {period:.7g}"
-            return f", such as {own}"
+    times = cycles.repeats(signal.time, signal.values)
+    guesses = [signal.period, *([whole / times] if times else [])]
+    guesses += [signal.period * times for times in range(2, min(signal.count // 2, MOST_TIMES) + 1)]
+    for period in guesses:
+        for _ in range(CORRECTIONS):
+            other = replace(signal, period=period, count=int(whole / period + ROUNDING))
+            if other.count < 2:
+                break
+            period *= 1.0 + cycles.drift(other.cycles)
+        if other.count > 1 and other.unlike.max() < min(UNLIKE, ALIKE * signal.unlike.max()):
+            length = f"frequency = {1.0 / other.period:.7g}"
+            return f", such as {length if key == 'frequency' else f'period = {other.period:.7g}'}"
     return ""
 
 
@@ -369,8 +378,8 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
-    yield from _differences(signal, key, kept)
-    yield from _losses(signal)
+    different = [*_differences(signal, key, kept)]
+    yield from different or _losses(signal)
 
 
 def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
@@ -414,11 +423,15 @@ def _losses(signal: Signal) -> Iterator[str]:
     places = signal.phase / (2.0 * np.pi) * len(signal.mean_cycle)
     if signal._is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
         return  # the samples are the corners of the loop
-    off, order = cycles.cut_off(signal.mean_cycle, samples)
-    if (most := off.max()) > CUT_OFF:
+    moving = np.flatnonzero(cycles.is_load(signal.cycles))
+    off, order = cycles.cut_off(signal.mean_cycle[:, moving], samples)
+    if (most := off.max(initial=0.0)) > CUT_OFF:
         found = f"{samples:.4g} samples a cycle, at other phases in each: straight lines between them take"
-        name = NAMES[int(off.argmax())]
-        yield f"{found} {most:.1%} off the {name} load; harmonics = {order} takes nothing off"
+        name = NAMES[moving[off.argmax()]]
+        way = (
+            f"harmonics = {order} takes nothing off" if order <= HIGHEST_ORDER else "more samples are needed"
+        )
+        yield f"{found} {most:.1%} off the {name} load; {way}"
 
 
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:

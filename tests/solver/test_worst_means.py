@@ -207,3 +207,23 @@ def test_a_tangential_load_next_to_nothing_changes_no_mean(contact):
     none, little = (swtstudy.solve(tangential_force_amplitude=each, **given) for each in (0.0, 1e-6))
     for name in ("s_volume", "s_point", "s_line"):
         np.testing.assert_allclose(none[name], little[name], rtol=2e-3)
+
+
+def test_the_largest_value_along_a_plane_is_found_between_its_turns() -> None:
+    """On a short stretch of the line, with planes of its own, that no column straight down tells of."""
+    contact = {
+        "poisson_ratio": 0.1920993890008541,
+        "friction": 0.5339052203332387,
+        "normal_amplitude": 0.3404208982847299,
+        "tangential_amplitude": 0.20894825251128668,
+        "phase": 5.285889206211563,
+    }
+    distance, cycle = 1.5139930397834982, opened(points(**contact, p=2))
+    found = swtstudy.solve(**contact, frequency_ratio=2, critical_distance=distance, rtol=1e-3)
+    end = largest_radius(cycle) + distance
+    values = [
+        mean_about(cycle, POINT, x, direction_at(cycle, x), distance, 0.0, 1e-3)[0]
+        for x in np.linspace(-end, end, 300)
+    ]
+    own = found.sel(direction="critical_plane")
+    assert max(values) < float(own.s_point) + 3.0 * float(own.s_point_error)

@@ -55,9 +55,10 @@ def cap(factor: float, power: float, depth: float) -> str:
         (
             f"{CONTACT.replace('60', '0.6')}normal_force_amplitude = 0.2\n",
             [
-                "s: normal_force_amplitude 0.2 N is 0.001 of the normal force: is it meant as a share of that?",
-                "s: tangential_force_amplitude 0.6 N is 0.006 of friction times the normal force: is it meant "
-                "as a share of that?",
+                "s: normal_force_amplitude 0.2 N is 0.001 of the normal force: is it meant as a share of "
+                "that?",
+                "s: tangential_force_amplitude 0.6 N is 0.006 of friction times the normal force: is it "
+                "meant as a share of that?",
             ],
         ),
         (f"{CONTACT}normal_force_amplitude = 5\n", []),
