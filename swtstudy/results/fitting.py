@@ -148,7 +148,11 @@ def fit(
         tests_of, best = _likeliest(_Tests(grid, np.log10(observed), runout, y), least)
     if not tests_of.is_within(best[0]):
         ends = " to ".join(f"{end:.3g}" for end in tests_of.distances[[0, -1]])
-        words = f"the best one is at an end of the range tried, {ends} {grid.labels.length}"
+        end, lives = (
+            ("lower", "longer") if best[0] < np.log(tests_of.distances).mean() else ("upper", "shorter")
+        )
+        words = f"the best one is at the {end} end of the range tried, {ends} {grid.labels.length}, where "
+        words += f"predicted lives are still {lives} than the tests'"
         raise refused(DISTANCE, words, "tests whose lives depend on it within that range")
     return _labelled(tests_of, best, float(confidence))
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from functools import cache, partial
+from typing import Any
 
 import numpy as np
 
@@ -221,7 +222,7 @@ def _columns(
         estimates = {"point": columns @ OF_POINT, "line": columns @ OF_LINE}
         if "volume" in kinds:
             estimates["volume"] = _ball_means(x / distance, columns, of_ball)
-        wide = _wide_gaps(x, estimates, distance)
+        wide = _wide_gaps(x, estimates, distance, np.array([into(float(each)) for each in x]))
         if not wide.size:
             return x, estimates
         new = 0.5 * (x[wide] + x[wide + 1])
@@ -229,17 +230,20 @@ def _columns(
         x = np.insert(x, wide + 1, new)
 
 
-def _wide_gaps(x: FloatArray, estimates: dict[str, FloatArray], distance: float) -> IntArray:
-    """Gaps beside the highest columns, over which a mean falls by more than a little, or wider than ℓ.
+def _wide_gaps(
+    x: FloatArray, estimates: dict[str, FloatArray], distance: float, ways: FloatArray
+) -> IntArray:
+    """Gaps beside the highest columns, over which a mean falls or the direction turns, or wider than ℓ.
 
     Over places nearer than a share of ℓ only means along lines change: these reach up to the surface.
     """
     wide, width = np.zeros(len(x) - 1, dtype=bool), np.diff(x)
+    turns = _turned(ways[:-1].T, ways[1:].T) & (width > FINEST * distance)
     for kind, estimate in estimates.items():
         is_top = np.isin(np.arange(len(x)), _tops(estimate))
         falls = np.abs(np.diff(estimate)) > FALL * np.maximum(estimate[1:], estimate[:-1])
         falls &= width > distance * (SAME if kind == "line" else FINEST)
-        wide |= (is_top[1:] | is_top[:-1]) & (falls | (width > distance))
+        wide |= (is_top[1:] | is_top[:-1]) & (falls | turns | (width > distance))
     return np.flatnonzero(wide)
 
 
@@ -307,8 +311,8 @@ def _beside_jumps(x: FloatArray, into: Direction, halvings: int) -> list[float]:
     return found
 
 
-def _turned(one: tuple[float, float], other: tuple[float, float]) -> bool:
-    """True if two directions, of lines without an end, are apart."""
+def _turned(one: Any, other: Any) -> Any:
+    """True if two directions, of lines without an end, are apart; of arrays, (2, n), one by one."""
     return abs(one[0] * other[1] - one[1] * other[0]) > JUMP
 
 

@@ -197,8 +197,10 @@ def wrong_axes(layout: FigureLayout, sizes: Mapping[str, int | None], of: str) -
     lacking = [name for name in sizes if name not in placed and name in (*AXES, SAMPLE)]
     # A place whose mistake is said already may name an axis without one.
     for name in lacking if len(lacking) > len(names) + lacks_vertical - len(placed) else ():
-        allowed = "every axis as x, hue, vertical or panels, or with a single value"
-        allowed += f", such as by --at {name}=…" * (of == "these results")
+        lacks = FIGURES[layout.kind].lacks if layout.kind in FIGURES else ()
+        free = [role for role in ("panels", "hue") if role not in lacks and not getattr(layout, role)]
+        allowed = "every axis as x, hue, vertical or panels" + f', such as {free[0]} = "{name}"' * bool(free)
+        allowed += ", or with a single value" + f", such as by --at {name}=…" * (of == "these results")
         yield "figure", f"no place for the axis {name}", allowed
 
 
