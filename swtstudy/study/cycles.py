@@ -87,7 +87,7 @@ def repeated(time: FloatArray, period: float, cycle: FloatArray) -> FloatArray:
 
 
 def beside(values: FloatArray, load: FloatArray) -> FloatArray:
-    """What a record (k, d) has beside a load (k, d), noise left out, over the load's movement, shape (d,).
+    """The rest of a record (k, d) beside a load (k, d), noise left out, over the load's movement, shape (d,).
 
     The movement is the standard deviation of the load, or a share of the largest value.
     """
@@ -108,7 +108,7 @@ def cut_off(cycle: FloatArray, samples: float) -> tuple[FloatArray, int]:
 
 
 def is_load(cycles: FloatArray) -> BoolArray:
-    """Whether the mean of cycles, (c, m, d), moves by more than what is left in it of their noise, (d,)."""
+    """Return whether the mean of cycles, (c, m, d), moves by more than their noise leaves in it, (d,)."""
     noise = np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
     return np.asarray(cycles.mean(axis=0).std(axis=0) > noise)
 

@@ -94,7 +94,7 @@ class Signal:
 
     @cached_property
     def unlike(self) -> FloatArray:
-        """What the record has beside its mean cycle, over what that moves by, by column; 0 for one cycle."""
+        """The rest of the record beside its mean cycle, over the movement of that; 0 for a single one."""
         if self.count < 2:
             return np.zeros(self.values.shape[1])
         load = cycles.repeated(self.time, self.period, self.mean_cycle)
