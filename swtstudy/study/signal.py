@@ -345,13 +345,14 @@ def _better(signal: Signal, key: str) -> str:
     guesses += [signal.period * times for times in range(2, min(signal.count // 2, MOST_TIMES) + 1)]
     for period in guesses:
         for _ in range(CORRECTIONS):
-            other = replace(signal, period=period, count=int(whole / period + ROUNDING))
-            if other.count < 2:
+            if not 2.0 * signal.step <= period <= 0.5 * whole * (1.0 + ROUNDING):
                 break
+            other = replace(signal, period=period, count=int(whole / period + ROUNDING))
             period *= 1.0 + cycles.drift(other.cycles)
-        if other.count > 1 and other.unlike.max() < min(UNLIKE, ALIKE * signal.unlike.max()):
-            length = f"frequency = {1.0 / other.period:.7g}"
-            return f", such as {length if key == 'frequency' else f'period = {other.period:.7g}'}"
+        else:
+            if other.unlike.max() < min(UNLIKE, ALIKE * signal.unlike.max()):
+                length = f"frequency = {1.0 / other.period:.7g}"
+                return f", such as {length if key == 'frequency' else f'period = {other.period:.7g}'}"
     return ""
 
 
