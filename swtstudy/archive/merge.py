@@ -21,7 +21,6 @@ from swtstudy.study.definition import Study
 from swtstudy.study.figure import read_figure
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.writing import to_toml
-from swtstudy.vocabulary.choices import FIGURES
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, MISSING, Request, error_of
@@ -182,10 +181,8 @@ def _study(names: str, datasets: list[xr.Dataset], grid: Grid, asked: Request) -
         layout = read_figure(datasets[0].attrs["figure"], [str(name) for name in datasets[0].data_vars])
         roles = [name for _, name in layout.roles() if name not in QUANTITY_AXES]
         new = [dim for dim in grid.dims if dim not in roles]
-        lacks = FIGURES[layout.kind].lacks
-        free = [role for role in ("hue", "panels") if role not in lacks and getattr(layout, role) is None]
-        if {*roles} <= {*grid.dims} and len(new) <= len(free):
-            placed: dict[str, Any] = dict(zip(free, new, strict=False))
+        if {*roles} <= {*grid.dims} and len(new) <= len(layout.free):
+            placed: dict[str, Any] = dict(zip(layout.free, new, strict=False))
             figure = replace(layout, **placed)
     try:
         return Study.from_text(to_toml(" + ".join(titles), rtol, grid, figure, asked), "the merged study")

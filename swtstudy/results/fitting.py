@@ -24,10 +24,9 @@ from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
-from swtstudy.study.columns import UserTable, number, read_table, wrong_unit
+from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
-from swtstudy.study.units.rows import kind_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -414,9 +413,7 @@ def _read(
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
     if table and isinstance(grid, PhysicalGrid):
-        for name in (each for each in columns if each in AXES):
-            if kind := kind_of(name):
-                report += wrong_unit(table, name, kind, grid.labels.label(kind))
+        report += wrong_units(table, [each for each in columns if each in AXES], grid.labels)
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
@@ -469,9 +466,8 @@ def _columns(tests: object) -> tuple[dict[str, list[Any]], UserTable | None]:
         except (TypeError, ValueError) as error:
             allowed = "a CSV file, or columns by name, with a value for each test"
             raise refused("tests", f"{literal(tests)} ({error})", allowed) from None
-        named = {str(name).lower(): name for name in frame}
-        other = {named[alias]: name for alias, name in ALIASES.items() if alias in named}
-        return {str(other.get(name, name)): frame[name].tolist() for name in frame}, None
+        named = by_aliases([*map(str, frame)], ALIASES)
+        return {name: frame[own].tolist() for name, own in zip(named, frame, strict=True)}, None
     table = read_table(Path(tests), (LIFE,), {*AXES, RUNOUT}, None, LONGEST_AXIS, ALIASES)
     if not table.cells:
         raise refused("", "no tests", "a row for each test", str(tests))

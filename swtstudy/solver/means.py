@@ -217,17 +217,24 @@ def _columns(
         x = x[x >= -distance]
     of_ball = OF_DISC if opened.point.profile["plane"] else OF_SPHERE
     x = np.unique(np.concatenate([x, _beside_jumps(x, into, ROUGH_HALVINGS)]))
-    columns = _columns_at(opened, x, distance, limit, into)
+    ways = _ways(into, x)
+    columns = _columns_at(opened, x, ways, distance, limit)
     while True:
         estimates = {"point": columns @ OF_POINT, "line": columns @ OF_LINE}
         if "volume" in kinds:
             estimates["volume"] = _ball_means(x / distance, columns, of_ball)
-        wide = _wide_gaps(x, estimates, distance, np.array([into(float(each)) for each in x]))
+        wide = _wide_gaps(x, estimates, distance, ways)
         if not wide.size:
             return x, estimates
         new = 0.5 * (x[wide] + x[wide + 1])
-        columns = np.insert(columns, wide + 1, _columns_at(opened, new, distance, limit, into), axis=0)
-        x = np.insert(x, wide + 1, new)
+        of_new = _ways(into, new)
+        columns = np.insert(columns, wide + 1, _columns_at(opened, new, of_new, distance, limit), axis=0)
+        x, ways = np.insert(x, wide + 1, new), np.insert(ways, wide + 1, of_new, axis=0)
+
+
+def _ways(into: Direction, x: FloatArray) -> FloatArray:
+    """Directions of columns from places, (n, 2)."""
+    return np.array([into(float(each)) for each in x])
 
 
 def _wide_gaps(
@@ -253,9 +260,9 @@ def _spacing(opened: Opened, distance: float) -> float:
     return max(min(0.5 * distance, NARROW * radius), 2.0 * (radius + distance) / MOST_COLUMNS)
 
 
-def _columns_at(opened: Opened, x: FloatArray, distance: float, limit: float, into: Direction) -> FloatArray:
+def _columns_at(opened: Opened, x: FloatArray, ways: FloatArray, distance: float, limit: float) -> FloatArray:
     """Values at `NODE` into the body from places, (n, len(NODE)); below the limit they may be low."""
-    depth, ways = 2.0 * distance * NODE**2, np.array([into(float(each)) for each in x])
+    depth = 2.0 * distance * NODE**2
     at = np.zeros((len(x), len(NODE), 3))
     at[..., 0], at[..., 2] = x[:, None] + ways[:, :1] * depth, ways[:, 1:] * depth
     return criterion_at(opened, at.reshape(-1, 3), OF_COLUMNS, limit, MANY)[0].reshape(len(x), -1)

@@ -8,7 +8,7 @@ import io
 import math
 import re
 import warnings
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.study.units.rows import KNOWN, unit_factor
+from swtstudy.study.units.rows import KNOWN, Units, kind_of, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
@@ -149,12 +149,7 @@ class UserTable:
 
     def _named(self, headers: list[str]) -> list[str]:
         """Headers, each as the name that it is but for capital letters, or whose only alias it is."""
-        named = [self._names.get(header.lower(), header) for header in headers]
-        meant = [self._aliases.get(header.lower(), "") for header in headers]
-        return [
-            other if other and other not in named and meant.count(other) == 1 else name
-            for name, other in zip(named, meant, strict=True)
-        ]
+        return by_aliases([self._names.get(each.lower(), each) for each in headers], self._aliases)
 
     def _has_commas(self, needed: Sequence[int]) -> bool:
         """Return whether numbers have decimal commas: those that are needed, or all if these are integers."""
@@ -446,6 +441,21 @@ def unknown_names(form: FileTable, known: Collection[str]) -> Report:
         for name in (each for each in getattr(form, part) if each not in known):
             report(f"{part}.{name}", literal(name), nearest(name, known, {}))
     return report
+
+
+def by_aliases(headers: Sequence[str], aliases: Mapping[str, str]) -> list[str]:
+    """Headers, each as the name whose only alias, in small letters, it is, unless there is that name."""
+    meant = [aliases.get(header.lower(), "") for header in headers]
+    return [
+        other if other and other not in headers and meant.count(other) == 1 else header
+        for header, other in zip(headers, meant, strict=True)
+    ]
+
+
+def wrong_units(table: UserTable, names: Iterable[str], units: Units) -> list[Mistake]:
+    """The mistakes of columns of parameters in other units than the study's; see `wrong_unit`."""
+    kinds = {name: kind for name in names if (kind := kind_of(name))}
+    return [each for name, kind in kinds.items() for each in wrong_unit(table, name, kind, units.label(kind))]
 
 
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:

@@ -34,6 +34,11 @@ WHITE, SMALL, TINY = 4.0, 0.1, 1e-300
 SAME, NOISE_OF_MEAN = 0.02, 3.0
 
 
+def step_of(time: FloatArray) -> float:
+    """Mean time from a sample to the next."""
+    return float((time[-1] - time[0]) / (len(time) - 1))
+
+
 def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
     """The first whole cycles of a record at even phases, as many as it has samples in a cycle.
 
@@ -51,8 +56,7 @@ def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> F
     array
         Shape (count, m, d); straight lines between the samples.
     """
-    step = (time[-1] - time[0]) / (len(time) - 1)
-    phases = round(period / step)
+    phases = round(period / step_of(time))
     at = time[0] + period * (np.arange(count)[:, None] + np.arange(phases) / phases)
     return np.stack([np.interp(at, time, column) for column in values.T], axis=-1)
 
@@ -107,10 +111,9 @@ def cut_off(cycle: FloatArray, samples: float) -> tuple[FloatArray, int]:
     return (off * squares).sum(axis=0) / np.maximum(squares.sum(axis=0), TINY), int(max([1, *orders]))
 
 
-def is_load(cycles: FloatArray) -> BoolArray:
-    """Return whether the mean of cycles, (c, m, d), moves by more than their noise leaves in it, (d,)."""
-    noise = np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
-    return np.asarray(cycles.mean(axis=0).std(axis=0) > noise)
+def noise_of_mean(cycles: FloatArray) -> FloatArray:
+    """The movement of the mean of cycles, (c, m, d), up to which it may be their noise, (d,); 0 for one."""
+    return np.asarray(np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles))))
 
 
 def drift(cycles: FloatArray) -> float:
@@ -161,12 +164,12 @@ def repetitions(cycles: FloatArray) -> int:
     """Number of times that the mean of cycles, (c, m, d), repeats itself; 1 if it does not."""
     mean = cycles.mean(axis=0)
     wave, length = mean - mean.mean(axis=0), len(mean)
-    size, noise = wave.std(axis=0), np.nan_to_num(NOISE_OF_MEAN * scatter(cycles) / np.sqrt(len(cycles)))
+    size, noise = wave.std(axis=0), noise_of_mean(cycles)
     squares = 2.0 * np.abs(np.fft.rfft(wave, axis=0) / length) ** 2
-    moving = is_load(cycles)
-    if not moving.any():
+    is_load = size > noise
+    if not is_load.any():
         return 1
-    order = int((squares[:, moving] / size[moving] ** 2).sum(axis=1).argmax())
+    order = int((squares[:, is_load] / size[is_load] ** 2).sum(axis=1).argmax())
     most = np.maximum(noise, SAME * size) ** 2
     for times in range(min(order, length // FEWEST_IN_CYCLE), 1, -1):
         if order % times == 0 and np.all(squares.sum(axis=0) - squares[::times].sum(axis=0) <= most):
@@ -221,7 +224,7 @@ def _single_spikes(time: FloatArray, values: FloatArray, length: float) -> tuple
     """
     if len(values) < FEWEST_SAMPLES:
         return np.zeros_like(values, bool), values.copy()
-    least = 1e-6 * (time[-1] - time[0]) / (len(time) - 1)
+    least = 1e-6 * step_of(time)
     first, last = np.searchsorted(time, [time[-1] - length + least, time[0] + length - least])
     rows = np.concatenate([[last - 2, last - 1], np.arange(len(time)), [first, first + 1]])
     turns = np.repeat([-1.0, 0.0, 1.0], [2, len(time), 2])

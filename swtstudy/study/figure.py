@@ -96,6 +96,12 @@ class FigureLayout:
             if name is not None:
                 yield role, name
 
+    @property
+    def free(self) -> list[str]:
+        """Roles that another axis may take: the lines, the panels."""
+        lacks = FIGURES[self.kind].lacks if self.kind in FIGURES else ()
+        return [role for role in ("hue", "panels") if role not in lacks and getattr(self, role) is None]
+
 
 _, *_OPTIONAL, _LAST = (field.name for field in fields(FigureLayout))
 FigureLayout.allowed = f"a table with x and, optionally, {', '.join(_OPTIONAL)} and {_LAST}"
@@ -197,9 +203,8 @@ def wrong_axes(layout: FigureLayout, sizes: Mapping[str, int | None], of: str) -
     lacking = [name for name in sizes if name not in placed and name in (*AXES, SAMPLE)]
     # A place whose mistake is said already may name an axis without one.
     for name in lacking if len(lacking) > len(names) + lacks_vertical - len(placed) else ():
-        lacks = FIGURES[layout.kind].lacks if layout.kind in FIGURES else ()
-        free = [role for role in ("panels", "hue") if role not in lacks and not getattr(layout, role)]
-        allowed = "every axis as x, hue, vertical or panels" + f', such as {free[0]} = "{name}"' * bool(free)
+        such = f', such as {layout.free[-1]} = "{name}"' if layout.free else ""
+        allowed = f"every axis as x, hue, vertical or panels{such}"
         allowed += ", or with a single value" + f", such as by --at {name}=…" * (of == "these results")
         yield "figure", f"no place for the axis {name}", allowed
 

@@ -21,12 +21,12 @@ from swtstudy.points.canonical import Table, canonical_points, group_rows
 from swtstudy.points.grid import Grid
 from swtstudy.points.reading import LONGEST_AXIS, Known
 from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
-from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_unit
+from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
 from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
-from swtstudy.study.units.rows import Units, kind_of
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameters import Parameter
@@ -196,9 +196,9 @@ class SampleReader:
                 header = form.columns[name]
                 found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
             units = self.contacts.units if self.contacts else Units()
-            for name in (each for each in own if each in self.rows and each not in lost):
-                if kind := kind_of(name):
-                    found += wrong_unit(table, name, kind, units.label(kind))
+            found += wrong_units(
+                table, [each for each in own if each in self.rows and each not in lost], units
+            )
             with under(self.report, "sample", "file"):  # and the values are told, too
                 found.refuse()
             if table.cells:

@@ -169,7 +169,7 @@ class Signal:
     @property
     def step(self) -> float:
         """Mean time from a sample to the next."""
-        return float((self.time[-1] - self.time[0]) / (len(self.time) - 1))
+        return cycles.step_of(self.time)
 
     @property
     def fit(self) -> FloatArray:
@@ -289,8 +289,7 @@ def signal_from(
             raise refused(f"line {rows[row + 1]}, time", found, "times that ascend", str(path))
     if len(values) < 2:
         raise refused("", f"{len(values)} samples", "2 at least", str(path))
-    length = time[-1] - time[0]
-    step = length / (len(time) - 1)
+    length, step = time[-1] - time[0], cycles.step_of(time)
     key = (*lengths, "recorded_cycles")[0]
     if key == "recorded_cycles":
         count = given.recorded_cycles or 1
@@ -424,7 +423,7 @@ def _losses(signal: Signal) -> Iterator[str]:
     places = signal.phase / (2.0 * np.pi) * len(signal.mean_cycle)
     if signal._is_one_cycle or np.abs(places - np.round(places)).max() < ON_PLACE:
         return  # the samples are the corners of the loop
-    moving = np.flatnonzero(cycles.is_load(signal.cycles))
+    moving = np.flatnonzero(signal.mean_cycle.std(axis=0) > cycles.noise_of_mean(signal.cycles))
     off, order = cycles.cut_off(signal.mean_cycle[:, moving], samples)
     if (most := off.max(initial=0.0)) > CUT_OFF:
         found = f"{samples:.4g} samples a cycle, at other phases in each: straight lines between them take"

@@ -39,8 +39,8 @@ def flag_attributes(words: Sequence[str]) -> dict[str, Any]:
 
 #: Attributes of the data variables, following the CF conventions. The unit 1 is left out of a Dataset.
 ATTRIBUTES: dict[str, dict[str, Any]] = read_table(__file__, "variables")
-for _name, _words in {"stick_zone": ZONES, "regime": REGIMES, "status": STATES}.items():
-    ATTRIBUTES[_name]["flag_meanings"] = " ".join(_words)
+#: The words of those that are flags.
+FLAGS: dict[str, Sequence[str]] = {"stick_zone": ZONES, "regime": REGIMES, "status": STATES}
 
 #: The parameter that asks for the nonlocal quantities.
 DISTANCE = "critical_distance"
@@ -166,9 +166,7 @@ EVERY_VARIABLE = tuple(variable for row in QUANTITIES.values() for variable in r
 def attributes_of(variable: str) -> dict[str, Any]:
     """CF attributes of a data variable that results always have, or that may be asked."""
     if variable in ATTRIBUTES:
-        attributes = dict(ATTRIBUTES[variable])
-        meanings = attributes.pop("flag_meanings", "").split()
-        return attributes | (flag_attributes(meanings) if meanings else {})
+        return ATTRIBUTES[variable] | (flag_attributes(FLAGS[variable]) if variable in FLAGS else {})
     row = QUANTITIES.get(variable)
     if row is None:
         row = QUANTITIES[variable.removesuffix(error_of(""))]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -424,88 +425,92 @@ def test_what_is_said_of_a_signal(
     assert [str(each.message) for each in caught] == [f"r: {line}" for line in told]
 
 
-TIME = np.arange(2000) / 100
-#: A tangential load of 60 N over the time, keys, and what is told of it or refused, the normal load having a
-#: cycle of 1; empty if nothing is.
-MISLED: dict[str, tuple[np.ndarray, np.ndarray, dict[str, Any], str]] = {
-    "half the frequency": (
-        TIME,
-        np.sin(np.pi * TIME),
-        {"period": 1},
-        "moves by, .* such as period = 2;.*noise",
-    ),
-    "two cycles": (TIME, np.sin(np.pi * TIME), {"period": 2}, ""),
+def sine(frequency: float) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda time: np.sin(2.0 * np.pi * frequency * time)
+
+
+def alternating(time: np.ndarray) -> np.ndarray:
+    return np.where(time % 2 < 1, 1.0, 0.6) * sine(1)(time)
+
+
+def scattered(time: np.ndarray) -> np.ndarray:
+    return np.repeat(np.random.default_rng(1).uniform(0.5, 1.0, 20), 100) * sine(1)(time)
+
+
+def wandering(time: np.ndarray) -> np.ndarray:
+    return sine(1)(time + 0.15 * np.sin(0.1 * np.pi * time))
+
+
+#: Samples, how many in a cycle of the normal load, which is 1, a tangential load over 60 N, keys, and what is
+#: told of it or refused; empty if nothing is.
+MISLED: dict[str, tuple[int, float, Callable[[np.ndarray], np.ndarray], dict[str, Any], str]] = {
+    "half the frequency": (2000, 100, sine(0.5), {"period": 1}, "moves by, .* such as period = 2;.*noise"),
+    "two cycles": (2000, 100, sine(0.5), {"period": 2}, ""),
     "strokes that alternate": (
-        TIME,
-        np.where(TIME % 2 < 1, 1.0, 0.6) * np.sin(2.0 * np.pi * TIME),
+        2000,
+        100,
+        alternating,
         {"frequency": 1},
         r"tangential loads differ by 8.71, .* moves by 33.9 .* such as frequency = 0.5\?$",
     ),
     "strokes that scatter": (
-        TIME,
-        np.repeat(np.random.default_rng(1).uniform(0.5, 1.0, 20), 100) * np.sin(2.0 * np.pi * TIME),
+        2000,
+        100,
+        scattered,
         {"period": 1},
         "differ by .*a block with keep_cycles = true runs each$",
     ),
     "too few harmonics": (
-        TIME,
-        np.sin(16.0 * np.pi * TIME),
+        2000,
+        100,
+        sine(8),
         {"period": 1, "harmonics": 5},
         r"harmonics = 5 leaves out 37.6 of the tangential load, which moves by 42.4 .*: more harmonics",
     ),
-    "enough harmonics": (TIME, np.sin(16.0 * np.pi * TIME), {"period": 1, "harmonics": 8}, ""),
+    "enough harmonics": (2000, 100, sine(8), {"period": 1, "harmonics": 8}, ""),
     "a misfit of a fast load": (
-        np.arange(1228) / 400,
-        np.sin(16.0 * np.pi * np.arange(1228) / 400),
+        1228,
+        400,
+        sine(8),
         {"recorded_cycles": 3},
         "recorded_cycles: found 3: the .* loads of its 3 cycles .* such as period = 1;",
     ),
-    "a phase that wanders": (
-        TIME,
-        np.sin(2.0 * np.pi * (TIME + 0.15 * np.sin(0.1 * np.pi * TIME))),
-        {"period": 1},
-        "differ by 26.7, .* moves by 33.5 ",
-    ),
+    "a phase that wanders": (2000, 100, wandering, {"period": 1}, "differ by 26.7, .* moves by 33.5 "),
     "a long drift of a fast load": (
-        np.arange(99 * 200) / 200,
-        np.sin(16.0 * np.pi * np.arange(99 * 200) / 200),
+        19800,
+        200,
+        sine(8),
         {"period": 1.0007},
         "loads of its 98 cycles differ by 34.7, .* such as period = 1;",
     ),
     "a drift of many cycles": (
-        np.arange(20000) / 20,
-        np.sin(2.0 * np.pi * np.arange(20000) / 20),
+        20000,
+        20,
+        sine(1),
         {"period": 1.0003},
         r"its 999 cycles come 30.2% of a period early altogether; is the period 0.99999\d+ and not 1.0003\?",
     ),
     "few samples": (
-        np.arange(195) / 8.15,
-        np.sin(2.0 * np.pi * np.arange(195) / 8.15),
+        195,
+        8.15,
+        sine(1),
         {"period": 1},
         "8.15 samples a cycle, at other phases .* 4.9% off the .* load; harmonics = 1 takes nothing off",
     ),
-    "few samples at the same phases": (
-        np.arange(210) / 7,
-        np.sin(2.0 * np.pi * np.arange(210) / 7),
-        {"period": 1},
-        "",
-    ),
+    "few samples at the same phases": (210, 7, sine(1), {"period": 1}, ""),
     "few samples of a fast load": (
-        np.arange(2000) / 100.3,
-        np.sin(16.0 * np.pi * np.arange(2000) / 100.3),
+        2000,
+        100.3,
+        sine(8),
         {"period": 1},
         "100.3 samples a cycle.* 2.1% off the tangential load; harmonics = 8 takes nothing off",
     ),
-    "a cycle too few": (TIME, np.sin(2.0 * np.pi * TIME), {"recorded_cycles": 19}, "such as period = 1;"),
-    "a wrong period": (
-        TIME,
-        np.sin(2.0 * np.pi * TIME),
-        {"frequency": 0.97},
-        "such as frequency = (1|0.9999|1.0000)",
-    ),
+    "a cycle too few": (2000, 100, sine(1), {"recorded_cycles": 19}, "such as period = 1;"),
+    "a wrong period": (2000, 100, sine(1), {"frequency": 0.97}, "such as frequency = (1|0.9999|1.0000)"),
     "a half that does not move": (
-        TIME,
-        np.zeros(2000),
+        2000,
+        100,
+        np.zeros_like,
         {"period": 0.5},
         "normal loads differ by 14.3, .* such as period = 1[?]",
     ),
@@ -514,9 +519,10 @@ MISLED: dict[str, tuple[np.ndarray, np.ndarray, dict[str, Any], str]] = {
 
 @pytest.mark.parametrize("case", MISLED)
 def test_a_mean_cycle_that_is_not_the_load_is_told(case: str, tmp_path: Path) -> None:
-    time, tangential, given, words = MISLED[case]
+    count, samples, tangential, given, words = MISLED[case]
+    time = np.arange(count) / samples
     normal = 200.0 + 20.0 * np.sin(2.0 * np.pi * time + 0.5)
-    table = np.stack([time, normal, 60.0 * tangential], axis=1)
+    table = np.stack([time, normal, 60.0 * tangential(time)], axis=1)
     np.savetxt(tmp_path / "r.csv", table, delimiter=",", header="time,normal,tangential", comments="")
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")

@@ -320,18 +320,13 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
     if (most := max(map(as_number, grid.values("friction")))) > MOST_FRICTION:
         yield f"friction {most:g}: metals have some 0.1 to 1.5"
     measured = [str(load) for load in grid.loops if load.mean_normal is not None]
-    for amplitude in rules.AMPLITUDES if measured else ():
-        name = grid.control.given_for(amplitude)
-        if (most := max(map(as_number, grid.values(name)), default=0.0)) > MOST_TIMES:
+    for amplitude in rules.AMPLITUDES:
+        name, share = grid.control.given_for(amplitude), float(grid.numbers[amplitude].max())
+        most, is_force = max(map(as_number, grid.values(name)), default=0.0), name != amplitude
+        if measured and most > MOST_TIMES:
             column = f"the column {name.partition('_')[0]} of {', '.join(measured)}"
             yield f"{name} {most:g} multiplies {column}: 1 takes it as it is"
-    for amplitude in rules.AMPLITUDES if HARMONIC in grid.values("load") else ():
-        name = grid.control.given_for(amplitude)
-        most, share = (
-            max(map(as_number, grid.values(name)), default=0.0),
-            float(grid.numbers[amplitude].max()),
-        )
-        if name != amplitude and 0.0 < most <= 1.0 and share < SMALL_SHARE:
+        if HARMONIC in grid.values("load") and is_force and 0.0 < most <= 1.0 and share < SMALL_SHARE:
             of = "friction times " * (amplitude == "tangential_amplitude") + "the normal force"
             found = f"{name} {most:g}{unit_words(grid.labels.force)} is {share:.2g} of {of}"
             yield f"{found}: is it meant as a share of that?"
