@@ -14,6 +14,7 @@ import numba
 import numpy as np
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, InTreeCacheLocator
 from numba.core.event import Listener, install_listener
+from numba.core.runtime import rtsys
 
 try:
     import fcntl
@@ -82,6 +83,12 @@ class KeptCode(FunctionCache):
     """Compiled code of a function, kept in the folder."""
 
     _impl_class = _CodeInFolder
+
+    def load_overload(self, sig, target_context):
+        """The code for a signature, or None; Numba's own way first loads all that is needed to compile."""
+        rtsys.initialize(target_context)  # the memory of arrays
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
 
 
 @contextmanager

@@ -174,3 +174,18 @@ def test_a_study_is_checked_without_a_compiler(tmp_path: Path) -> None:
     answer = subprocess.run(run, capture_output=True, text=True, check=False)
     assert answer.returncode == 0, answer.stderr
     assert "at 1 of 4 points: the tangential force is up to 1.01 times μ F_N" in answer.stderr
+
+
+FIRST_VALUE = """
+import sys
+import swtstudy
+swtstudy.solve(phase=1.0)
+print({"scipy.linalg", "numba.np.arraymath"} & sys.modules.keys())
+"""
+
+
+def test_a_value_by_code_that_is_kept_loads_nothing_of_what_compiles_it() -> None:
+    for _ in range(2):  # the first one may compile
+        run = [sys.executable, "-c", FIRST_VALUE]
+        done = subprocess.run(run, capture_output=True, text=True, check=True)
+    assert done.stdout == "set()\n"
