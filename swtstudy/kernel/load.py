@@ -36,7 +36,8 @@ LOAD = np.dtype(
         ("mirrored", "i8"),  # 1: n(t + π) = n(t), v(t + π) = -v(t), and B is constant
         ("bulk_moves", "i8"),  # 1: B changes
         *fields("f8", "bulk_range normal_range", (2,)),  # smallest and largest B and n
-        ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v; else 0
+        ("bulk_slope", "f8"),  # dB/dv where n is constant and B moves in proportion to v, or nearly; else 0
+        ("bulk_exact", "i8"),  # 1: in proportion
         ("period", "f8"),
         ("rounds", "i8"),  # how often a round of the load runs through the cycle
         ("rest", "f8", (3,)),  # mean of n, v and B

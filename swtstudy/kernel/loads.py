@@ -7,10 +7,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
-from swtstudy.kernel.loops import ends_of_sum, without_collinear
-
-#: A bulk stress follows the tangential load where it is off by no more than this share: rounding.
-PROPORTIONAL = 1e-9
+from swtstudy.kernel.loops import SAMPLES, ends_of_sum, slope_of, sum_at, without_collinear
 
 
 def load_of(
@@ -105,8 +102,9 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
     if orders[2] and not orders[0]:
-        own = [load[name][:, : len(moving)].tolist() for name in ("cosine", "sine")]
-        load["bulk_slope"] = _slope(*(own[0][which] + own[1][which] for which in (1, BULK)))
+        count = SAMPLES * max(moving)
+        t = 2.0 * np.pi / count * np.arange(count)
+        load["bulk_slope"], load["bulk_exact"] = slope_of(*(sum_at(rows, t) for rows in components[1:]))
     for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
         load[name] = np.add(means[component], ends_of_sum(rows))
     return load
@@ -131,7 +129,7 @@ def polygon(normal, tangential, bulk=None, every=False):
     load["normal_range"], load["bulk_range"] = (_ends(vertices[:, component]) for component in (0, BULK))
     load["bulk_moves"] = load["bulk_range"][0] < load["bulk_range"][1]
     if load["bulk_moves"] and load["normal_range"][0] == load["normal_range"][1]:
-        load["bulk_slope"] = _slope(*(vertices - vertices[0]).T[1:].tolist())
+        load["bulk_slope"], load["bulk_exact"] = slope_of(*vertices.T[1:])
     half = np.roll(vertices, -(sides // 2), axis=0) * (1.0, -1.0, 1.0)
     load["mirrored"] = sides % 2 == 0 and not load["bulk_moves"] and np.array_equal(half, vertices)
     return load
@@ -142,17 +140,6 @@ def leave_bulk_out(load):
     load["bulk_moves"], load["bulk_range"] = 0, 0.0
     for name in ("rest", "cosine", "sine", "vertex"):
         load[name][BULK] = 0.0
-
-
-def _slope(tangential, bulk):
-    """Factor by which the bulk stress follows the tangential load, 0 where it does not; of their changes."""
-    size = max(map(abs, tangential))
-    if size == 0.0:
-        return 0.0
-    square = sum(each * each for each in tangential)
-    slope = sum(one * other for one, other in zip(tangential, bulk, strict=True)) / square
-    off = max(abs(other - slope * one) for one, other in zip(tangential, bulk, strict=True))
-    return slope if off <= PROPORTIONAL * abs(slope) * size else 0.0
 
 
 def _ends(values):

@@ -8,6 +8,9 @@ import numpy as np
 STRAIGHT = 4.0 * float(np.finfo(float).eps)
 #: Instants to an oscillation between which the largest value of a sum of harmonics is looked for.
 SAMPLES = 32
+#: Share of its amplitude by which a bulk stress may be off a multiple of the tangential load, to follow it
+#: exactly, or nearly: s is then off by as large a share of what the moved stick zone adds to it.
+EXACTLY, NEARLY = 1e-9, 0.05
 #: Turns that a phase is off a multiple of its period by rounding.
 WHOLE_TURNS = 1e-12
 
@@ -39,7 +42,7 @@ def ends_of_sum(rows):
     order, size, phase = np.array(moving, dtype=float).T
     count = int(SAMPLES * order.max())
     t = 2.0 * np.pi / count * np.arange(count)
-    values = np.sin(np.outer(t, order) + phase) @ size
+    values = sum_at(moving, t)
     ends = []
     for best, least in ((values.argmin(), min), (values.argmax(), max)):
         at = t[best]
@@ -51,6 +54,33 @@ def ends_of_sum(rows):
             at += rate / bend if bend else 0.0
         ends.append(float(rest + least(values[best], size @ np.sin(order * at + phase))))
     return ends[0], ends[1]
+
+
+def sum_at(rows, t):
+    """Σ amplitude · sin(order · t + phase), of rows of these three, at instants (k,)."""
+    order, size, phase = np.array([*rows], dtype=float).reshape(-1, 3).T
+    return np.sin(np.outer(t, order) + phase) @ size
+
+
+def slope_of(tangential, bulk):
+    """Factor with which a bulk stress follows the tangential load.
+
+    Parameters
+    ----------
+    tangential, bulk
+        Values over a cycle, shape (…, k).
+
+    Returns
+    -------
+    slope, exactly
+        Shape (…): dB/dv, 0 where the bulk stress does not follow or does not move; and whether it follows
+        exactly, not nearly.
+    """
+    across, along = (each - each.mean(axis=-1, keepdims=True) for each in (tangential, bulk))
+    square = (across * across).sum(axis=-1)
+    slope = np.divide((across * along).sum(axis=-1), square, out=np.zeros_like(square), where=square > 0.0)
+    off, size = np.abs(along - slope[..., None] * across).max(axis=-1), np.abs(along).max(axis=-1)
+    return np.where(off <= NEARLY * size, slope, 0.0), off <= EXACTLY * size
 
 
 def fold_phase(phase, p, q):

@@ -11,6 +11,8 @@ d = shift · Δ, so that each piece of the diagram has a centre of its own, and 
 for bodies of equal moduli; with others e goes with the strain of the body that carries the bulk stress over
 the mean of both. That is exact for the cylinder under a constant normal load while the stick zone stays
 within the contact, e + c ≤ a, and nearly so for the sphere, whose transverse strain is balanced in part only.
+A bulk stress that follows the tangential load nearly (`swtstudy.kernel.loops.slope_of`) moves the stick zone
+as if it did exactly; its own stress is that of each instant.
 """
 
 from swtstudy.kernel.compiled import jit

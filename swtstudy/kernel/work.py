@@ -64,7 +64,7 @@ MARGIN = np.dtype(
         ("stick_radius", "f8"),  # of permanent stick; NaN where there is none
         ("force_ratio", "f8"),  # as prescribed; NaN where it is not
         ("slide", "f8"),  # displacement beyond the limit of partial slip; NaN if there is none to tell
-        ("moved", "i8"),  # 1: the bulk stress moves the stick zone
+        ("moved", "i8"),  # 1: the bulk stress moves the stick zone; 2: nearly, it follows the load nearly
     ]
 )
 
@@ -418,4 +418,5 @@ def margins_of(cycle, profiles, which, loads, asks, out):
         out[i].stick_radius = permanent_stick(load, profile, cycle.event, m)
         out[i].force_ratio = force_ratio(load, cycle.event, m)
         out[i].slide = slide(load, cycle.event, m)
-        out[i].moved = shift_of(load, profile, asks[i], cycle.event, m) != 0.0
+        is_moved = shift_of(load, profile, asks[i], cycle.event, m) != 0.0
+        out[i].moved = (1 if load.bulk_exact else 2) if is_moved else 0

@@ -207,7 +207,8 @@ def margins(
             own = points_from(points.rows[some], points.definitions)
             with np.errstate(all="ignore"):
                 made = foreseen(own) if without_compiler else margins_of(own)
-            made["stick_zone"] = made["moved"] * (1.0 if is_plane(own.profile) else 2.0)
+            approximately = 1.0 + (not is_plane(own.profile))
+            made["stick_zone"] = np.where(made["moved"] > 0.0, np.maximum(made["moved"], approximately), 0.0)
             for name, values in made.items():
                 found.setdefault(name, np.full(len(points.rows), np.nan))[some] = values
     found = {name: values[points.index] for name, values in found.items()}

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from swtstudy.kernel.loops import slope_of
 from swtstudy.solver.at_rest import AtRest
 from swtstudy.solver.points import Points, arguments_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
@@ -26,9 +27,8 @@ from swtstudy.vocabulary.choices import PLAIN, PLAIN_STRIP, is_plane
 SAMPLES, AT_ONCE = 96, 2_000_000
 #: Places of a profile between which depths and forces are interpolated, and the last of them over √δ0.
 PLACES = 4001
-#: Rounding of the samples, relative: of a bulk stress that follows the tangential load, and of its shift.
-PROPORTIONAL, ROUNDING = 1e-9, 1e-6
-
+#: Rounding of the samples, relative, of a shift.
+ROUNDING = 1e-6
 
 #: Margins by name; see `margins_of`.
 Margins = dict[str, FloatArray]
@@ -47,7 +47,8 @@ def margins_of(points: Points) -> Margins:
         1; NaN where the tangential force is not prescribed. ``slide``: by how much the tangential
         displacement exceeds the limit of partial slip, in μ E* δ0/G*: u_A minus that limit if the depth is
         constant; 0 without gross slip, NaN where the bodies part or the tangential force is prescribed.
-        ``moved``: 1 where the bulk stress moves the stick zone in s, else 0. ``unit_shift``: by how much the
+        ``moved``: 1 where the bulk stress moves the stick zone in s, 2 where it follows the tangential load
+        nearly, else 0. ``unit_shift``: by how much the
         strain of a bulk stress of amplitude 1 E* δ0/a_H would move it, in a_H, however large that is.
     """
     # Compiled: whoever only reads a study does without.
@@ -105,7 +106,7 @@ def _largest(values: FloatArray, smooth: bool) -> FloatArray:
 def _from_samples(points: Points, unit_shift: FloatArray) -> Margins:
     """Margins of points of one frequency ratio, or one loop, from samples of their loads."""
     normal, tangential, bulk, smooth = _motion(points)
-    follows = _follows(points, normal, tangential, bulk)
+    follows, exactly = _follows(points, normal, tangential, bulk)
     normal = 1.0 + points.normal_amplitude[:, None] * normal
     tangential = np.broadcast_to(points.tangential_amplitude[:, None] * tangential, normal.shape)
     largest = _largest(normal, smooth)
@@ -123,7 +124,7 @@ def _from_samples(points: Points, unit_shift: FloatArray) -> Margins:
     found = {"contact_radius": radius[:, 1], "stick_radius": np.where(stick >= 0.0, radius[:, 0], np.nan)}
     width = (radius[:, 1] - found["stick_radius"]) * (1.0 + ROUNDING)
     shift = unit_shift * points.bulk_stress_amplitude * np.abs(points.bulk_strain_share)
-    found["moved"] = follows & (shift <= width)
+    found["moved"] = np.where(follows & (shift <= width), np.where(exactly, 1.0, 2.0), 0.0)
     if not control.tangential_force:
         slide = np.where(normal.min(axis=1) > 0.0, np.maximum(-stick, 0.0), np.nan)
         return found | {"slide": slide}
@@ -133,16 +134,14 @@ def _from_samples(points: Points, unit_shift: FloatArray) -> Margins:
     return found | {"force_ratio": _largest(ratio, smooth)}
 
 
-def _follows(points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray) -> BoolArray:
-    """Points whose bulk stress follows the tangential load in proportion at a constant normal load, (n,)."""
+def _follows(
+    points: Points, normal: FloatArray, tangential: FloatArray, bulk: FloatArray
+) -> tuple[BoolArray, BoolArray]:
+    """Where bulk stresses follow the tangential load at a constant normal load, and where exactly, (n,)."""
     rests = (points.normal_amplitude == 0.0) | (np.ptp(normal, axis=1) == 0.0)
-    across, along = np.broadcast_arrays(tangential - tangential[:, :1], bulk - bulk[:, :1])
-    square = (across * across).sum(axis=1)
-    slope = np.divide((across * along).sum(axis=1), square, out=np.zeros_like(square), where=square > 0.0)
-    off = np.abs(along - slope[:, None] * across).max(axis=1)
-    shifts = (slope != 0.0) & (off <= PROPORTIONAL * np.abs(along).max(axis=1))
+    slope, exactly = slope_of(*np.broadcast_arrays(tangential, bulk))
     moves = points.tangential_amplitude * points.bulk_stress_amplitude * points.bulk_strain_share != 0.0
-    return rests & shifts & moves & (points.profile in (PLAIN, PLAIN_STRIP))
+    return rests & (slope != 0.0) & moves & (points.profile in (PLAIN, PLAIN_STRIP)), exactly
 
 
 def _radii(at_rest: AtRest, coordinate: FloatArray, in_force: bool) -> FloatArray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -174,6 +175,46 @@ def test_boundary_elements_marched_in_time(name: str) -> None:
     size = np.abs(expected).max()
     assert off.mean() < 5e-3 * size
     assert off.mean() < 0.3 * plain.mean()
+
+
+def _marched(tangential: Callable[[Array], Array], bulk: Callable[[Array], Array]) -> float:
+    """s of a cylinder from the second of two marched cycles: on the surface, of planes normal to it."""
+    force, time = 0.25 * np.pi, 0.5 * np.pi + np.linspace(0.0, 2.0 * np.pi, 33)
+    strip = StripMarch(lambda x: 0.5 * x * x, 1.03, 160, FRICTION)
+    for share in np.linspace(0.0, 1.0, 11):
+        strip.step(force, share * force * tangential(time[:1]).item(), share * bulk(time[:1]).item())
+    loads = np.stack([force * tangential(time[1:]), bulk(time[1:])], axis=1)
+    stress = np.zeros((len(loads), strip.x.size))
+    for _ in range(2):
+        for number, (shear, pull) in enumerate(loads):
+            strip.step(force, shear, pull)
+            stress[number] = strip.stress_along(strip.x) + pull
+    return float((np.maximum(stress.max(axis=0), 0.0) * 0.5 * np.ptp(stress, axis=0)).max())
+
+
+@pytest.mark.parametrize("rows", [[(1, 1.0, 0.045)], [(1, 1.0, 0.0), (3, 0.045, 0.0)]])
+def test_a_bulk_stress_that_follows_nearly_moves_the_stick_zone_nearly(
+    rows: list[tuple[int, float, float]],
+) -> None:
+    load, in_phase = 0.2, [(1, 1.0, 0.0)]
+    bulk = 2.0 * FRICTION * 0.5 * (1.0 - np.sqrt(1.0 - load))  # e is half the width of the slip zone
+    loads = [
+        LoadPath.harmonic_sum(name, [], in_phase, each)
+        for name, each in {"nearly": rows, "exactly": in_phase}.items()
+    ]
+    given = {**CYLINDER, "tangential_force_amplitude": load, "bulk_stress_amplitude": bulk, "load": loads}
+    found = swtstudy.solve(**given, stick_zone_shift=["moved", "none"])
+    nearly, exactly = found.s.transpose("stick_zone_shift", ...).values[0]
+    assert found.stick_zone.sel(stick_zone_shift="moved").values.tolist() == [2, 1]
+    marched = [
+        _marched(
+            lambda t: FRICTION * load * np.sin(t),
+            lambda t, own=own: bulk * sum(size * np.sin(order * t + phase) for order, size, phase in own),
+        )
+        for own in (rows, in_phase)
+    ]
+    rise = exactly / float(found.s.sel(stick_zone_shift="none", load="exactly")) - 1.0
+    assert nearly / exactly == pytest.approx(marched[0] / marched[1], abs=0.06 * rise)
 
 
 @pytest.mark.parametrize("profile", ["cylinder", "paraboloid"])
