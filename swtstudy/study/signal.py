@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from swtstudy.kernel.loops import slope_of
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop, checked_name
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
@@ -34,6 +35,8 @@ UNLIKE, MOST_TIMES, ALIKE, CORRECTIONS = 0.1, 12, 0.3, 4
 #: Shares that are told: of a load's movement that harmonics leave out, and of its amplitude that straight
 #: lines cut off. Distance of samples from the corners of a loop, over a step, that is none.
 LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 1e-3
+#: A normal load that moves by less, over its mean, may have been meant to be constant.
+NEXT_TO_NOTHING = 0.02
 
 #: The loads of a signal, one that it may have, and the time.
 COLUMNS, BULK, TIME = ("normal", "tangential"), "bulk", "time"
@@ -132,11 +135,27 @@ class Signal:
         return mean
 
     @cached_property
+    def is_steady(self) -> bool:
+        """True if a normal load beside a bulk stress moves by no more than its noise: it is constant.
+
+        Under a constant load the stick zone is known to move with the bulk stress; any motion hides that.
+        """
+        if self.values.shape[1] < len(NAMES):
+            return False
+        if np.ptp(self.values[:, 0]) == 0.0:
+            return True
+        is_noise = len(self.values) >= cycles.FEWEST_SAMPLES and cycles.structure(self.values)[0] == 0.0
+        moves = self.mean_cycle[:, 0].std()
+        return bool(is_noise and (self.count == 1 or moves <= cycles.noise_of_mean(self.cycles)[0]))
+
+    @cached_property
     def loop(self) -> Loop:
         """The loop of the mean cycle, for a study's ``load``."""
         if not self.highest:
             return self._polygon(self.name, self.mean_cycle)
         columns = [[(int(order), *rest) for order, *rest in rows.tolist()] for rows, _ in self._fits]
+        if self.is_steady:
+            del columns[0][1:]
         if self.is_absolute:
             del columns[0][0]  # of the order 0, which is the mean
         return LoadPath.harmonic_sum(self.name, *columns, mean_normal=self.mean_normal)
@@ -198,6 +217,9 @@ class Signal:
 
     def _polygon(self, name: str, cycle: FloatArray) -> LoadPath:
         off = np.eye(1, cycle.shape[1]) * (self.mean_normal or 0.0)
+        if self.is_steady:
+            mean = self.cycles[..., 0].mean() if self.mean_normal is None else self.mean_normal
+            cycle = np.insert(cycle[:, 1:], 0, mean, axis=1)
         return LoadPath(name, cycle - off, self.mean_normal)
 
 
@@ -378,8 +400,25 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
+    yield from _on_stick_zone(signal)
     different = [*_differences(signal, key, kept)]
     yield from different or _losses(signal)
+
+
+def _on_stick_zone(signal: Signal) -> Iterator[str]:
+    """A line on a normal load that is constant but for noise, or for little, beside a bulk stress."""
+    normal = signal.values[:, 0]
+    if signal.is_steady and np.ptp(normal):
+        yield f"the normal load is constant: it moves by {normal.std():.2g}, which is noise"
+    if signal.is_steady or signal.values.shape[1] < len(NAMES) or signal.mean_normal is None:
+        return
+    moves = signal.mean_cycle[:, 0].std() / signal.mean_normal
+    if moves < NEXT_TO_NOTHING and slope_of(*signal.mean_cycle.T[1:])[0] != 0.0:
+        found = (
+            f"the normal load moves by {moves:.2g} of its mean, so that the bulk stress leaves the stick zone"
+        )
+        given = f"normal_force = {signal.mean_normal:.5g}, amplitudes of 1, and scale = {{ normal = 0 }}"
+        yield f"{found} in place; if it is to be constant, give {given} instead of absolute"
 
 
 def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from oracles.strip_march import StripMarch
 from told import refused
 
 import swtstudy
-from swtstudy import LoadPath
+from swtstudy import LoadPath, read_signal
 from swtstudy.kernel.batch import solve_batch
 
 Array = NDArray[np.float64]
@@ -215,6 +216,50 @@ def test_a_bulk_stress_that_follows_nearly_moves_the_stick_zone_nearly(
     ]
     rise = exactly / float(found.s.sel(stick_zone_shift="none", load="exactly")) - 1.0
     assert nearly / exactly == pytest.approx(marched[0] / marched[1], abs=0.06 * rise)
+
+
+@pytest.mark.parametrize("harmonics", [None, 1])
+@pytest.mark.parametrize("noise", [0.0, 1.0])
+def test_noise_of_a_constant_normal_load_does_not_hold_the_stick_zone(
+    harmonics: int | None, noise: float, tmp_path: Path
+) -> None:
+    time, random = np.arange(2000) / 40.0, np.random.default_rng(1)
+    loads = np.stack([0.0 * time, 0.2 * np.sin(2.0 * np.pi * time), 0.1 * np.sin(2.0 * np.pi * time + 0.02)])
+    loads += noise * np.array([[2e-3], [1e-3], [2e-4]]) * random.normal(size=loads.shape)
+    table = np.column_stack([time, 1.0 + loads[0], *loads[1:]])
+    path = tmp_path / "rig.csv"
+    np.savetxt(path, table, delimiter=",", header="time,normal,tangential,bulk", comments="")
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        signal = read_signal(path, absolute=True, time="time", recorded_cycles=50, harmonics=harmonics)
+    assert ["is constant: it moves by 0.002, which is noise" in str(each.message) for each in told] == (
+        [True] * (noise > 0.0)
+    )
+    given = {"profile": "cylinder", "friction": FRICTION, "stick_zone_shift": "moved"}
+    found = swtstudy.solve(
+        **given, load=signal.loop, normal_force_amplitude=1.0, tangential_force_amplitude=1.0 / FRICTION,
+        bulk_stress_amplitude=1.0,
+    )  # fmt: skip
+    exact = swtstudy.solve(
+        **given, normal_force_amplitude=0.0, tangential_force_amplitude=0.2 / FRICTION,
+        bulk_stress_amplitude=0.1, bulk_stress_phase=0.02,
+    )  # fmt: skip
+    assert (int(found.stick_zone), int(exact.stick_zone)) == (2, 2)
+    assert float(found.s) == pytest.approx(float(exact.s), rel=5e-3)
+
+
+def test_a_normal_load_that_hardly_moves_is_told_with_what_makes_it_constant(tmp_path: Path) -> None:
+    wave = np.sin(2.0 * np.pi * np.arange(40) / 40.0)
+    table, path = np.stack([500.0 - 5.0 * wave, 150.0 * wave, 80.0 * wave], axis=1), tmp_path / "rig.csv"
+    np.savetxt(path, table, delimiter=",", header="normal,tangential,bulk", comments="")
+    with pytest.warns(
+        UserWarning, match=r"moves by 0.0071 of its mean, .* give normal_force = 500, amplitudes"
+    ):
+        read_signal(path, absolute=True)
+    signal = read_signal(path, scale={"normal": 0.0})
+    given = {"profile": "cylinder", "normal_force_amplitude": 1.0, "bulk_stress_amplitude": 1e-3}
+    found = swtstudy.solve(**given, load=signal.loop, tangential_force_amplitude=1.0 / 500.0)
+    assert int(found.stick_zone) == 1
 
 
 @pytest.mark.parametrize("profile", ["cylinder", "paraboloid"])
