@@ -414,9 +414,7 @@ def _on_stick_zone(signal: Signal) -> Iterator[str]:
         return
     moves = signal.mean_cycle[:, 0].std() / signal.mean_normal
     if moves < NEXT_TO_NOTHING and slope_of(*signal.mean_cycle.T[1:])[0] != 0.0:
-        found = (
-            f"the normal load moves by {moves:.2g} of its mean, so that the bulk stress leaves the stick zone"
-        )
+        found = f"the normal load moves by {moves:.2g} of its mean, so the bulk stress leaves the stick zone"
         given = f"normal_force = {signal.mean_normal:.5g}, amplitudes of 1, and scale = {{ normal = 0 }}"
         yield f"{found} in place; if it is to be constant, give {given} instead of absolute"
 
