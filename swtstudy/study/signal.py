@@ -60,7 +60,7 @@ class Signal:
     period
         Length of a cycle, in the unit of the time.
     count
-        Number of whole cycles.
+        Number of whole cycles, those with a gap in the time among them.
     is_absolute
         Whether the normal load is the load itself, not its deviation from the mean.
     highest
@@ -79,11 +79,25 @@ class Signal:
         return f"<Signal {self.name}: {self.words}>"
 
     @cached_property
+    def gaps(self) -> IndexArray:
+        """Samples after which the time has a gap: a quarter of a cycle, or three steps, if that is longer."""
+        steps = np.diff(self.time)
+        return np.flatnonzero(steps > max(0.25 * self.period, 3.0 * float(np.median(steps))))
+
+    @cached_property
+    def known(self) -> IndexArray:
+        """The cycles without a gap, by their numbers from 0 on; all if each has one."""
+        ends = (self.time[np.stack([self.gaps, self.gaps + 1])] - self.time[0]) / self.period
+        number = np.arange(self.count)
+        has_gap = ((ends[0] < number[:, None] + 1.0) & (ends[1] > number[:, None])).any(axis=1)
+        return number if has_gap.all() else np.flatnonzero(~has_gap)
+
+    @cached_property
     def cycles(self) -> FloatArray:
-        """The whole cycles at even phases, shape (count, m, d); a single one at its own samples."""
+        """The cycles without a gap at even phases, shape (c, m, d); a single one at its own samples."""
         if self._is_one_cycle:
             return self.values[None]
-        return cycles.folded(self.time, self.values, self.period, self.count)
+        return cycles.folded(self.time, self.values, self.period, self.count)[self.known]
 
     @property
     def mean_cycle(self) -> FloatArray:
@@ -163,7 +177,8 @@ class Signal:
     @property
     def loops(self) -> tuple[LoadPath, ...]:
         """The loop of each cycle, named by their numbers, about their common mean."""
-        return tuple(self._polygon(f"{self.name} {k}", one) for k, one in enumerate(self.cycles, start=1))
+        named = zip(self.known + 1, self.cycles, strict=True)
+        return tuple(self._polygon(f"{self.name} {number}", one) for number, one in named)
 
     @property
     def missed(self) -> FloatArray:
@@ -383,11 +398,14 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
     ``unsaid`` tells that nothing was said of cycles, and ``kept`` that they are used one by one.
     """
     values, steps, period, count = signal.values, np.diff(signal.time), signal.period, signal.count
-    gap, most, at = float(steps.max()), float(np.median(steps)), signal.time[steps.argmax()]
-    if gap > max(0.25 * period, 3.0 * most):
-        found = f"a gap of {gap:.4g} in the time, at {at:.4g}, where most steps are {most:.4g}"
-        yield f"{found}: the loads there are unknown"
-        return
+    if gaps := len(signal.gaps):
+        at, out = signal.gaps[0], count - len(signal.known)
+        found = f"a gap of {steps[at]:.4g} in the time, at {signal.time[at]:.4g}"
+        found += f" and {gaps - 1} more" * (gaps > 1) + f", where most steps are {np.median(steps):.4g}"
+        left = f"{out} of {count} cycles are left out" if out else "the loads there are unknown"
+        yield f"{found}: {left}"
+        if not out:
+            return
     if len(values) > 2 and signal._used == len(values) and np.array_equal(values[0], values[-1]):
         yield "the last sample is the first again: leave it out if closed"
     if key == "recorded_cycles" and unsaid and (times := cycles.repeats(signal.time, values)):

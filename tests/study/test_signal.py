@@ -310,6 +310,21 @@ def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:
         read_signal(tmp_path / f"{name}.csv", time="time", absolute=True, period=0.05)
 
 
+def test_cycles_with_a_gap_are_left_out(tmp_path: Path) -> None:
+    time = np.arange(800) / 2000.0
+    wave = np.sin(40.0 * np.pi * time)
+    rows = np.stack([time, 300.0 + 20.0 * wave, 100.0 * wave], axis=1)
+    lost = np.concatenate([np.arange(110, 160), np.arange(430, 490)])  # within cycles 2, and 5
+    write(tmp_path / "gap.csv", np.delete(rows, lost, axis=0), "time,normal,tangential")
+    words = "a gap of 0.0255 in the time, at 0.0545 and 1 more, where .*: 2 of 8 cycles are left out"
+    with pytest.warns(UserWarning, match=words):
+        signal = read_signal(tmp_path / "gap.csv", time="time", absolute=True, period=0.05)
+    assert [each.name for each in signal.loops] == [f"gap {number}" for number in (1, 3, 4, 6, 7, 8)]
+    phase = 2.0 * np.pi * np.arange(len(signal.mean_cycle)) / len(signal.mean_cycle)
+    np.testing.assert_allclose(signal.mean_cycle[:, 1], 100.0 * np.sin(phase), atol=0.1)
+    assert signal.mean_normal == pytest.approx(300.0, abs=1e-9)
+
+
 def test_by_a_period_the_last_sample_is_of_the_next_cycle(tmp_path: Path) -> None:
     closed = np.array([[0.0, 200, 0], [0.25, 260, 60], [0.5, 200, 0], [0.75, 200, -60], [1.0, 200, 0]])
     write(tmp_path / "closed.csv", closed, "time,normal,tangential")
