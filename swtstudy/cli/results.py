@@ -145,7 +145,7 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     from swtstudy.archive.netcdf import save
     from swtstudy.archive.parts import keeping, kept_folder, known_points, parts_folder
     from swtstudy.archive.recall import grid_of, request_of
-    from swtstudy.archive.work import not_in
+    from swtstudy.archive.run import not_in
     from swtstudy.points.canonical import Distinct
     from swtstudy.vocabulary.quantities import MISSING
 
