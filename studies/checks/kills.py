@@ -189,25 +189,25 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
 
 def make_parts(text: str, path: Path) -> None:
     """Stop a run when everything is computed, before it writes its archive."""
-    from swtstudy.archive import netcdf
+    from swtstudy.archive import archive
 
-    save = netcdf.save
+    save = archive.save
 
     def stop(*_: object, **__: object) -> None:
         raise Stopped("before the archive")
 
-    netcdf.save = stop  # type: ignore[assignment]
+    archive.save = stop  # type: ignore[assignment]
     try:
         run(Study.from_text(text), path, solver=cheap, workers=1)
     except Stopped:
         pass
     finally:
-        netcdf.save = save
+        archive.save = save
 
 
 def time_of_write(dataset: xr.Dataset, folder: Path) -> float:
     """Seconds that writing such an archive takes."""
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
 
     begin = time.perf_counter()
     save(dataset, folder / "timed.nc")

@@ -165,7 +165,7 @@ def known_points(path: Path) -> Found:
     found = []
     if path.exists():
         # If nothing is known, workers start before xarray is imported here.
-        from swtstudy.archive.netcdf import read_archive
+        from swtstudy.archive.archive import read_archive
         from swtstudy.archive.recall import found_in
 
         try:

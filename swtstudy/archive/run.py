@@ -339,8 +339,7 @@ class Work:
 
         An archive that exactly this study wrote stays as it is, if nothing had to be done.
         """
-        from swtstudy.archive.archive import build, history_line
-        from swtstudy.archive.netcdf import read_archive, save
+        from swtstudy.archive.archive import build, history_line, read_archive, save
 
         archive, history = None, [history_line(self._what)]
         if self.path.exists():

@@ -105,7 +105,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     ValueError
         If the file holds no audit, or is damaged.
     """
-    from swtstudy.archive.netcdf import load_file
+    from swtstudy.archive.archive import load_file
 
     dataset = load_file(Path(path))
     if not {*_COLUMNS, *_ATTRIBUTES} <= {*dataset.variables}:
@@ -166,7 +166,7 @@ def audit_study(
         If the file exists but holds no audit, or ``study`` is not a Study.
     """
     require_study(study)
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
     from swtstudy.archive.workers import start_workers
 
     keys = drawn_rows(study.grid, points, seed).tolist()

@@ -156,7 +156,7 @@ def test_an_audit_is_saved_as_it_goes_on(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("swtstudy.paper.audit.Progress", Shown)
     monkeypatch.setattr("swtstudy.paper.audit.audit_point", lambda *_, **__: made_up_point())
     monkeypatch.setattr("swtstudy.archive.workers.start_workers", ThreadPoolExecutor)
-    monkeypatch.setattr("swtstudy.archive.netcdf.save", lambda found, _: saved.append(found.sizes["sample"]))
+    monkeypatch.setattr("swtstudy.archive.archive.save", lambda found, _: saved.append(found.sizes["sample"]))
     monkeypatch.setattr("time.monotonic", lambda: float(next(clock)))
     study = swtstudy.Study.from_text('title = "t"\naxes.friction = [0.1, 0.2, 0.3, 0.4, 0.5]\n')
     found = swtstudy.audit_study(study, tmp_path / "mine.nc", points=5, seed=7, workers=1)
