@@ -8,16 +8,17 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.arguments import listed, spanned
 from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.chunk import Arrays, Chunk, blank, chunks, fill, put
 from swtstudy.points.grid import Grid
-from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.labelled import label, margins, values_at
+from swtstudy.points.reading import listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
@@ -26,9 +27,6 @@ from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, SOLVED, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
@@ -118,10 +116,6 @@ def solve_grid(
     lazy
         Chunks of dask along dimensions. If there are some, data variables are arrays of dask.
     """
-    import xarray as xr
-
-    from swtstudy.points.labelled import label, margins
-
     check_count(grid)
     points = None
     if lazy:
@@ -155,8 +149,6 @@ def _values_of_block(
 
 def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tuple[Distinct, Arrays]:
     """The distinct points at places of a grid, and the values there; raises if a point has no value."""
-    from swtstudy.points.labelled import values_at
-
     points = Distinct.of(grid, asked, places)
     count = len(points.rows)
     found = blank(count)
