@@ -49,9 +49,6 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger(__name__)
 
-#: Receives the study, the path and the content of an archive as soon as it is written.
-Finished = Callable[[Study, Path, "xr.Dataset"], None]
-
 #: Seconds after which results are saved, and the share of a long run that this may be instead: so much is
 #: lost with the process, and a run of any length leaves some hundred files.
 PART_SECONDS, PART_SHARE = 0.5, 0.01
@@ -181,7 +178,7 @@ def run_suite(
 
 def run_several(
     studies: Iterable[tuple[Study, Path]],
-    finished: Finished,
+    finished: Callable[[Study, Path, xr.Dataset], None],
     formats: Sequence[str] = (),
     width: Width | None = None,
     *,
@@ -201,7 +198,8 @@ def run_several(
     studies
         Studies and the paths of their archives.
     finished
-        Called with every archive, once its figure is drawn, one after the other, in the other thread.
+        Called with the study, the path and the content of every archive, once its figure is drawn, one after
+        the other, in the other thread.
     formats
         Formats of the figures: "png", "pdf", "svg". Without one nothing is drawn.
     width
@@ -235,7 +233,7 @@ def run_several(
             with ExitStack() as held:
                 folder = parts.parts_folder(path)
                 held.enter_context(locked(folder))
-                parts.clear_unfinished(folder)
+                parts.clear(folder)
                 work = Work(study, path, retry_failed)
                 try:
                     with work.reporting():
@@ -357,7 +355,7 @@ class Work:
             if len(self.others):
                 _log.info("%d points are not in this study: %s keeps them", len(self.others), kept)
             archive = read_archive(self.path)
-        parts.clear_parts(self._folder)
+        parts.clear(self._folder, parts.part_paths(self._folder))
         return archive
 
     @contextmanager

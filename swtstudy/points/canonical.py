@@ -26,9 +26,6 @@ from swtstudy.vocabulary.quantities import NOTHING, Request
 if TYPE_CHECKING:
     from swtstudy.points.grid import Grid
 
-#: The built-in profiles by their code; archives' parts say which ones they count on.
-NAMES = PARAMETERS["profile"].names
-
 #: Definitions of the user, by code.
 Definitions = Mapping[int, Definition]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Iterable, Iterator, Mapping
+from collections.abc import Hashable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -98,10 +98,6 @@ class Grid:
         """The user's definitions, by their codes in canonical rows."""
         return {each.code: each for each in self.given}
 
-    def profiles_at_rest(self) -> Iterator[tuple[Value, float]]:
-        """Each profile with its mean depth, or in the plane its load, in its own unit."""
-        return ((profile, 1.0) for profile in self.values("profile"))
-
     @property
     def given(self) -> tuple[Definition, ...]:
         """The user's definitions as they were given: several may be the same but for their names."""
@@ -150,12 +146,8 @@ class Grid:
         Beside these columns there are ``length_scale``, the unit of critical distances; ``curvature``, a_H/R;
         ``face``, the radius of a flat face with rounded edges in a_H; ``slip_scale``, μ E* δ0/(G* a_H); and
         ``body_share``, the strain of the body with the bulk stress over the mean of both bodies under equal
-        tractions, negative at points of the other body.
+        tractions, negative at points of the other body. Without units no length is known.
         """
-        return self._columns()
-
-    def _columns(self) -> dict[str, Column]:
-        """See `columns`; without units no length is known."""
         found: dict[str, Column] = {"length_scale": ((), np.array(1.0))}
         found |= dict.fromkeys(("curvature", "face", "slip_scale"), ((), np.array(np.nan)))
         for name in GIVEN_COLUMNS:
