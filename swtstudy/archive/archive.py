@@ -23,11 +23,11 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-from swtstudy.archive.parts import known_points, parts_folder, read_parts
+from swtstudy.archive.parts import known_beside, parts_folder, read_parts
 from swtstudy.archive.paths import ArchiveError
-from swtstudy.archive.recall import check_archive, lacking
-from swtstudy.points.canonical import Distinct
-from swtstudy.points.chunk import Found, matching
+from swtstudy.archive.recall import check_archive, found_in, lacking
+from swtstudy.points.chunk import Found, join, matching
+from swtstudy.points.grid import Distinct
 from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.solver.definitions import definitions_text
 from swtstudy.study.definition import Study
@@ -191,6 +191,23 @@ def read_archive(path: Path) -> xr.Dataset:
     except StudyError as error:
         raise ArchiveError(str(error)) from None
     return loaded
+
+
+def known_points(path: Path) -> Found:
+    """All that is in the archive at `path`, if there is one, in its parts, and kept beside it.
+
+    Raises
+    ------
+    ArchiveError
+        If the file is not an archive, and so must not be replaced.
+    """
+    beside = known_beside(path)
+    if not path.exists():
+        return beside
+    try:
+        return join([found_in(read_archive(path)), beside])
+    except ArchiveError as error:
+        raise ArchiveError(f"{error}; move it away to start anew") from None
 
 
 def load_file(path: Path) -> xr.Dataset:

@@ -13,9 +13,8 @@ import xarray as xr
 from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
-from swtstudy.points.canonical import Distinct, canonical_number, describe_point, group_rows
 from swtstudy.points.chunk import Found, join, look_up, matching
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Distinct, Grid, canonical_number, describe_point, group_rows
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.figure import read_figure

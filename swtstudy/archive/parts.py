@@ -22,9 +22,9 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.archive.paths import ArchiveError, refuse_link
-from swtstudy.points.canonical import ROW, group_rows
+from swtstudy.archive.paths import refuse_link
 from swtstudy.points.chunk import Found, join, read_runs
+from swtstudy.points.grid import ROW, group_rows
 from swtstudy.vocabulary.choices import CRITERIA, FAMILIES
 from swtstudy.vocabulary.files import replacing, unfinished
 
@@ -144,22 +144,6 @@ def _warn_left_out(path: Path, reason: str) -> None:
     _log.warning("%s: left out, its points will be computed again (%s)", path, reason)
 
 
-def known_points(path: Path) -> Found:
-    """All that is in the archive at `path`, if there is one, in its parts, and kept beside it.
-
-    Raises
-    ------
-    ArchiveError
-        If the file is not an archive, and so must not be replaced.
-    """
-    found = []
-    if path.exists():
-        # If nothing is known, workers start before xarray is imported here.
-        from swtstudy.archive.archive import read_archive
-        from swtstudy.archive.recall import found_in
-
-        try:
-            found.append(found_in(read_archive(path)))
-        except ArchiveError as error:
-            raise ArchiveError(f"{error}; move it away to start anew") from None
-    return join([*found, read_parts(parts_folder(path)), read_parts(kept_folder(path))])
+def known_beside(path: Path) -> Found:
+    """All that is in the parts of the archive at `path`, and kept beside it."""
+    return join([read_parts(parts_folder(path)), read_parts(kept_folder(path))])

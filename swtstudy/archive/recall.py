@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.points.canonical import Distinct
 from swtstudy.points.chunk import Found, read_runs
-from swtstudy.points.grid import SAMPLE, Grid, complete
+from swtstudy.points.grid import SAMPLE, Distinct, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import check_pairs
 from swtstudy.points.rules import shapes_needed

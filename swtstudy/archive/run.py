@@ -18,7 +18,6 @@ import numpy as np
 from swtstudy.archive import parts
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
-from swtstudy.points.canonical import Distinct, group_rows
 from swtstudy.points.chunk import (
     Found,
     Run,
@@ -31,6 +30,7 @@ from swtstudy.points.chunk import (
     put,
     solve_chunk,
 )
+from swtstudy.points.grid import Distinct, group_rows
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.study.definition import Study, read_studies, require_study
 from swtstudy.study.shipped import shipped_folder
@@ -272,7 +272,11 @@ class Work:
     def __init__(self, study: Study, path: Path, retry_failed: bool = False) -> None:
         self._begin = self._saved = time.perf_counter()
         self.study, self.path, self._folder = study, path, parts.parts_folder(path)
-        self.points, known = Distinct.of(study.grid, study.asked), parts.known_points(path)
+        if path.exists():
+            from swtstudy.archive.archive import known_points
+        else:  # workers start before xarray is imported
+            known_points = parts.known_beside
+        self.points, known = Distinct.of(study.grid, study.asked), known_points(path)
         usable = known.usable(study.rtol, SOLVER_VERSION, retry_failed)
         self.found = matching(self.points, known, usable)
         self.others = not_in(self.points, study.asked, known)

@@ -165,7 +165,7 @@ def list_studies(context: click.Context, parameters: bool) -> None:
             formatter.write_dl([*quantities, (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])
         click.echo(formatter.getvalue(), nl=False)
         return
-    from swtstudy.points.canonical import LARGEST_GRID
+    from swtstudy.points.grid import LARGEST_GRID
 
     studies = {name: swtstudy.Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))

@@ -14,7 +14,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.faces.one_body import OneBody, given_values, one_contact
-from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.grid import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
 from swtstudy.points.reading import OF_POINTS, dimensions_of, listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts

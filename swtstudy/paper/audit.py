@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
+from swtstudy.points.grid import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
@@ -218,7 +218,7 @@ def _known(path: Path, own: Definitions) -> tuple[dict[tuple[float, ...], np.voi
 
 
 def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = False) -> np.void:
-    """Audit one canonical row (`swtstudy.points.canonical`).
+    """Audit one canonical row (`swtstudy.points.grid`).
 
     Parameters
     ----------

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COST, ROW, Distinct, Table, alike, group_rows, points_from
+from swtstudy.points.grid import COST, ROW, Distinct, Table, alike, group_rows, points_from
 from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
@@ -243,7 +243,7 @@ class Found:
     Attributes
     ----------
     arrays
-        By name: ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the solver finds;
+        By name: ``row``, what the point is (`swtstudy.points.grid.ROW`); what the solver finds;
         ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point failed;
         ``seconds`` of computing; and quantities, those over critical distances with ``distance``, shape
         (n, k), in a_H: NaN where nothing is known of it.

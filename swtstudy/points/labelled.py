@@ -10,9 +10,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Distinct, alike, code_of, points_from
 from swtstudy.points.chunk import Arrays
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Distinct, Grid, alike, code_of, points_from
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray

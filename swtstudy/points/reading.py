@@ -20,8 +20,7 @@ from typing import Any, Literal
 import numpy as np
 
 from swtstudy.points import rules
-from swtstudy.points.canonical import canonical_number
-from swtstudy.points.grid import SAMPLE, Grid, complete
+from swtstudy.points.grid import SAMPLE, Grid, canonical_number, complete
 from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_angle, read_exact, read_value
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
-from swtstudy.points.grid import Grid, complete, numbers_at
+from swtstudy.points.grid import SHAPE_COLUMNS, Grid, complete, numbers_at, value_of
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
 from swtstudy.solver.loop import Loop

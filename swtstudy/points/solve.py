@@ -14,9 +14,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Distinct, check_count
 from swtstudy.points.chunk import Arrays, Chunk, blank, chunks, fill, put
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Distinct, Grid, check_count
 from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.points.reading import listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts

@@ -12,11 +12,11 @@ import pytest
 import stand_in
 
 from swtstudy import Study, run
+from swtstudy.archive.archive import known_points
 from swtstudy.archive.parts import (
     clear,
     keeping,
     kept_folder,
-    known_points,
     part_paths,
     parts_folder,
     points_saved,

@@ -22,7 +22,7 @@ from swtstudy.paper.audit import audit_point, open_audit
 from swtstudy.paper.markdown import table
 from swtstudy.paper.maxima import body_maximum
 from swtstudy.paper.statements import Outcome, about_archive, markdown, summary
-from swtstudy.points.canonical import canonical_points
+from swtstudy.points.grid import canonical_points
 from swtstudy.points.reading import read_grid
 from swtstudy.results.one_point import read_point
 

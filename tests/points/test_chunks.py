@@ -9,7 +9,6 @@ import stand_in
 from real import RIG
 
 from swtstudy import Study
-from swtstudy.points.canonical import ROW, Distinct
 from swtstudy.points.chunk import (
     Found,
     Run,
@@ -23,6 +22,7 @@ from swtstudy.points.chunk import (
     solve_chunk,
     stacked,
 )
+from swtstudy.points.grid import ROW, Distinct
 from swtstudy.vocabulary.quantities import NOTHING, Request
 
 NAN = np.nan

@@ -18,7 +18,8 @@ from hypothesis import strategies as st
 from mutated import mutated
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.parts import known_points, parts_folder, read_parts, save_part
+from swtstudy.archive.archive import known_points
+from swtstudy.archive.parts import parts_folder, read_parts, save_part
 from swtstudy.cli import main
 from swtstudy.points.solve import solve_grid
 from swtstudy.study.definition import study_from

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, Grid, code_of, rounded
 from swtstudy.points.values import Value, amplitudes_of, as_number, press_steadily
 from swtstudy.solver.loop import Loop
 from swtstudy.solver.table import TabulatedProfile
