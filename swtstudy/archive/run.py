@@ -18,18 +18,7 @@ import numpy as np
 from swtstudy.archive import parts
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
 from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
-from swtstudy.points.chunk import (
-    Found,
-    Run,
-    Solver,
-    chunk_of,
-    chunks,
-    cut,
-    look_up,
-    matching,
-    put,
-    solve_chunk,
-)
+from swtstudy.points.chunk import Found, Run, Solver, cut, look_up, matching, put, solve_chunk, task_of
 from swtstudy.points.grid import Distinct, group_rows
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.study.definition import Study, read_studies, require_study
@@ -301,10 +290,14 @@ class Work:
         started = datetime.now(UTC).isoformat(timespec="seconds")
         run = Run(SOLVER_VERSION, study.rtol, study.text, versions(), started, study.asked.items)
         found.runs = tuple(dict.fromkeys((*found.runs, run)))
-        number, missing = found.runs.index(run), chunks(self.points, self.todo, study.asked)
+        number, chunks = found.runs.index(run), cut(self.points, self.todo, study.asked)
+
+        def arguments_of(places: IndexArray) -> tuple[Any, ...]:
+            return *task_of(self.points, places, study.asked), study.rtol, solver
+
         with Progress(self._count, self.path.stem, delay=0.0) as shown:
             try:
-                for places, arrays in workers.solve(missing, study.rtol, solver):
+                for places, arrays in workers.solve(chunks, arguments_of):
                     arrays["run"][:] = number
                     put(found.arrays, places, arrays)
                     self._unsaved.append(places)
@@ -426,7 +419,7 @@ def estimate(work: Work) -> tuple[float, int, int]:
 
     def timed(places: IndexArray) -> float:
         """Time for each of some points."""
-        return float(solve_chunk(chunk_of(points, places, asked), rtol)[1]["seconds"].mean())
+        return float(solve_chunk(*task_of(points, places, asked), rtol)[1]["seconds"].mean())
 
     timed(todo[-1][:1])  # imports, and compiles
     groups = np.array_split(np.arange(len(todo)), min(_TIMED, len(todo)))

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.chunk import Arrays, Chunk, blank, chunks, fill, put
+from swtstudy.points.chunk import Arrays, blank, cut, fill, put, task_of
 from swtstudy.points.grid import Distinct, Grid, check_count
 from swtstudy.points.labelled import label, margins, values_at
 from swtstudy.points.reading import listed, read_distances, read_grid, spanned
@@ -151,17 +151,17 @@ def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tupl
     points = Distinct.of(grid, asked, places)
     count = len(points.rows)
     found = blank(count)
-    every = [*chunks(points, np.ones(count, bool), asked)]
+    chunks = cut(points, np.ones(count, bool), asked)
 
-    def solved(chunk: Chunk) -> Arrays:
-        arrays = blank(len(chunk.places))
-        fill(arrays, chunk, rtol)
+    def solved(chunk: IndexArray) -> Arrays:
+        arrays = blank(len(chunk))
+        fill(arrays, *task_of(points, chunk, asked), rtol)
         return arrays
 
     with Progress(count) as progress, ThreadPoolExecutor(os.cpu_count()) as threads:
         # The first thread starts with the second chunk: to start one takes as long as to solve a point.
-        each = threads.map(solved, every) if len(every) > 1 else map(solved, every)
-        for chunk, arrays in zip(every, each, strict=True):
-            put(found, chunk.places, arrays)
-            progress.add(len(chunk.places))
+        each = threads.map(solved, chunks) if len(chunks) > 1 else map(solved, chunks)
+        for chunk, arrays in zip(chunks, each, strict=True):
+            put(found, chunk, arrays)
+            progress.add(len(chunk))
     return points, values_at(grid, points, found, asked, places)

@@ -13,7 +13,6 @@ from swtstudy.points.chunk import (
     Found,
     Run,
     blank,
-    chunks,
     cut,
     join,
     look_up,
@@ -21,6 +20,7 @@ from swtstudy.points.chunk import (
     put,
     solve_chunk,
     stacked,
+    task_of,
 )
 from swtstudy.points.grid import ROW, Distinct
 from swtstudy.vocabulary.quantities import NOTHING, Request
@@ -67,14 +67,14 @@ def test_chunks_have_equal_work_and_long_cycles_come_first() -> None:
     for asked in (means, Request(("von_mises",))):
         assert [each.size for each in cut(many, every, asked)] == [8, 8, 4]
     two = distinct('axes.profile = ["paraboloid", "rounded_punch"]\nfixed.flat_radius = 0.5')
-    assert [each.points.profile for each in chunks(two, np.ones(2, bool))] == ["paraboloid", "rounded_punch"]
+    tasks = [task_of(two, each, NOTHING) for each in cut(two, np.ones(2, bool))]
+    assert [own.profile for own, _ in tasks] == ["paraboloid", "rounded_punch"]
     assert cut(two, np.zeros(2, bool)) == []
 
 
 def test_a_point_that_fails_does_so_alone() -> None:
     points = distinct("axes.friction = [0.1, 0.2, 0.3]")
-    (chunk,) = chunks(points, np.ones(3, bool))
-    assert [one.places.tolist() for one in chunk.singly()] == [[0], [1], [2]]
+    (chunk,) = cut(points, np.ones(3, bool))
 
     def failing(own: stand_in.Points, rtol: float) -> stand_in.Solution:
         return stand_in.fail_at(0.2, own, rtol)
@@ -83,7 +83,7 @@ def test_a_point_that_fails_does_so_alone() -> None:
         (failing, "ZeroDivisionError: an injected failure"),
         (lambda own, rtol: stand_in.lose_at(0.2, own, rtol), "ArithmeticError: the solver found no value"),
     ):
-        _, found = solve_chunk(chunk, 1e-3, solver)
+        _, found = solve_chunk(*task_of(points, chunk, NOTHING), 1e-3, solver)
         assert found["status"].tolist() == [COMPUTED, FAILED, COMPUTED]
         assert found["message"].tolist() == ["", message, ""]
         assert np.isfinite(found["s"]).tolist() == [True, False, True]
