@@ -19,19 +19,7 @@ from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArr
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import literal
-from swtstudy.vocabulary.quantities import (
-    COMPUTED,
-    COUNTS,
-    DISTANCE,
-    FAILED,
-    MISSING,
-    NAMED,
-    NONLOCAL,
-    NOTHING,
-    SOLVED,
-    YIELD,
-    Request,
-)
+from swtstudy.vocabulary.quantities import COMPUTED, FAILED, ITEMS, MISSING, NONLOCAL, SOLVED, Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: Arrays of shape (n, …) by name.
@@ -44,7 +32,7 @@ Solver = Callable[[Points, float], Solution] | None
 PIECES, PIECES_OF_BODY = 128, 16
 
 
-def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
+def cut(points: Distinct, wanted: BoolArray, asked: Request) -> list[IndexArray]:
     """Places of the wanted points of a table, cut into chunks, long cycles first.
 
     The points of a chunk are solved in one call: they share profile family, criterion, control, loop and
@@ -61,7 +49,7 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     """
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
-    if {YIELD, DISTANCE} & {*asked.items}:
+    if asked.is_of_body:
         pieces = np.maximum(pieces, PIECES_OF_BODY * max(1, len(asked.distances)))
     found: list[IndexArray] = []
     for own in alike(points.rows if wanted.all() else points.rows[places], *points.distances[places].T):
@@ -201,7 +189,7 @@ def read_runs(text: object) -> tuple[Run, ...]:
     """
     runs: tuple[Run, ...] = read_json(tuple[Run, ...], text)
     for run in runs:
-        if not {*run.quantities} <= {*NAMED, COUNTS, DISTANCE}:
+        if not {*run.quantities} <= {*ITEMS}:
             raise ValueError(f"quantities of a run: {literal(run.quantities)}")
         if not 0.0 <= run.seconds < math.inf:
             raise ValueError(f"seconds of a run: {literal(run.seconds)}")

@@ -25,15 +25,7 @@ from swtstudy.points.values import DEGREES, NamedValues, Value, as_number, read_
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
 from swtstudy.vocabulary.mistakes import Report, literal, meant, more_like_it, nearest, plain_number
-from swtstudy.vocabulary.parameters import (
-    AXES,
-    CONTACT_AXES,
-    MANY_TURNS,
-    PAIRS,
-    PARAMETERS,
-    QUANTITY_AXES,
-    Parameter,
-)
+from swtstudy.vocabulary.parameters import AXES, CONTACT_AXES, MANY_TURNS, PAIRS, PARAMETERS, Parameter
 from swtstudy.vocabulary.quantities import ATTRIBUTES, COUNTED_SIZES, DISTANCE, EVERY_VARIABLE
 
 #: Definitions of the user, by parameter and name.
@@ -178,7 +170,7 @@ def warn_of_degrees(key: str, raw: object) -> None:
 
 
 def read_distances(
-    fixed: Mapping[str, object], axes: GivenAxes, report: Report, row: Parameter = QUANTITY_AXES[DISTANCE]
+    fixed: Mapping[str, object], axes: GivenAxes, report: Report, row: Parameter = AXES[DISTANCE]
 ) -> tuple[tuple[float, ...], bool]:
     """The critical distances among fixed values and axes, and whether they are an axis; see `read_grid`."""
     if (raw := axes.get(DISTANCE)) is not None:

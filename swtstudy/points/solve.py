@@ -24,7 +24,7 @@ from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, SOLVED, Request, read_quantities
+from swtstudy.vocabulary.quantities import DISTANCE, SOLVED, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
 
 
@@ -103,9 +103,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     return solve_grid(replace(grid, sample_dim=dim, sample_labels=labels), float(rtol), asked, lazy)
 
 
-def solve_grid(
-    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] | None = None
-) -> xr.Dataset:
+def solve_grid(grid: Grid, rtol: float, asked: Request, lazy: Mapping[str, Any] | None = None) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process.
 
     Parameters

@@ -122,7 +122,7 @@ def test_changed_studies_are_studies_or_study_errors(request):
         again = to_toml(study.title, study.rtol, study.grid, study.figure, study.asked)
         assert Study.from_text(again).grid == study.grid, text
         if study.grid.size <= FEW and number % SOLVED == 0:
-            assert solve_grid(study.grid, 1e-2).s.size == study.grid.size
+            assert solve_grid(study.grid, 1e-2, study.asked).s.size == study.grid.size
     assert sound > 0.1 * count
 
 
