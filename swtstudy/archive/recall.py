@@ -183,15 +183,14 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
             found = f"{literal(attributes[name])} ({error})"
             report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = without_units(dataset)
-    known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
-    every_name = (*ATTRIBUTES, *EVERY_VARIABLE)
-    known |= {name: row["units"] for name in every_name if "units" in (row := attributes_of(name))}
-    every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
-    every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
-    for attribute, name, allowed in every:
-        value = plain[name].attrs.get(attribute, allowed)
-        if str(value) != allowed:
-            report(f"attribute {attribute} of {name}", literal(value), literal(allowed))
+    every = {} if real else {name: {"units": row.units} for name, row in PARAMETERS.items()}
+    every |= {name: attributes_of(name) for name in (*ATTRIBUTES, *EVERY_VARIABLE)}
+    for name in (name for name in every if name in plain):
+        for attribute in ("units", "flag_meanings"):
+            expected = every[name].get(attribute)
+            value = plain[name].attrs.get(attribute, expected)
+            if str(value) != str(expected):
+                report(f"attribute {attribute} of {name}", literal(value), literal(expected))
 
 
 def _check_shapes(dataset: xr.Dataset, report: Report) -> None:

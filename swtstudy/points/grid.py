@@ -57,11 +57,6 @@ def value_of(code: int, definitions: Definitions, parameter: str = "profile") ->
     return names[code] if code < len(names) else definitions[code]
 
 
-def control_of(code: int) -> Control:
-    """The control that a number stands for: 1 for a normal force, 2 for a tangential one, together 3."""
-    return Control(bool(code & 1), bool(code & 2))
-
-
 def _numbers(part: str) -> tuple[str, ...]:
     """Return the numbers of a part that have a column; one that takes another's place is in its column."""
     rows = PARAMETERS.items()
@@ -70,16 +65,14 @@ def _numbers(part: str) -> tuple[str, ...]:
 
 #: What the load costs if it is a loop.
 COST = "load_cost"
-#: Columns that points have in common which are solved in one call.
-SHARED_COLUMNS = ("profile", "control", "load", "criterion")
 #: Shape parameters, of whichever profile.
 SHAPE_COLUMNS = _numbers("shape")
 #: Columns of bodies and criterion; friction is before the Poisson ratio, on which no traction depends.
 _OTHERS = (*reversed(_numbers("body")), *_numbers("bulk"), *_numbers("criterion"))
 #: Parameters that are a number of every point, whatever its profile.
 NUMBERS = (*_numbers("load"), *_OTHERS)
-#: Columns of a table of canonical points, in the order in which they are sorted; for profile, load and
-#: control see `code_of` and `control_of`.
+#: Columns of a table of canonical points, in the order in which they are sorted. Names are codes (`code_of`);
+#: a control is 1 for a normal force, 2 for a tangential one, together 3.
 _INTEGERS = ("profile", "criterion", "control", COST, "load", "p", "q")  # ω2/ω1 = p/q
 COLUMNS = (*_INTEGERS, *_numbers("load"), *SHAPE_COLUMNS, *_OTHERS)
 #: Columns of a grid that rows are made of: a stick zone that stays has a strain share of 0.
@@ -444,8 +437,8 @@ def group_rows(table: Table, *more: FloatArray) -> tuple[IntArray, IntArray]:
 
 
 def alike(table: Table, *more: FloatArray) -> list[IndexArray]:
-    """Indices of the rows that share `SHARED_COLUMNS`, and further columns, one array for each kind."""
-    _, group = group_rows(table[[*SHARED_COLUMNS]], *more)
+    """Indices of rows that one call can solve, and that share further columns, one array for each kind."""
+    _, group = group_rows(table[["profile", "control", "load", "criterion"]], *more)
     order = np.argsort(group, kind="stable")
     return np.split(order, np.cumsum(np.bincount(group))[:-1]) if len(table) else []
 
@@ -461,13 +454,13 @@ def points_from(table: Table, definitions: Definitions) -> Points:
         Definitions of the user, by code.
     """
     profile = value_of(table["profile"][0], definitions)
-    course = value_of(table["load"][0], definitions, "load")
+    course, control = value_of(table["load"][0], definitions, "load"), int(table["control"][0])
     return Points(
         profile=profile,  # type: ignore[arg-type]
         p=table["p"].copy(),
         q=table["q"].copy(),
         shape={name: table[name].copy() for name in family_of(profile).shape},
-        control=control_of(table["control"][0]),
+        control=Control(bool(control & 1), bool(control & 2)),
         path=course if isinstance(course, Loop) else None,
         criterion=str(value_of(table["criterion"][0], definitions, "criterion")),
         **{name: table[name].copy() for name in NUMBERS},
@@ -476,17 +469,13 @@ def points_from(table: Table, definitions: Definitions) -> Points:
 
 def describe_point(row: np.void, definitions: Definitions) -> str:
     """A canonical row in words, for messages: what matters for its profile and load."""
-    profile, course, criterion = (
-        value_of(row[name], definitions, name) for name in ("profile", "load", "criterion")
-    )
-    shape = family_of(profile).shape if isinstance(profile, str) else ()
-    parts = [f"profile={profile}", *(f"{name}={row[name]:.6g}" for name in shape)]
-    is_loop, control = isinstance(course, Definition), control_of(row["control"])
-    parts.append(f"load={course}" if is_loop else f"frequency_ratio={row['p']}/{row['q']}")
-    if not PARAMETERS["criterion"].goes_without_saying(criterion):
-        parts.append(f"criterion={criterion}")
-    for name in (name for name in NUMBERS if not (is_loop and name.endswith("phase"))):
+    point = points_from(np.atleast_1d(row), definitions)
+    parts = [f"profile={point.profile}", *(f"{name}={row[name]:.6g}" for name in point.shape)]
+    parts.append(f"load={point.path}" if point.path else f"frequency_ratio={row['p']}/{row['q']}")
+    if not PARAMETERS["criterion"].goes_without_saying(point.criterion):
+        parts.append(f"criterion={point.criterion}")
+    for name in (name for name in NUMBERS if not (point.path and name.endswith("phase"))):
         in_place = name == STRAIN_SHARE and row[name] == 0.0  # the stick zone is
         if not in_place and not PARAMETERS[name].goes_without_saying(row[name]):
-            parts.append(f"{control.given_for(name)}={row[name]:.6g}")
+            parts.append(f"{point.control.given_for(name)}={row[name]:.6g}")
     return ", ".join(parts)
