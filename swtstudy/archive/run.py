@@ -235,7 +235,9 @@ def run_several(
 
 
 class Work:
-    """The work for a study: the points that it needs, and which of them are known; this computes no point.
+    """The work for a study: the points that it needs, and which of them are known.
+
+    To find that computes no point. The lock of the archive is held while points are computed and written.
 
     Parameters
     ----------
@@ -286,7 +288,8 @@ class Work:
 
     def compute(self, workers: Workers, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
-        study, found, self._what = self.study, self.found, self._told()
+        self._what = self._told()
+        study, found = self.study, self.found
         started = datetime.now(UTC).isoformat(timespec="seconds")
         run = Run(SOLVER_VERSION, study.rtol, study.text, versions(), started, study.asked.items)
         found.runs = tuple(dict.fromkeys((*found.runs, run)))
