@@ -8,11 +8,11 @@ import numpy as np
 import xarray as xr
 from solved import REGIMES
 
-from swtstudy.archive.netcdf import save as save
+from swtstudy.archive.archive import save as save
 from swtstudy.paper.audit import AUDITED, audit_dataset
 from swtstudy.paper.markdown import report as report
 from swtstudy.paper.statements import STATEMENTS as STATEMENTS
-from swtstudy.points.canonical import ROW
+from swtstudy.points.grid import ROW
 
 #: Phases over one turn, its end included.
 PHASES = np.linspace(0, 2 * np.pi, 49)

@@ -24,7 +24,7 @@ from two_thousand import same_values, study_text
 from swtstudy import Study, open_results, run
 from swtstudy.archive.parts import parts_folder, points_saved
 from swtstudy.archive.run import Stopped
-from swtstudy.points.chunk import Chunk
+from swtstudy.vocabulary.arrays import IndexArray
 
 WORKERS = 2
 
@@ -44,15 +44,15 @@ def child(what: str, text: str, path: str, log: str) -> None:
     """The process that is killed: a run."""
     from swtstudy.archive import run as run_module
 
-    cut = run_module.chunks
+    cut = run_module.cut
 
-    def noted(*arguments: Any) -> list[Chunk]:
-        found = list(cut(*arguments))
+    def noted(*arguments: Any) -> list[IndexArray]:
+        found = cut(*arguments)
         with open(f"{log}-chunks", "a") as file:
-            file.writelines(f"{len(chunk.places)}\n" for chunk in found)
+            file.writelines(f"{len(chunk)}\n" for chunk in found)
         return found
 
-    run_module.chunks = noted
+    run_module.cut = noted
     run_module.PART_SECONDS = run_module.PART_SHARE = 0.0  # saved at once
     run(Study.from_text(text), path, solver=partial(logged, log) if what == "run" else cheap, processes=True)
 
@@ -189,25 +189,25 @@ def kills_of_writes(folder: Path, rows: int, limit: int, dice: random.Random) ->
 
 def make_parts(text: str, path: Path) -> None:
     """Stop a run when everything is computed, before it writes its archive."""
-    from swtstudy.archive import netcdf
+    from swtstudy.archive import archive
 
-    save = netcdf.save
+    save = archive.save
 
     def stop(*_: object, **__: object) -> None:
         raise Stopped("before the archive")
 
-    netcdf.save = stop  # type: ignore[assignment]
+    archive.save = stop  # type: ignore[assignment]
     try:
         run(Study.from_text(text), path, solver=cheap, workers=1)
     except Stopped:
         pass
     finally:
-        netcdf.save = save
+        archive.save = save
 
 
 def time_of_write(dataset: xr.Dataset, folder: Path) -> float:
     """Seconds that writing such an archive takes."""
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
 
     begin = time.perf_counter()
     save(dataset, folder / "timed.nc")

@@ -13,9 +13,8 @@ import xarray as xr
 from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
-from swtstudy.points.canonical import Distinct, canonical_number, describe_point, group_rows
 from swtstudy.points.chunk import Found, join, look_up, matching
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Distinct, Grid, canonical_number, describe_point, group_rows
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.figure import read_figure
@@ -27,14 +26,6 @@ from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, MISSING, Request, 
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12
-
-
-class ConflictError(ValueError):
-    """Archives with contradictory values."""
-
-
-class GapsError(ValueError):
-    """Archives that do not fill the grid spanned by all their values."""
 
 
 def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
@@ -49,12 +40,10 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
 
     Raises
     ------
-    ConflictError
-        A ValueError, if they come from different versions of the solver, prescribe forces in one and
-        displacements in another, or have values of one point that differ by more than their estimated
-        errors.
-    GapsError
-        A ValueError, if points of the grid are in none of them and `sparse` is False.
+    ValueError
+        If they come from different versions of the solver, prescribe forces in one and displacements in
+        another, or have values of one point that differ by more than their estimated errors; or if points of
+        the grid are in none of them and `sparse` is False.
     """
     datasets = [open_results(path) for path in paths]
     parts, grids = [found_in(dataset) for dataset in datasets], [grid_of(dataset) for dataset in datasets]
@@ -64,7 +53,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     for what, where in (("solver versions", versions), ("prescribed loads", controls)):
         if len(where) > 1:
             words = ", ".join(f"{each} in {path}" for each, path in sorted(where.items()))
-            raise ConflictError(f"results of different {what} cannot be merged: {words}")
+            raise ValueError(f"results of different {what} cannot be merged: {words}")
     _refuse_other_contacts(paths, datasets)
     grid, asked = _union(grids), _asked([request_of(dataset) for dataset in datasets])
     sources = [str(path) for path, part in zip(paths, parts, strict=True) for _ in range(len(part))]
@@ -82,7 +71,7 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
             words += f"{int(lacks.sum())} others"
         example = points.rows[np.flatnonzero(absent if gaps else lacks)[0]]
         words += f", such as {describe_point(example, points.definitions)}"
-        raise GapsError(f"{words}; --sparse (sparse=True in Python) leaves them missing")
+        raise ValueError(f"{words}; --sparse (sparse=True in Python) leaves them missing")
     study = _study(names, datasets, grid, asked)
     made = f"merged from {', '.join([*(path.name for path in paths), *filter(None, [gaps])])}"
     history = [line for dataset in datasets for line in dataset.attrs["history"].splitlines()]
@@ -118,7 +107,7 @@ def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
             point = describe_point(known["row"][one[apart[0]]], grid.definitions)
             of = "" if name == "s" else f" of {name}"
             more = f"; {apart.size - 1} more" if apart.size > 1 else ""
-            raise ConflictError(f"conflicting values{of} {a} and {b} at {point}{more}")
+            raise ValueError(f"conflicting values{of} {a} and {b} at {point}{more}")
 
 
 def _refuse_other_contacts(paths: Sequence[Path], datasets: Sequence[xr.Dataset]) -> None:
@@ -131,7 +120,7 @@ def _refuse_other_contacts(paths: Sequence[Path], datasets: Sequence[xr.Dataset]
             one, two = vars(read_contact(first)), vars(read_contact(other))
             names = [name.replace("_", " ") for name in one if one[name] != two[name]]
         words = f"results with other {' and '.join(names)} cannot be merged"
-        raise ConflictError(f"{words}: those in {paths[0]} and in {path}")
+        raise ValueError(f"{words}: those in {paths[0]} and in {path}")
 
 
 def _union(grids: list[Grid]) -> Grid:
@@ -164,7 +153,7 @@ def distinct(values: Sequence[Value]) -> tuple[Value, ...]:
         found = tuple(dict.fromkeys(values))
         names = [str(value) for value in found]
         if several := sorted({name for name in names if names.count(name) > 1}):
-            raise ConflictError(f"{', '.join(several)}: of this name each archive defines another one")
+            raise ValueError(f"{', '.join(several)}: of this name each archive defines another one")
         return found
     keyed = {canonical_number(v) if isinstance(v, float) else v: v for v in reversed(values)}
     return tuple(sorted(keyed.values(), key=as_number))

@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from swtstudy.archive.paths import ArchiveError, refuse_link
-from swtstudy.points.canonical import NAMES, ROW, group_rows
+from swtstudy.archive.paths import refuse_link
 from swtstudy.points.chunk import Found, join, read_runs
-from swtstudy.vocabulary.choices import CRITERIA
+from swtstudy.points.grid import ROW, group_rows
+from swtstudy.vocabulary.choices import CRITERIA, FAMILIES
 from swtstudy.vocabulary.files import replacing, unfinished
 
 _log = logging.getLogger(__name__)
@@ -38,7 +38,7 @@ _NAME = re.compile(r"[0-9]{6,}\.npz")
 #: Layout of the numbers in a table; parts with another layout cannot be used.
 _LAYOUT = {
     "columns": [[name, ROW[name].str] for name in ROW.names or ()],
-    "profiles": list(NAMES),
+    "profiles": list(FAMILIES),
     "criteria": list(CRITERIA),
 }
 
@@ -56,12 +56,11 @@ def kept_folder(path: Path) -> Path:
 @contextmanager
 def keeping(folder: Path, found: Found) -> Iterator[None]:
     """Make a folder hold exactly these values once the block has ended without an error."""
-    old = _paths(folder)
+    old = part_paths(folder)
     if len(found):
         save_part(folder, found)
     yield
-    _remove(old)
-    clear_unfinished(folder)
+    clear(folder, old)
     if folder.exists() and not any(folder.iterdir()):
         folder.rmdir()
 
@@ -73,7 +72,7 @@ def read_parts(folder: Path) -> Found:
     """
     for _ in range(10):
         with suppress(FileNotFoundError):  # the archive has been completed between listing and reading
-            return join(part for path in _paths(folder) if (part := _read(path)) is not None)
+            return join(part for path in part_paths(folder) if (part := _read(path)) is not None)
     return join([])
 
 
@@ -83,31 +82,22 @@ def points_saved(folder: Path) -> int:
     return len(group_rows(read_parts(folder)["row"])[0])
 
 
-def clear_parts(folder: Path) -> None:
-    """Remove the parts, once the archive has all their points, and unfinished files of killed runs."""
-    _remove(_paths(folder))
-    clear_unfinished(folder)
-
-
-def clear_unfinished(folder: Path) -> None:
-    """Remove unfinished files of killed runs: parts, and the archive whose parts they are."""
+def clear(folder: Path, parts: Iterable[Path] = ()) -> None:
+    """Remove parts, and unfinished files of killed runs: parts, and the archive whose parts they are."""
     refuse_link(folder)
     archive = re.escape(Path(folder.stem).stem)
-    _remove(unfinished(folder, rf"\d{{6,}}|{archive}"))
+    for path in (*parts, *unfinished(folder, rf"\d{{6,}}|{archive}")):
+        path.unlink(missing_ok=True)
 
 
-def _paths(folder: Path) -> list[Path]:
+def part_paths(folder: Path) -> list[Path]:
+    """The files of the parts in a folder, the oldest first."""
     refuse_link(folder)
     return sorted(path for path in _named(folder) if path.is_file() and not path.is_symlink())
 
 
 def _named(folder: Path) -> list[Path]:
     return [path for path in folder.glob("*.npz") if _NAME.fullmatch(path.name)]
-
-
-def _remove(paths: Iterable[Path]) -> None:
-    for path in paths:
-        path.unlink(missing_ok=True)
 
 
 def save_part(folder: Path, found: Found) -> None:
@@ -154,22 +144,6 @@ def _warn_left_out(path: Path, reason: str) -> None:
     _log.warning("%s: left out, its points will be computed again (%s)", path, reason)
 
 
-def known_points(path: Path) -> Found:
-    """All that is in the archive at `path`, if there is one, in its parts, and kept beside it.
-
-    Raises
-    ------
-    ArchiveError
-        If the file is not an archive, and so must not be replaced.
-    """
-    found = []
-    if path.exists():
-        # If nothing is known, workers start before xarray is imported here.
-        from swtstudy.archive.netcdf import read_archive
-        from swtstudy.archive.recall import found_in
-
-        try:
-            found.append(found_in(read_archive(path)))
-        except ArchiveError as error:
-            raise ArchiveError(f"{error}; move it away to start anew") from None
-    return join([*found, read_parts(parts_folder(path)), read_parts(kept_folder(path))])
+def known_beside(path: Path) -> Found:
+    """All that is in the parts of the archive at `path`, and kept beside it."""
+    return join([read_parts(parts_folder(path)), read_parts(kept_folder(path))])

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from swtstudy.points.canonical import Distinct
 from swtstudy.points.chunk import Found, read_runs
-from swtstudy.points.grid import SAMPLE, Grid, complete
+from swtstudy.points.grid import SAMPLE, Distinct, Grid, complete
 from swtstudy.points.labelled import turned
 from swtstudy.points.reading import check_pairs
 from swtstudy.points.rules import shapes_needed
@@ -41,8 +40,8 @@ from swtstudy.vocabulary.quantities import (
 )
 
 
-def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
-    """The grid of an archive, which comes from a file, from its coordinates.
+def grid_of(dataset: xr.Dataset, report: Report | None = None) -> Grid:
+    """The grid of results from their coordinates; mistakes are added to a report, if there is one.
 
     Raises
     ------
@@ -50,7 +49,7 @@ def grid_of(dataset: xr.Dataset, source: str = "") -> Grid:
         With every coordinate that no study can have; or if the results have been left without s.
     """
     require(dataset, "s")
-    report, dims = Report(source), [str(name) for name in dataset.s.dims]
+    report, dims = Report() if report is None else report, [str(name) for name in dataset.s.dims]
     given = read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None
     table, pairs = (PARAMETERS, {}) if given is None else (rows(given.units), given.pairs)
     known = defined_in(dataset.attrs)
@@ -154,12 +153,14 @@ def lacking(dataset: xr.Dataset) -> list[str]:
 def check_archive(dataset: xr.Dataset, source: str) -> None:
     """Raise a StudyError with everything that is wrong in an archive that lacks nothing."""
     # Each of these can be checked only if what it relies on, the one before it, is sound.
+    report = Report(source)
     for check in (_check_attributes, _check_shapes, grid_of, _check_values):
-        check(dataset, source)
+        check(dataset, report)
+        report.refuse()
 
 
-def _check_attributes(dataset: xr.Dataset, source: str) -> None:
-    report, attributes, real = Report(source), dataset.attrs, has_units(dataset)
+def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
+    attributes, real = dataset.attrs, has_units(dataset)
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
     if not is_rtol(attributes["rtol"]):
@@ -167,7 +168,7 @@ def _check_attributes(dataset: xr.Dataset, source: str) -> None:
     if not 0.0 <= plain_number(seconds) < np.inf:
         wrong["wall_time_seconds"] = "a number of seconds"
     for name, allowed in wrong.items():
-        report(f"attribute {name}", _words(attributes[name]), allowed)
+        report(f"attribute {name}", literal(attributes[name]), allowed)
     others = [str(name) for name in dataset.data_vars] if real else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
@@ -179,23 +180,21 @@ def _check_attributes(dataset: xr.Dataset, source: str) -> None:
         try:
             readers[name](attributes[name])
         except ValueError as error:
-            found = f"{_words(attributes[name])} ({error})"
+            found = f"{literal(attributes[name])} ({error})"
             report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = without_units(dataset)
-    known = {} if real else {name: parameter.units for name, parameter in PARAMETERS.items()}
-    every_name = (*ATTRIBUTES, *EVERY_VARIABLE)
-    known |= {name: row["units"] for name in every_name if "units" in (row := attributes_of(name))}
-    every = [("units", name, allowed) for name, allowed in known.items() if name in plain]
-    every += [("flag_meanings", "regime", " ".join(REGIMES)), ("flag_meanings", "status", " ".join(STATES))]
-    for attribute, name, allowed in every:
-        value = plain[name].attrs.get(attribute, allowed)
-        if str(value) != allowed:
-            report(f"attribute {attribute} of {name}", _words(value), _words(allowed))
-    report.refuse()
+    every = {} if real else {name: {"units": row.units} for name, row in PARAMETERS.items()}
+    every |= {name: attributes_of(name) for name in (*ATTRIBUTES, *EVERY_VARIABLE)}
+    for name in (name for name in every if name in plain):
+        for attribute in ("units", "flag_meanings"):
+            expected = every[name].get(attribute)
+            value = plain[name].attrs.get(attribute, expected)
+            if str(value) != str(expected):
+                report(f"attribute {attribute} of {name}", literal(value), literal(expected))
 
 
-def _check_shapes(dataset: xr.Dataset, source: str) -> None:
-    report, plain = Report(source), without_units(dataset)
+def _check_shapes(dataset: xr.Dataset, report: Report) -> None:
+    plain = without_units(dataset)
     own: dict[str, tuple[str, ...]] = dict.fromkeys(("status", "run", *SOLVED), ())
     for name, more in (own | request_of(dataset).variables).items():
         if name not in plain:
@@ -206,12 +205,10 @@ def _check_shapes(dataset: xr.Dataset, source: str) -> None:
             report(name, f"dimensions {plain[name].dims}", f"those of s, {dataset.s.dims}{besides}")
         if plain[name].dtype.kind not in "fiu":
             report(name, f"values of type {plain[name].dtype}", "numbers")
-    report.refuse()
 
 
-def _check_values(dataset: xr.Dataset, source: str) -> None:
+def _check_values(dataset: xr.Dataset, report: Report) -> None:
     """Refuse values that no run computes, such as from a damaged file."""
-    report = Report(source)
     s, s_error, regime, status, run = (dataset[name].transpose(*dataset.s.dims).values for name in _VARIABLES)
     computed = status == COMPUTED
     unbounded = np.isin(regime, [REGIMES.index(name) for name in WITHOUT_S])
@@ -229,8 +226,3 @@ def _check_values(dataset: xr.Dataset, source: str) -> None:
             place = ", ".join(f"{dim}={dataset[dim].values[i]}" for dim, i in index.items())
             where = f" at {place}" * bool(place) + f" and {count - 1} more" * (count > 1)
             report(name, f"{dataset[name].isel(index).item()}{where}", allowed)
-    report.refuse()
-
-
-def _words(value: object) -> str:
-    return literal(value.tolist() if isinstance(value, np.generic | np.ndarray) else value)

@@ -1,4 +1,4 @@
-"""Run studies: look up known points, compute the missing ones, write the archives."""
+"""Run studies: look up known points, compute the missing ones, write the archives; how long that takes."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from datetime import UTC, datetime
 from os import PathLike
 from pathlib import Path
@@ -16,15 +17,17 @@ import numpy as np
 
 from swtstudy.archive import parts
 from swtstudy.archive.paths import archive_paths, check_archive_path, locked
-from swtstudy.archive.work import Work, assess
 from swtstudy.archive.workers import ClusterPool, LocalPool, WorkerError, Workers, without_signals
-from swtstudy.points.chunk import Run, Solver, chunks, put
+from swtstudy.points.chunk import Found, Run, Solver, cut, look_up, matching, put, solve_chunk, task_of
+from swtstudy.points.grid import Distinct, group_rows
+from swtstudy.solver.load_path import LoadPath
 from swtstudy.study.definition import Study, read_studies, require_study
 from swtstudy.study.shipped import shipped_folder
-from swtstudy.vocabulary.arrays import IndexArray
+from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.files import check_writable
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.progress import Progress
+from swtstudy.vocabulary.quantities import MISSING, Request
 from swtstudy.vocabulary.version import SOLVER_VERSION, versions
 
 if TYPE_CHECKING:
@@ -34,9 +37,6 @@ if TYPE_CHECKING:
     from swtstudy.figures.sheet import Width
 
 _log = logging.getLogger(__name__)
-
-#: Receives the study, the path and the content of an archive as soon as it is written.
-Finished = Callable[[Study, Path, "xr.Dataset"], None]
 
 #: Seconds after which results are saved, and the share of a long run that this may be instead: so much is
 #: lost with the process, and a run of any length leaves some hundred files.
@@ -167,7 +167,7 @@ def run_suite(
 
 def run_several(
     studies: Iterable[tuple[Study, Path]],
-    finished: Finished,
+    finished: Callable[[Study, Path, xr.Dataset], None],
     formats: Sequence[str] = (),
     width: Width | None = None,
     *,
@@ -187,7 +187,8 @@ def run_several(
     studies
         Studies and the paths of their archives.
     finished
-        Called with every archive, once its figure is drawn, one after the other, in the other thread.
+        Called with the study, the path and the content of every archive, once its figure is drawn, one after
+        the other, in the other thread.
     formats
         Formats of the figures: "png", "pdf", "svg". Without one nothing is drawn.
     width
@@ -198,10 +199,10 @@ def run_several(
     if not isinstance(workers, int) or workers < 1:
         raise refused("workers", literal(workers), "a number of workers, from 1 on")
 
-    def complete(job: Job, held: ExitStack) -> None:
-        with held, job.reporting():
-            dataset = job.finish()
-        study, path = job.study, job.path
+    def complete(work: Work, held: ExitStack) -> None:
+        with held, work.reporting():
+            dataset = work.finish()
+        study, path = work.study, work.path
         if study.figure is not None and formats:
             from swtstudy.figures.draw import draw
             from swtstudy.figures.style import save_figure
@@ -219,20 +220,24 @@ def run_several(
             check_archive_path(path)
             check_writable(path)
             with ExitStack() as held:
-                held.enter_context(locked(parts.parts_folder(path)))
-                job = Job(study, path, retry_failed)
+                folder = parts.parts_folder(path)
+                held.enter_context(locked(folder))
+                parts.clear(folder)
+                work = Work(study, path, retry_failed)
                 try:
-                    with job.reporting():
-                        job.compute(pool, solver)
+                    with work.reporting():
+                        work.compute(pool, solver)
                 finally:
                     before.result()
                 with without_signals():
-                    before = other.submit(complete, job, held.pop_all())
+                    before = other.submit(complete, work, held.pop_all())
         before.result()
 
 
-class Job:
-    """A study to be computed, while the lock of its archive is held.
+class Work:
+    """The work for a study: the points that it needs, and which of them are known.
+
+    To find that computes no point. The lock of the archive is held while points are computed and written.
 
     Parameters
     ----------
@@ -242,28 +247,62 @@ class Job:
         Path of its archive.
     retry_failed
         Whether to recompute points that failed before.
+
+    Attributes
+    ----------
+    points
+        The distinct points of the study.
+    found
+        Known values of these points; a run fills in the others.
+    others
+        Known values of points and quantities that the study does not have.
+    outdated, coarse
+        Number of points known only from another version of the solver, or only with less accuracy.
     """
 
-    def __init__(self, study: Study, path: Path, retry_failed: bool) -> None:
-        self.study, self.path, self._folder = study, path, parts.parts_folder(path)
-        parts.clear_unfinished(self._folder)
+    def __init__(self, study: Study, path: Path, retry_failed: bool = False) -> None:
         self._begin = self._saved = time.perf_counter()
-        self.work = assess(study, path, retry_failed)
-        self._todo, self._what = int(self.work.todo.sum()), _told(self.work)
-        self._unsaved: list[IndexArray] = []
+        self.study, self.path, self._folder = study, path, parts.parts_folder(path)
+        if path.exists():
+            from swtstudy.archive.archive import known_points
+        else:  # workers start before xarray is imported
+            known_points = parts.known_beside
+        self.points, known = Distinct.of(study.grid, study.asked), known_points(path)
+        usable = known.usable(study.rtol, SOLVER_VERSION, retry_failed)
+        self.found = matching(self.points, known, usable)
+        self.others = not_in(self.points, study.asked, known)
+        lost, own = self.points.rows[self.found["status"] == MISSING], known.usable(np.inf, SOLVER_VERSION)
+        candidates = (known["status"] != MISSING) & ~own, own & ~known.usable(study.rtol, SOLVER_VERSION)
+        self.outdated, self.coarse = (int((look_up(lost, known, some) >= 0).sum()) for some in candidates)
+        self._count, self._unsaved = int(self.todo.sum()), list[IndexArray]()
+
+    @property
+    def incomplete(self) -> BoolArray:
+        """True where s is known, but a quantity is not, shape (n,): these points are computed again."""
+        return self.found.lacking(self.study.asked)
+
+    @property
+    def todo(self) -> BoolArray:
+        """Which points are to be computed, shape (n,)."""
+        return np.asarray((self.found["status"] == MISSING) | self.incomplete)
 
     def compute(self, workers: Workers, solver: Solver) -> None:
         """Compute what is missing, saved in parts as it comes."""
-        work, rtol = self.work, self.study.rtol
+        self._what = self._told()
+        study, found = self.study, self.found
         started = datetime.now(UTC).isoformat(timespec="seconds")
-        run = Run(SOLVER_VERSION, rtol, self.study.text, versions(), started, work.asked.items)
-        work.found.runs = tuple(dict.fromkeys((*work.found.runs, run)))
-        number, missing = work.found.runs.index(run), chunks(work.points, work.todo, work.asked)
-        with Progress(self._todo, self.path.stem, delay=0.0) as shown:
+        run = Run(SOLVER_VERSION, study.rtol, study.text, versions(), started, study.asked.items)
+        found.runs = tuple(dict.fromkeys((*found.runs, run)))
+        number, chunks = found.runs.index(run), cut(self.points, self.todo, study.asked)
+
+        def arguments_of(places: IndexArray) -> tuple[Any, ...]:
+            return *task_of(self.points, places, study.asked), study.rtol, solver
+
+        with Progress(self._count, self.path.stem, delay=0.0) as shown:
             try:
-                for places, arrays in workers.solve(missing, rtol, solver):
+                for places, arrays in workers.solve(chunks, arguments_of):
                     arrays["run"][:] = number
-                    put(work.found.arrays, places, arrays)
+                    put(found.arrays, places, arrays)
                     self._unsaved.append(places)
                     now = time.perf_counter()
                     if now - self._saved >= max(PART_SECONDS, PART_SHARE * (now - self._begin)):
@@ -272,10 +311,25 @@ class Job:
             finally:
                 self._save()
 
+    def _told(self) -> str:
+        """Say in the log what is known; what the run does, for the history."""
+        count, todo, more = len(self.found), self._count, int(self.incomplete.sum())
+        for number, level, words in (
+            (self.outdated, logging.WARNING, "come from another version of the solver and are recomputed"),
+            (self.coarse, logging.INFO, "are less accurate than the study asks for and are recomputed"),
+            (more, logging.INFO, "are computed, but lack quantities that the study asks"),
+        ):
+            if number:
+                _log.log(level, "%d points %s", number, words)
+        if 0 < todo < count:
+            _log.info("%d of %d distinct points are already computed", count - todo, count)
+        words = f", {more} of them for quantities that they lacked" if more else ""
+        return f"{todo} of {count} distinct points computed{words}"
+
     def _save(self) -> None:
         """Save the results of chunks as a part; only then they count."""
         if self._unsaved:
-            parts.save_part(self._folder, self.work.found.take(np.concatenate(self._unsaved)))
+            parts.save_part(self._folder, self.found.take(np.concatenate(self._unsaved)))
             self._unsaved, self._saved = [], time.perf_counter()
 
     def finish(self) -> xr.Dataset:
@@ -283,37 +337,35 @@ class Job:
 
         An archive that exactly this study wrote stays as it is, if nothing had to be done.
         """
-        from swtstudy.archive.archive import build, history_line
-        from swtstudy.archive.netcdf import read_archive, save
+        from swtstudy.archive.archive import build, history_line, read_archive, save
 
         archive, history = None, [history_line(self._what)]
         if self.path.exists():
             archive = read_archive(self.path)
             history.append(archive.attrs["history"])
         same = archive is not None and archive.attrs["study"] == self.study.text
-        if archive is None or not same or self._todo or len(parts.read_parts(self._folder)):
-            work, kept = self.work, parts.kept_folder(self.path)
-            seconds = time.perf_counter() - self._begin
-            dataset = build(self.study, work.points, work.found, "\n".join(history), seconds)
+        if archive is None or not same or self._count or len(parts.read_parts(self._folder)):
+            seconds, kept = time.perf_counter() - self._begin, parts.kept_folder(self.path)
+            dataset = build(self.study, self.points, self.found, "\n".join(history), seconds)
             try:
-                with parts.keeping(kept, work.others):
+                with parts.keeping(kept, self.others):
                     save(dataset, self.path, beside=self._folder)
             except (OSError, RuntimeError) as error:  # netCDF4 raises RuntimeError on a full disk
                 raise OSError(f"cannot write the archive ({error})") from error
-            if len(work.others):
-                _log.info("%d points are not in this study: %s keeps them", len(work.others), kept)
+            if len(self.others):
+                _log.info("%d points are not in this study: %s keeps them", len(self.others), kept)
             archive = read_archive(self.path)
-        parts.clear_parts(self._folder)
+        parts.clear(self._folder, parts.part_paths(self._folder))
         return archive
 
     @contextmanager
     def reporting(self) -> Iterator[None]:
         """However the block is stopped, its error says what is saved and how to go on."""
-        count = len(self.work.found)
+        count = len(self.found)
         try:
             yield
         except (KeyboardInterrupt, OSError) as error:
-            known = count - self.work.todo.sum() - sum(map(len, self._unsaved))
+            known = count - self.todo.sum() - sum(map(len, self._unsaved))
             saved = f"{known} of {count} distinct points are saved beside {self.path}"
             if isinstance(error, KeyboardInterrupt):
                 raise Stopped(f"stopped; {saved}; the same command continues from there") from None
@@ -322,17 +374,69 @@ class Job:
             raise kind(f"{error.strerror or error}; {saved}; {advice}") from error
 
 
-def _told(work: Work) -> str:
-    """Say in the log what is known; what the run does, for the history."""
-    count, todo, more = len(work.found), int(work.todo.sum()), int(work.incomplete.sum())
-    for number, level, words in (
-        (work.outdated, logging.WARNING, "come from another version of the solver and are recomputed"),
-        (work.coarse, logging.INFO, "are less accurate than the study asks for and are recomputed"),
-        (more, logging.INFO, "are computed, but lack quantities that the study asks"),
-    ):
-        if number:
-            _log.log(level, "%d points %s", number, words)
-    if 0 < todo < count:
-        _log.info("%d of %d distinct points are already computed", count - todo, count)
-    words = f", {more} of them for quantities that they lacked" if more else ""
-    return f"{todo} of {count} distinct points computed{words}"
+def not_in(points: Distinct, asked: Request, known: Found) -> Found:
+    """All that is known of points that are not among these, or of more quantities than are asked."""
+    if not len(known):
+        return known
+    own = Found.blank(points.rows)
+    elsewhere = look_up(known["row"], own, np.ones(len(own), bool)) < 0
+    elsewhere |= known.of_runs((not {*run.quantities} <= {*asked.items} for run in known.runs), False)
+    others = known.take(elsewhere & (known["status"] != MISSING))
+    # A kill may have left a value in two places.
+    first, _ = group_rows(others["row"], others["run"])
+    return others.take(np.sort(first))
+
+
+#: Seconds that timing points may take, since a plan is quick, and groups of chunks that are timed.
+_BUDGET, _TIMED = 4.0, 16
+#: A loop of more vertices is timed by one with some of its own, no more than so many.
+_VERTICES = 200
+
+
+def estimate(work: Work) -> tuple[float, int, int]:
+    """Estimate the time of what is left from some points that are solved.
+
+    Chunks are timed at even distances of the list of all, which is sorted by the length of their cycles; each
+    stands for its neighbours.
+
+    Returns
+    -------
+    seconds
+        Computing time.
+    timed
+        Number of points that have been timed.
+    parts
+        Number of chunks, which workers share.
+    """
+    lean, growth = dict(work.points.definitions), dict[int, float]()
+    for code, loop in work.points.definitions.items():
+        if isinstance(loop, LoadPath) and len(loop.vertices) > _VERTICES:
+            lean[code] = thin = loop.thinned(_VERTICES)
+            # As k log k: results/vertices.md.
+            many, few = len(loop.vertices), len(thin.vertices)
+            growth[code] = many * np.log(many) / (few * np.log(few))
+    points, asked = replace(work.points, definitions=lean), work.study.asked
+    todo, rtol = cut(points, work.todo, asked), work.study.rtol
+    if not todo:
+        return 0.0, 0, 0
+
+    def timed(places: IndexArray) -> float:
+        """Time for each of some points."""
+        return float(solve_chunk(*task_of(points, places, asked), rtol)[1]["seconds"].mean())
+
+    timed(todo[-1][:1])  # imports, and compiles
+    groups = np.array_split(np.arange(len(todo)), min(_TIMED, len(todo)))
+    begin, seconds, count, counted = time.perf_counter(), 0.0, 0, 0
+    # The middle groups first: if time is up, the timed groups stand for all.
+    for group in sorted(groups, key=lambda each: abs(int(each[0]) - len(todo) // 2)):
+        places = todo[group[len(group) // 2]]
+        left = _BUDGET - (time.perf_counter() - begin)
+        if count and left < 0.0:
+            break
+        one, own = timed(places[:1]), 1
+        if len(places) * one < left / len(groups):
+            one, own = timed(places), len(places)
+        of_group = sum(len(todo[k]) for k in group)
+        seconds += growth.get(int(points.rows["load"][places[0]]), 1.0) * one * of_group
+        count, counted = count + own, counted + of_group
+    return seconds * sum(map(len, todo)) / counted, count, len(todo)

@@ -21,8 +21,9 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any, Self
 
 import cloudpickle
+import numpy as np
 
-from swtstudy.points.chunk import Arrays, Chunk, Solver, blank, solve_chunk
+from swtstudy.points.chunk import Arrays, blank, solve_chunk
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.quantities import FAILED
@@ -48,6 +49,8 @@ LOST_WORKER = "the worker process died while it computed this point"
 
 #: Places and values of a chunk.
 Solved = tuple[IndexArray, Arrays]
+#: Gives the arguments of `swtstudy.points.chunk.solve_chunk` for the places of a chunk.
+ArgumentsOf = Callable[[IndexArray], tuple[Any, ...]]
 
 
 class WorkerError(OSError):
@@ -145,8 +148,8 @@ class Workers:
         if executor is not None:
             executor.shutdown(wait=wait, **self._at_shutdown)
 
-    def solve(self, chunks: Iterable[Chunk], rtol: float, solver: Solver) -> Iterator[Solved]:
-        """Yield the values of all chunks, in any order.
+    def solve(self, chunks: Iterable[IndexArray], arguments_of: ArgumentsOf) -> Iterator[Solved]:
+        """Yield the places and the values of all chunks, in any order.
 
         The points of chunks that were in flight when a worker died are solved again one by one, so that a
         point that kills workers fails alone.
@@ -154,9 +157,9 @@ class Workers:
         Parameters
         ----------
         chunks
-            Consumed as they are needed.
-        rtol, solver
-            As in `swtstudy.run`.
+            Places of points that are solved in one call.
+        arguments_of
+            Gives the arguments of `swtstudy.points.chunk.solve_chunk` for some places.
 
         Raises
         ------
@@ -164,22 +167,22 @@ class Workers:
             If a worker cannot even begin to solve.
         """
         waiting = iter(chunks)
-        while lost := (yield from self._until_loss(waiting, rtol, solver)):
-            for one in (one for chunk in lost for one in chunk.singly()):
-                if (yield from self._until_loss(iter([one]), rtol, solver)):
-                    yield one.places, blank(1, FAILED, LOST_WORKER)
+        while lost := (yield from self._until_loss(waiting, arguments_of)):
+            for place in (place for chunk in lost for place in np.split(chunk, len(chunk))):
+                if (yield from self._until_loss(iter([place]), arguments_of)):
+                    yield place, blank(1, FAILED, LOST_WORKER)
 
     def _until_loss(
-        self, waiting: Iterator[Chunk], rtol: float, solver: Solver
-    ) -> Generator[Solved, None, list[Chunk]]:
+        self, waiting: Iterator[IndexArray], arguments_of: ArgumentsOf
+    ) -> Generator[Solved, None, list[IndexArray]]:
         """Solve chunks until there are no more, or a worker dies; return the chunks lost in flight."""
-        in_flight: dict[Future[Any], Chunk] = {}
+        in_flight: dict[Future[Any], IndexArray] = {}
         # Not by `concurrent.futures.wait`, which Ctrl-C may leave with futures locked.
         done: SimpleQueue[Future[Any]] = SimpleQueue()
         while True:
             for chunk in islice(waiting, max(0, IN_FLIGHT * self.size - len(in_flight))):
                 with without_signals():
-                    future = self.submit(solve_chunk, chunk, rtol, solver)
+                    future = self.submit(solve_chunk, *arguments_of(chunk))
                     in_flight[future] = chunk
                     future.add_done_callback(done.put)
             if not in_flight:
@@ -200,7 +203,7 @@ class Workers:
             if version != SOLVER_VERSION:
                 words = f"a worker has version {version} of the solver, this machine {SOLVER_VERSION}"
                 raise WorkerError(words)
-            yield in_flight.pop(future).places, arrays
+            yield in_flight.pop(future), arrays
 
 
 class LocalPool(Workers):

@@ -51,7 +51,7 @@ def sensitivity(
     targets = {end: target.with_name(f"{stem}{end}") for end in (".nc", ".md", ".png")}
     check_writable(target, *targets.values())
 
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
     from swtstudy.paper.markdown import table
 
     indices = swtstudy.sensitivity(swtstudy.run(one, target, workers=workers), y, confidence, seed)
@@ -86,7 +86,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     Examples:
       swtstudy fit rig.toml tests.csv
     """
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
     from swtstudy.figures.statistics import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
 

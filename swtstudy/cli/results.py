@@ -141,12 +141,12 @@ def merge(archives: tuple[str, ...], output: str, sparse: bool) -> None:
     Examples:
       swtstudy merge results/a.nc results/b.nc -o results/both.nc
     """
+    from swtstudy.archive.archive import known_points, save
     from swtstudy.archive.merge import merge as merge_archives
-    from swtstudy.archive.netcdf import save
-    from swtstudy.archive.parts import keeping, kept_folder, known_points, parts_folder
+    from swtstudy.archive.parts import keeping, kept_folder, parts_folder
     from swtstudy.archive.recall import grid_of, request_of
-    from swtstudy.archive.work import not_in
-    from swtstudy.points.canonical import Distinct
+    from swtstudy.archive.run import not_in
+    from swtstudy.points.grid import Distinct
     from swtstudy.vocabulary.quantities import MISSING
 
     target = Path(output)

@@ -111,9 +111,9 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 
 def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
     """Describe a run in labels and words, with its time from a few points that are solved."""
-    from swtstudy.archive.work import assess, estimate
+    from swtstudy.archive.run import Work, estimate
 
-    work = assess(study, target)
+    work = Work(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
     count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
     panels = f" in {count} panels" if count > 1 else ""
@@ -135,7 +135,7 @@ def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, st
     if work.coarse:
         yield "recomputed", f"{work.coarse} are less accurate than the study asks for"
     if todo:
-        seconds, timed, parts = estimate(work, study.rtol)
+        seconds, timed, parts = estimate(work)
         each = f"{1e3 * seconds / todo:.3g} ms a point, from {number_of(timed, 'point')} timed"
         wall = duration(seconds / min(workers, parts))
         yield "time", f"about {wall} with {workers} workers ({each})"
@@ -165,7 +165,7 @@ def list_studies(context: click.Context, parameters: bool) -> None:
             formatter.write_dl([*quantities, (DISTANCE, QUANTITY_AXES[DISTANCE].explained)])
         click.echo(formatter.getvalue(), nl=False)
         return
-    from swtstudy.points.canonical import LARGEST_GRID
+    from swtstudy.points.grid import LARGEST_GRID
 
     studies = {name: swtstudy.Study.from_toml(path) for name, path in shipped_studies().items()}
     width = max(map(len, studies))

@@ -14,10 +14,9 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from swtstudy.faces.one_body import OneBody, given_values, one_contact
-from swtstudy.points.arguments import OF_POINTS, dimensions_of, listed, spanned
-from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.grid import SHAPE_COLUMNS
 from swtstudy.points.labelled import margins, values_along
-from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.reading import OF_POINTS, dimensions_of, listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts
 from swtstudy.points.solve import solve_grid
 from swtstudy.solver.table import TabulatedProfile

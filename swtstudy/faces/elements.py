@@ -325,7 +325,7 @@ def cycle_shares(
 def write_history(found: xr.Dataset, path: Path) -> None:
     """Write results at points: a .vtu file for ParaView (by meshio), a CSV table, or netCDF (`ENDINGS`)."""
     if path.suffix == ".nc":
-        from swtstudy.archive.netcdf import save
+        from swtstudy.archive.archive import save
 
         save(found, path)
         return

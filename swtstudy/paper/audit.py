@@ -17,7 +17,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
+from swtstudy.points.grid import COLUMNS, COST, ROW, Definitions, Table, code_of, points_from, value_of
 from swtstudy.solver.definitions import defined_in, definitions_text
 from swtstudy.study.definition import Study, require_study
 from swtstudy.study.sample import drawn_rows
@@ -105,7 +105,7 @@ def open_audit(path: str | PathLike[str]) -> xr.Dataset:
     ValueError
         If the file holds no audit, or is damaged.
     """
-    from swtstudy.archive.netcdf import load_file
+    from swtstudy.archive.archive import load_file
 
     dataset = load_file(Path(path))
     if not {*_COLUMNS, *_ATTRIBUTES} <= {*dataset.variables}:
@@ -166,7 +166,7 @@ def audit_study(
         If the file exists but holds no audit, or ``study`` is not a Study.
     """
     require_study(study)
-    from swtstudy.archive.netcdf import save
+    from swtstudy.archive.archive import save
     from swtstudy.archive.workers import start_workers
 
     keys = drawn_rows(study.grid, points, seed).tolist()
@@ -218,7 +218,7 @@ def _known(path: Path, own: Definitions) -> tuple[dict[tuple[float, ...], np.voi
 
 
 def audit_point(row: Sequence[float], definitions: Definitions, dense: bool = False) -> np.void:
-    """Audit one canonical row (`swtstudy.points.canonical`).
+    """Audit one canonical row (`swtstudy.points.grid`).
 
     Parameters
     ----------

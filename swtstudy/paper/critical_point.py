@@ -14,7 +14,7 @@ import xarray as xr
 from swtstudy.archive.recall import grid_of
 from swtstudy.paper.audit import VERDICTS
 from swtstudy.paper.statements import Measured
-from swtstudy.points.canonical import alike, canonical_points, points_from
+from swtstudy.points.grid import alike, canonical_points, points_from
 from swtstudy.solver.margins import margins_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import REGIMES

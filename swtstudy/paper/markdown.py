@@ -11,7 +11,7 @@ import pandas as pd
 import xarray as xr
 
 from swtstudy.paper.audit import TOLERANCE, VERDICTS, canonical_rows
-from swtstudy.points.canonical import describe_point
+from swtstudy.points.grid import describe_point
 from swtstudy.solver.definitions import defined_in
 from swtstudy.vocabulary.choices import REGIMES, SHARP
 from swtstudy.vocabulary.parameters import AXES

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
@@ -12,26 +12,14 @@ import numpy as np
 from numpy.lib.recfunctions import append_fields
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import COST, ROW, Distinct, Table, alike, group_rows, points_from
+from swtstudy.points.grid import COST, ROW, Distinct, Table, alike, group_rows, points_from
 from swtstudy.solver import points as mechanics
 from swtstudy.solver.points import Points, Solution
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray, IntArray
 from swtstudy.vocabulary.choices import REGIMES, WITHOUT_S
 from swtstudy.vocabulary.files import read_json
 from swtstudy.vocabulary.mistakes import literal
-from swtstudy.vocabulary.quantities import (
-    COMPUTED,
-    COUNTS,
-    DISTANCE,
-    FAILED,
-    MISSING,
-    NAMED,
-    NONLOCAL,
-    NOTHING,
-    SOLVED,
-    YIELD,
-    Request,
-)
+from swtstudy.vocabulary.quantities import COMPUTED, FAILED, ITEMS, MISSING, NONLOCAL, SOLVED, Request
 from swtstudy.vocabulary.version import SOLVER_VERSION
 
 #: Arrays of shape (n, …) by name.
@@ -44,34 +32,11 @@ Solver = Callable[[Points, float], Solution] | None
 PIECES, PIECES_OF_BODY = 128, 16
 
 
-@dataclass(frozen=True)
-class Chunk:
-    """Points that are solved in one call: of one profile family, criterion, control and loop.
-
-    Attributes
-    ----------
-    places
-        Shape (n,): where the points are in the table of the run.
-    points
-        The points' parameters.
-    asked
-        The quantities beside s; distances in a_H.
-    """
-
-    places: IndexArray
-    points: Points
-    asked: Request
-
-    def singly(self) -> Iterator[Chunk]:
-        """Each of its points alone."""
-        for k in range(len(self.places)):
-            yield Chunk(self.places[[k]], self.points[[k]], self.asked)
-
-
-def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[IndexArray]:
+def cut(points: Distinct, wanted: BoolArray, asked: Request) -> list[IndexArray]:
     """Places of the wanted points of a table, cut into chunks, long cycles first.
 
-    So no worker waits for another's.
+    The points of a chunk are solved in one call: they share profile family, criterion, control, loop and
+    critical distances. Long cycles are first, so that no worker waits for another's.
 
     Parameters
     ----------
@@ -84,7 +49,7 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     """
     places = np.flatnonzero(wanted)
     pieces = points.rows["p"] + points.rows["q"] + points.rows[COST]
-    if {YIELD, DISTANCE} & {*asked.items}:
+    if asked.is_of_body:
         pieces = np.maximum(pieces, PIECES_OF_BODY * max(1, len(asked.distances)))
     found: list[IndexArray] = []
     for own in alike(points.rows if wanted.all() else points.rows[places], *points.distances[places].T):
@@ -95,19 +60,14 @@ def cut(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> list[I
     return sorted(found, key=lambda each: -int(pieces[each[0]]))
 
 
-def chunk_of(points: Distinct, places: IndexArray, asked: Request = NOTHING) -> Chunk:
-    """The chunk of some points of a table, which have the same critical distances."""
+def task_of(points: Distinct, places: IndexArray, asked: Request) -> tuple[Points, Request]:
+    """A chunk as points for the solver, and what is asked of them, with their distances in a_H."""
     own = replace(asked, distances=tuple(points.distances[places[0]].tolist()))
-    return Chunk(places, points_from(points.rows[places], points.definitions), own)
+    return points_from(points.rows[places], points.definitions), own
 
 
-def chunks(points: Distinct, wanted: BoolArray, asked: Request = NOTHING) -> Iterator[Chunk]:
-    """Chunks of the wanted points of a table; see `cut`."""
-    return (chunk_of(points, places, asked) for places in cut(points, wanted, asked))
-
-
-def solve_chunk(chunk: Chunk, rtol: float, solver: Solver = None) -> tuple[str, Arrays]:
-    """Solve a chunk, in a worker.
+def solve_chunk(points: Points, asked: Request, rtol: float, solver: Solver = None) -> tuple[str, Arrays]:
+    """Solve the points of a chunk, in a worker, and find what is asked of them.
 
     Returns
     -------
@@ -116,20 +76,20 @@ def solve_chunk(chunk: Chunk, rtol: float, solver: Solver = None) -> tuple[str, 
     dict
         Values of the points, in order. A point that fails does so alone, with its message and what it has.
     """
-    begin, arrays = time.perf_counter(), blank(len(chunk.places), FAILED)
+    begin, arrays = time.perf_counter(), blank(len(points), FAILED)
     try:
-        fill(arrays, chunk, rtol, solver)
+        fill(arrays, points, asked, rtol, solver)
     except Exception as error:
-        if len(chunk.places) > 1:
-            return SOLVER_VERSION, stacked([solve_chunk(one, rtol, solver)[1] for one in chunk.singly()])
+        if len(points) > 1:
+            alone = (solve_chunk(points[[k]], asked, rtol, solver)[1] for k in range(len(points)))
+            return SOLVER_VERSION, stacked([*alone])
         arrays["message"][:] = f"{type(error).__name__}: {error}"
-    arrays["seconds"][:] = (time.perf_counter() - begin) / len(chunk.places)
+    arrays["seconds"][:] = (time.perf_counter() - begin) / len(points)
     return SOLVER_VERSION, arrays
 
 
-def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> None:
-    """Solve the points of a chunk, and find what else is asked of them; raises if one has no value."""
-    points, asked = chunk.points, chunk.asked
+def fill(arrays: Arrays, points: Points, asked: Request, rtol: float, solver: Solver = None) -> None:
+    """Solve points, and find what else is asked of them; raises if one has no value."""
     # The caller's np.seterr is not meant for the solver, in which NaN and inf are values.
     with np.errstate(all="ignore"):
         solution = (solver or mechanics.solve_points)(points, rtol)
@@ -142,7 +102,7 @@ def fill(arrays: Arrays, chunk: Chunk, rtol: float, solver: Solver = None) -> No
 
             arrays.update(quantities_of(points, asked, solution))
         if asked.distances:
-            arrays["distance"] = np.tile(asked.distances, (len(chunk.places), 1))
+            arrays["distance"] = np.tile(asked.distances, (len(points), 1))
     arrays["status"][:] = COMPUTED
 
 
@@ -229,7 +189,7 @@ def read_runs(text: object) -> tuple[Run, ...]:
     """
     runs: tuple[Run, ...] = read_json(tuple[Run, ...], text)
     for run in runs:
-        if not {*run.quantities} <= {*NAMED, COUNTS, DISTANCE}:
+        if not {*run.quantities} <= {*ITEMS}:
             raise ValueError(f"quantities of a run: {literal(run.quantities)}")
         if not 0.0 <= run.seconds < math.inf:
             raise ValueError(f"seconds of a run: {literal(run.seconds)}")
@@ -243,7 +203,7 @@ class Found:
     Attributes
     ----------
     arrays
-        By name: ``row``, what the point is (`swtstudy.points.canonical.ROW`); what the solver finds;
+        By name: ``row``, what the point is (`swtstudy.points.grid.ROW`); what the solver finds;
         ``status``; ``run``, an index into the runs, -1 where missing; ``message``, why a point failed;
         ``seconds`` of computing; and quantities, those over critical distances with ``distance``, shape
         (n, k), in a_H: NaN where nothing is known of it.

@@ -10,24 +10,15 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import Distinct, alike, code_of, points_from
 from swtstudy.points.chunk import Arrays
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Distinct, Grid, alike, code_of, points_from
 from swtstudy.points.validity import validity_lines
 from swtstudy.points.values import Value, as_number
 from swtstudy.vocabulary.arrays import BoolArray, IndexArray
 from swtstudy.vocabulary.choices import BENEATH, CRITERIA, REGIMES, SWT, is_plane, with_values_of
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import CONTROLS, DIRECTIONS, HARMONIC, QUANTITY_AXES, SHIFT, Parameter
-from swtstudy.vocabulary.quantities import (
-    DISTANCE,
-    NOTHING,
-    QUANTITIES,
-    SOLVED,
-    STICK_ENDS,
-    Request,
-    attributes_of,
-)
+from swtstudy.vocabulary.quantities import DISTANCE, QUANTITIES, SOLVED, STICK_ENDS, Request, attributes_of
 
 #: xarray breaks the labels of its own plots after 30 characters, including the unit.
 _LONGEST_NAME = 24
@@ -40,7 +31,7 @@ MOST_FORESEEN = 100_000
 _ROUNDING = 1e-9
 
 
-def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request = NOTHING) -> xr.Dataset:
+def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.Dataset:
     """The Dataset of a grid.
 
     Parameters
@@ -243,4 +234,4 @@ def foreseen_lines(grid: Grid) -> tuple[str, ...]:
     states = [REGIMES.index(name) for name in ("no_equilibrium", "stick")]
     arrays = {name: np.full(grid.size, np.nan) for name in SOLVED}
     arrays["regime"] = np.where(lost, *states).astype(np.int8)
-    return tuple(str(label(grid, arrays | found).attrs.get("validity", "")).splitlines())
+    return tuple(str(label(grid, arrays | found, Request()).attrs.get("validity", "")).splitlines())

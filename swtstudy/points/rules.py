@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.points.canonical import SHAPE_COLUMNS, value_of
-from swtstudy.points.grid import Grid, complete, numbers_at
+from swtstudy.points.grid import SHAPE_COLUMNS, Grid, complete, numbers_at, value_of
 from swtstudy.points.values import amplitudes_of, as_number, press_steadily, values_taken
 from swtstudy.solver.at_rest import check_shape, compact_shapes, largest_depths
 from swtstudy.solver.loop import Loop
@@ -161,10 +160,9 @@ def doubts(grid: Grid, where: str = "") -> Iterator[str]:
     for name in (name for name, still in idle.items() if still and name in grid.axes):
         yield f"{where}{name} has no effect: what it is of does not oscillate"
     largest: dict[str, float] = {}
-    for profile, depth in grid.profiles_at_rest():
-        if isinstance(profile, TabulatedProfile):
-            share = profile.smoothed_share(depth)
-            largest[profile.name] = max(share, largest.get(profile.name, 0.0))
+    for table in grid.definitions.values():
+        if isinstance(table, TabulatedProfile):
+            largest[table.name] = max(table.smoothed_share(1.0), largest.get(table.name, 0.0))
     for name, share in largest.items():
         if share > ROUGH:
             yield (

@@ -8,27 +8,24 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
-from swtstudy.points.arguments import listed, spanned
-from swtstudy.points.canonical import Distinct, check_count
-from swtstudy.points.chunk import Arrays, Chunk, blank, chunks, fill, put
-from swtstudy.points.grid import Grid
-from swtstudy.points.reading import read_distances, read_grid
+from swtstudy.points.chunk import Arrays, blank, cut, fill, put, task_of
+from swtstudy.points.grid import Distinct, Grid, check_count
+from swtstudy.points.labelled import label, margins, values_at
+from swtstudy.points.reading import listed, read_distances, read_grid, spanned
 from swtstudy.points.rules import doubts
 from swtstudy.vocabulary.arrays import IndexArray
 from swtstudy.vocabulary.mistakes import DEFAULT_RTOL, Report, StudyError
 from swtstudy.vocabulary.naming import with_parameters
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.progress import Progress
-from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, SOLVED, Request, read_quantities
+from swtstudy.vocabulary.quantities import DISTANCE, SOLVED, Request, read_quantities
 from swtstudy.vocabulary.version import __version__
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 
 @with_parameters((*PARAMETERS.values(), QUANTITY_AXES[DISTANCE]))
@@ -106,9 +103,7 @@ def solve(*, rtol: float = DEFAULT_RTOL, quantities: Sequence[str] = (), **param
     return solve_grid(replace(grid, sample_dim=dim, sample_labels=labels), float(rtol), asked, lazy)
 
 
-def solve_grid(
-    grid: Grid, rtol: float, asked: Request = NOTHING, lazy: Mapping[str, Any] | None = None
-) -> xr.Dataset:
+def solve_grid(grid: Grid, rtol: float, asked: Request, lazy: Mapping[str, Any] | None = None) -> xr.Dataset:
     """s on a grid, and what is ``asked`` beside it, solved in this process.
 
     Parameters
@@ -118,10 +113,6 @@ def solve_grid(
     lazy
         Chunks of dask along dimensions. If there are some, data variables are arrays of dask.
     """
-    import xarray as xr
-
-    from swtstudy.points.labelled import label, margins
-
     check_count(grid)
     points = None
     if lazy:
@@ -155,22 +146,20 @@ def _values_of_block(
 
 def _solved(grid: Grid, rtol: float, asked: Request, places: IndexArray) -> tuple[Distinct, Arrays]:
     """The distinct points at places of a grid, and the values there; raises if a point has no value."""
-    from swtstudy.points.labelled import values_at
-
     points = Distinct.of(grid, asked, places)
     count = len(points.rows)
     found = blank(count)
-    every = [*chunks(points, np.ones(count, bool), asked)]
+    chunks = cut(points, np.ones(count, bool), asked)
 
-    def solved(chunk: Chunk) -> Arrays:
-        arrays = blank(len(chunk.places))
-        fill(arrays, chunk, rtol)
+    def solved(chunk: IndexArray) -> Arrays:
+        arrays = blank(len(chunk))
+        fill(arrays, *task_of(points, chunk, asked), rtol)
         return arrays
 
     with Progress(count) as progress, ThreadPoolExecutor(os.cpu_count()) as threads:
         # The first thread starts with the second chunk: to start one takes as long as to solve a point.
-        each = threads.map(solved, every) if len(every) > 1 else map(solved, every)
-        for chunk, arrays in zip(every, each, strict=True):
-            put(found, chunk.places, arrays)
-            progress.add(len(chunk.places))
+        each = threads.map(solved, chunks) if len(chunks) > 1 else map(solved, chunks)
+        for chunk, arrays in zip(chunks, each, strict=True):
+            put(found, chunk, arrays)
+            progress.add(len(chunk))
     return points, values_at(grid, points, found, asked, places)

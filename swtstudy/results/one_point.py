@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from swtstudy.kernel.field import Opened, open_cycle
-from swtstudy.points.canonical import canonical_points, points_from
+from swtstudy.points.grid import canonical_points, points_from
 from swtstudy.points.reading import read_grid
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.solver.margins import margins_of

@@ -11,8 +11,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.grid import SAMPLE, Grid
+from swtstudy.points.grid import SAMPLE, SHAPE_COLUMNS, Grid
 from swtstudy.points.rules import doubts
 from swtstudy.points.values import Value
 from swtstudy.study.figure import FigureLayout

@@ -16,10 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.points.arguments import read_points
-from swtstudy.points.canonical import Table, canonical_points, group_rows
-from swtstudy.points.grid import Grid
-from swtstudy.points.reading import LONGEST_AXIS, Known
+from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
+from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
 from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
 from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
 from swtstudy.study.keys import DesignName, SampleTable, under

@@ -100,6 +100,8 @@ QUANTITIES = {name: Quantity(name, **row) for name, row in read_table(__file__, 
 NAMED = {name: row for name, row in QUANTITIES.items() if not row.dims}
 NONLOCAL = {name: row for name, row in QUANTITIES.items() if DISTANCE in row.dims}
 COUNTED = {name: row for name, row in QUANTITIES.items() if row.dims == (*COUNTED_SIZES,)}
+#: All that `Request.items` may name.
+ITEMS = (*NAMED, COUNTS, DISTANCE)
 ALLOWED = f"a list of {', '.join(NAMED)}"
 
 
@@ -128,6 +130,11 @@ class Request:
     def items(self) -> tuple[str, ...]:
         """Names of all that is asked, as runs record it: the names, `COUNTS` and `DISTANCE`."""
         return (*self.names, *(COUNTS,) * self.counts, *(DISTANCE,) * bool(self.distances))
+
+    @property
+    def is_of_body(self) -> bool:
+        """True if values beneath the surface are asked, which take longer."""
+        return YIELD in self.names or bool(self.distances)
 
     @property
     def rows(self) -> tuple[Quantity, ...]:

@@ -291,7 +291,7 @@ CHANGES: list[tuple[str, Callable, str]] = [
         attribute(np.inf, "wall_time_seconds"),
         ("attribute wall_time_seconds: found inf; allowed: a number of seconds"),
     ),
-    ("plain", attribute([1, 2], "source"), ("attribute source: found [1, 2]; allowed: a text")),
+    ("plain", attribute([1, 2], "source"), ("attribute source: found array([1, 2]); allowed: a text")),
     (
         "plain",
         attribute("{}", "runs"),

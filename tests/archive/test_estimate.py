@@ -10,7 +10,7 @@ import pytest
 import stand_in
 
 from swtstudy import Study
-from swtstudy.archive.work import assess, estimate
+from swtstudy.archive.run import Work, estimate
 
 LINE = 'title = "t"\nrtol = 1e-3\n[axes]\nfriction = {{start = 0.1, stop = 2, num = {count}}}\n'
 
@@ -35,7 +35,7 @@ class Clock:
 def foreseen(monkeypatch: pytest.MonkeyPatch, clock: Clock, text: str) -> tuple[float, int, int]:
     monkeypatch.setattr(time, "perf_counter", clock)
     monkeypatch.setattr(stand_in.SOLVER, clock.solve)
-    return estimate(assess(Study.from_text(text), Path("absent.nc")), 1e-3)
+    return estimate(Work(Study.from_text(text), Path("absent.nc")))
 
 
 def test_quick_points_are_all_timed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -62,9 +62,9 @@ def test_what_a_call_takes_is_shared_by_its_points(monkeypatch: pytest.MonkeyPat
 
 def test_nothing_takes_no_time(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     study = Study.from_text(LINE.format(count=3))
-    work = assess(study, tmp_path / "absent.nc")
+    work = Work(study, tmp_path / "absent.nc")
     work.found["status"][:] = 0
-    assert estimate(work, 1e-3) == (0.0, 0, 0)
+    assert estimate(work) == (0.0, 0, 0)
 
 
 def test_a_loop_of_many_vertices_is_timed_by_one_with_fewer(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,11 +12,12 @@ import pytest
 import stand_in
 
 from swtstudy import Study, run
+from swtstudy.archive.archive import known_points
 from swtstudy.archive.parts import (
-    clear_parts,
+    clear,
     keeping,
     kept_folder,
-    known_points,
+    part_paths,
     parts_folder,
     points_saved,
     read_parts,
@@ -56,7 +57,7 @@ def test_a_part_is_read_as_it_was_written(found: Found, tmp_path: Path) -> None:
     assert sorted(path.name for path in folder.iterdir()) == ["000001.npz", "000007.npz", "000008.npz"]
     assert len(read_parts(folder)) == 6
     assert points_saved(folder) == 3
-    clear_parts(folder)
+    clear(folder, part_paths(folder))
     assert not [*folder.iterdir()]
     assert len(read_parts(folder)) == 0
     assert len(read_parts(tmp_path / "absent")) == 0

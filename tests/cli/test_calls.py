@@ -211,7 +211,7 @@ def test_history_says_where_each_criterion_is_largest(called: Callable) -> None:
 def test_fit_prints_and_writes_what_it_found(called: Callable) -> None:
     found, drawn = called("swtstudy.fit", "found"), called("swtstudy.figures.statistics.draw_fit", "figure")
     called("swtstudy.figures.statistics.fit_lines", ["one", "two"])
-    stored, saved = called("swtstudy.archive.netcdf.save"), called("swtstudy.figures.style.save_figure")
+    stored, saved = called("swtstudy.archive.archive.save"), called("swtstudy.figures.style.save_figure")
     own = ("--y", "cycles_line", "--friction", "--confidence", "0.9", "--results", "out", "--width", "column")
     done = call("fit", "deeper/rig.toml", "tests.csv", *own)
     assert done.output == "one\ntwo\nout/rig_fit.nc\nout/rig_fit.png\n"
@@ -238,7 +238,7 @@ def test_sensitivity_writes_beside_the_archive_by_the_names_of_its_quantities(ca
     found = called("swtstudy.sensitivity", "indices")
     drawn = called("swtstudy.figures.statistics.draw_sensitivity", "figure")
     table = called("swtstudy.paper.markdown.table", "| a |\n|---|\n| 1 |\n")
-    stored, saved = called("swtstudy.archive.netcdf.save"), called("swtstudy.figures.style.save_figure")
+    stored, saved = called("swtstudy.archive.archive.save"), called("swtstudy.figures.style.save_figure")
     text = 'title = "t"\n[sample]\ndesign = "saltelli"\nsize = 4\n[sample.ranges]\nfriction = [0.1, 0.5]\n'
     Path("mine.toml").write_text(text)
     own = ("--y", "s", "--y", "s/s(phase=0)", "--confidence", "0.9", "--seed", 5, "--width", "page")

@@ -209,7 +209,7 @@ def test_plan_writes_nothing(study, tmp_path):
     ],
 )
 def test_plan_tells_the_time_of_the_workers(study, tmp_path, monkeypatch, seconds, parts, words):
-    monkeypatch.setattr("swtstudy.archive.work.estimate", lambda work, rtol: (seconds, 1, parts))
+    monkeypatch.setattr("swtstudy.archive.run.estimate", lambda work: (seconds, 1, parts))
     assert f"about {words} with 2 workers" in call("plan", study, "--results", tmp_path).output
 
 
@@ -500,7 +500,7 @@ def test_a_study_that_memory_cannot_hold_ends_in_one_line(monkeypatch):
     def refuse(*_):
         raise MemoryError("Unable to allocate 4.85 GiB")
 
-    monkeypatch.setattr("swtstudy.archive.work.assess", refuse)
+    monkeypatch.setattr("swtstudy.archive.run.Work", refuse)
     result = call("plan", "figure3")
     assert result.exit_code == 2
     assert result.stderr == "Error: Unable to allocate 4.85 GiB\n"

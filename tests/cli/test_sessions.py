@@ -139,5 +139,5 @@ def test_a_session_prints_what_it_printed(tmp_path: Path, monkeypatch: pytest.Mo
             run(wide, "line.nc", workers=1, solver=stand_in.Interrupting(192))
     if name == "outdated":
         run(Study.from_toml("line.toml"), "line.nc")
-        monkeypatch.setattr("swtstudy.archive.work.SOLVER_VERSION", "0")
+        monkeypatch.setattr("swtstudy.archive.run.SOLVER_VERSION", "0")
     assert replayed(SESSIONS[name]).rstrip() == SESSIONS[name].rstrip()

@@ -22,7 +22,7 @@ from swtstudy.paper.audit import audit_point, open_audit
 from swtstudy.paper.markdown import table
 from swtstudy.paper.maxima import body_maximum
 from swtstudy.paper.statements import Outcome, about_archive, markdown, summary
-from swtstudy.points.canonical import canonical_points
+from swtstudy.points.grid import canonical_points
 from swtstudy.points.reading import read_grid
 from swtstudy.results.one_point import read_point
 
@@ -156,7 +156,7 @@ def test_an_audit_is_saved_as_it_goes_on(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("swtstudy.paper.audit.Progress", Shown)
     monkeypatch.setattr("swtstudy.paper.audit.audit_point", lambda *_, **__: made_up_point())
     monkeypatch.setattr("swtstudy.archive.workers.start_workers", ThreadPoolExecutor)
-    monkeypatch.setattr("swtstudy.archive.netcdf.save", lambda found, _: saved.append(found.sizes["sample"]))
+    monkeypatch.setattr("swtstudy.archive.archive.save", lambda found, _: saved.append(found.sizes["sample"]))
     monkeypatch.setattr("time.monotonic", lambda: float(next(clock)))
     study = swtstudy.Study.from_text('title = "t"\naxes.friction = [0.1, 0.2, 0.3, 0.4, 0.5]\n')
     found = swtstudy.audit_study(study, tmp_path / "mine.nc", points=5, seed=7, workers=1)

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from swtstudy import Study
-from swtstudy.points.canonical import alike, canonical_points, describe_point, group_rows, rounded
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import Grid, alike, canonical_points, describe_point, group_rows, rounded
 from swtstudy.points.labelled import turned
 
 TABLE_1 = "normal_amplitude=0.75, tangential_amplitude=0.833333"

@@ -9,12 +9,10 @@ import stand_in
 from real import RIG
 
 from swtstudy import Study
-from swtstudy.points.canonical import ROW, Distinct
 from swtstudy.points.chunk import (
     Found,
     Run,
     blank,
-    chunks,
     cut,
     join,
     look_up,
@@ -22,7 +20,9 @@ from swtstudy.points.chunk import (
     put,
     solve_chunk,
     stacked,
+    task_of,
 )
+from swtstudy.points.grid import ROW, Distinct
 from swtstudy.vocabulary.quantities import NOTHING, Request
 
 NAN = np.nan
@@ -54,27 +54,27 @@ def test_chunks_have_equal_work_and_long_cycles_come_first() -> None:
     points = distinct('axes.frequency_ratio = ["40/39", 1, "20/21"]\naxes.friction = [0.1, 0.2, 0.3, 0.4]')
     pieces = points.rows["p"] + points.rows["q"]
     every = np.ones(len(points.rows), bool)
-    found = [pieces[each].tolist() for each in cut(points, every)]
+    found = [pieces[each].tolist() for each in cut(points, every, NOTHING)]
     assert found == [[79], [79, 79], [79, 41], [41, 41, 41, 2, 2, 2, 2]]
-    assert sorted(np.concatenate(cut(points, every)).tolist()) == [*range(12)]
-    assert [each.size for each in cut(points, pieces == 2)] == [4]
+    assert sorted(np.concatenate(cut(points, every, NOTHING)).tolist()) == [*range(12)]
+    assert [each.size for each in cut(points, pieces == 2, NOTHING)] == [4]
     # A point of which means over the body are asked counts as sixteen pieces at least.
     means = Request((), (0.1,))
     assert [each.size for each in cut(points, every, means)] == [1, 2, 2, 5, 2]
     many = distinct("axes.friction = { start = 0.1, stop = 0.9, num = 20 }")
     every = np.ones(20, bool)
-    assert [each.size for each in cut(many, every)] == [20]
+    assert [each.size for each in cut(many, every, NOTHING)] == [20]
     for asked in (means, Request(("von_mises",))):
         assert [each.size for each in cut(many, every, asked)] == [8, 8, 4]
     two = distinct('axes.profile = ["paraboloid", "rounded_punch"]\nfixed.flat_radius = 0.5')
-    assert [each.points.profile for each in chunks(two, np.ones(2, bool))] == ["paraboloid", "rounded_punch"]
-    assert cut(two, np.zeros(2, bool)) == []
+    tasks = [task_of(two, each, NOTHING) for each in cut(two, np.ones(2, bool), NOTHING)]
+    assert [own.profile for own, _ in tasks] == ["paraboloid", "rounded_punch"]
+    assert cut(two, np.zeros(2, bool), NOTHING) == []
 
 
 def test_a_point_that_fails_does_so_alone() -> None:
     points = distinct("axes.friction = [0.1, 0.2, 0.3]")
-    (chunk,) = chunks(points, np.ones(3, bool))
-    assert [one.places.tolist() for one in chunk.singly()] == [[0], [1], [2]]
+    (chunk,) = cut(points, np.ones(3, bool), NOTHING)
 
     def failing(own: stand_in.Points, rtol: float) -> stand_in.Solution:
         return stand_in.fail_at(0.2, own, rtol)
@@ -83,7 +83,7 @@ def test_a_point_that_fails_does_so_alone() -> None:
         (failing, "ZeroDivisionError: an injected failure"),
         (lambda own, rtol: stand_in.lose_at(0.2, own, rtol), "ArithmeticError: the solver found no value"),
     ):
-        _, found = solve_chunk(chunk, 1e-3, solver)
+        _, found = solve_chunk(*task_of(points, chunk, NOTHING), 1e-3, solver)
         assert found["status"].tolist() == [COMPUTED, FAILED, COMPUTED]
         assert found["message"].tolist() == ["", message, ""]
         assert np.isfinite(found["s"]).tolist() == [True, False, True]

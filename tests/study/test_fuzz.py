@@ -18,7 +18,8 @@ from hypothesis import strategies as st
 from mutated import mutated
 
 from swtstudy import Study, StudyError, open_results, run
-from swtstudy.archive.parts import known_points, parts_folder, read_parts, save_part
+from swtstudy.archive.archive import known_points
+from swtstudy.archive.parts import parts_folder, read_parts, save_part
 from swtstudy.cli import main
 from swtstudy.points.solve import solve_grid
 from swtstudy.study.definition import study_from
@@ -121,7 +122,7 @@ def test_changed_studies_are_studies_or_study_errors(request):
         again = to_toml(study.title, study.rtol, study.grid, study.figure, study.asked)
         assert Study.from_text(again).grid == study.grid, text
         if study.grid.size <= FEW and number % SOLVED == 0:
-            assert solve_grid(study.grid, 1e-2).s.size == study.grid.size
+            assert solve_grid(study.grid, 1e-2, study.asked).s.size == study.grid.size
     assert sound > 0.1 * count
 
 

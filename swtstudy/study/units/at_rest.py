@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from swtstudy.points.canonical import canonical_number, rounded
+from swtstudy.points.grid import canonical_number, rounded
 from swtstudy.solver.at_rest import AtRest, too_small
 from swtstudy.solver.table import AnyProfile, TabulatedProfile
 from swtstudy.study.units.rows import SCALES

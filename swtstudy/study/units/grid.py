@@ -6,7 +6,7 @@ loads of plane contacts are per length, unless their length is given.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from typing import TYPE_CHECKING, Any
@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from swtstudy.points.canonical import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, code_of, rounded
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import GIVEN_COLUMNS, SHAPE_COLUMNS, Column, Grid, code_of, rounded
 from swtstudy.points.values import Value, amplitudes_of, as_number, press_steadily
 from swtstudy.solver.loop import Loop
 from swtstudy.solver.table import TabulatedProfile
@@ -273,10 +272,6 @@ class PhysicalGrid(ContactDetails, Grid):
         loads = {each.code: each for each in self.given if each.parameter == "load"}
         return loads | {table.code: table for table in tables if isinstance(table, Definition)}
 
-    def profiles_at_rest(self) -> Iterator[tuple[Value, float]]:
-        """See `Grid.profiles_at_rest`."""
-        return ((contact.profile, contact.depth) for contact in self.distinct)
-
     def along(self, name: str) -> xr.Variable:
         """The numbers of a parameter, over its dimension if it has one."""
         return self.over_dimension(name, np.array([as_number(value) for value in self.values(name)]))
@@ -346,7 +341,8 @@ class PhysicalGrid(ContactDetails, Grid):
             return self.along(name)
         return self.bodies.copy(data=np.array(self.pairs[name])[self.bodies.values])
 
-    def _columns(self) -> dict[str, Column]:
+    @cached_property
+    def columns(self) -> dict[str, Column]:
         """See `Grid.columns`: in the units of the contacts at rest."""
         length = self.each(SCALES["a_H"].of)
         made = {
@@ -362,7 +358,7 @@ class PhysicalGrid(ContactDetails, Grid):
         for name, own in self.numbers.items():
             made[name] = own if PARAMETERS[name].units == "rad" else own.copy(data=rounded(own.values))
         columns: dict[str, Column] = {n: (tuple(map(str, v.dims)), v.values) for n, v in made.items()}
-        return super()._columns() | columns
+        return super().columns | columns
 
     def made(self, asked: Request) -> dict[str, tuple[str, ...]]:
         """See `Grid.made`."""

@@ -15,8 +15,7 @@ from typing import Any
 import numpy as np
 
 from swtstudy.points import rules
-from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.grid import Grid
+from swtstudy.points.grid import SHAPE_COLUMNS, Grid
 from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.solver.load_path import LoadPath
