@@ -78,7 +78,10 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.
         dims = of_quantities.get(name, ())
         tail = values.shape[values.ndim - len(dims) :]  # of one distance there is no dimension
         variables[name] = (*grid.dims, *dims), values.reshape((*grid.shape, *tail)), attributes_of(name)
-    dataset = xr.Dataset(variables, coordinates)
+    dataset = xr.Dataset(
+        {name: _variable(*given) for name, given in variables.items()},
+        {name: _variable(*given) for name, given in coordinates.items()},
+    )
     _name_criteria(dataset, grid, asked)
     dataset = grid.presented(dataset, asked)
     for variable in dataset.variables.values():
@@ -88,6 +91,12 @@ def label(grid: Grid, arrays: Mapping[str, NDArray[Any]], asked: Request) -> xr.
     # Arrays of dask are not known before they are computed.
     lines = validity_lines(dataset) if "regime" in arrays and not dataset.chunks else ()
     return dataset.assign_attrs(validity="\n".join(lines)) if lines else dataset
+
+
+def _variable(dims: str | tuple[str, ...], values: Any, attributes: Mapping[str, str]) -> xr.Variable:
+    """A variable that xarray need not convert: for that it would first import the arrays of dask."""
+    values = values if hasattr(values, "dask") else np.asarray(values)
+    return xr.Variable(dims, values, attributes, fastpath=True)
 
 
 def values_at(
