@@ -6,6 +6,7 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from swtstudy.points.reading import Known, Range, read_distances, read_grid
 from swtstudy.points.values import read_angle
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
 from swtstudy.study.sample import Contacts, ReadSample, SampleReader
@@ -25,7 +26,7 @@ from swtstudy.study.trace import trace_from
 from swtstudy.study.units.life import Block, wrong_rounds
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
-from swtstudy.study.units.rows import OF_BODIES, read_units, rows
+from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
@@ -59,6 +60,11 @@ class StudyReader:
         self.report = Report(source, lambda name: f"{self.places.get(name, 'fixed')}.{name}")
         self.parts, self.of_structure = read_study(raw, source)
         self.report += self.of_structure
+
+    @cached_property
+    def units(self) -> Units | None:
+        """The units, None without any; their mistakes are reported once they are asked for."""
+        return None if self.parts.units is None else read_units(self.parts.units, self.report)
 
     def fields(self, text: str) -> dict[str, Any]:
         """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
@@ -113,7 +119,7 @@ class StudyReader:
             given = self.raw["loads"][name]
             measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
             # Without units a measured load is a mistake of its own.
-            loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
+            loads[name] = ANY_MEASURED if measured and self.units else ANY
             if table is not None:
                 part = "vertices" if table.vertices is not None else "file" if table.file is not None else ""
                 with under(self.report, f"loads.{name}", part):
@@ -148,7 +154,7 @@ class StudyReader:
         kept = table.keep_cycles and bool(parts.blocks)
         if table.keep_cycles and not kept:
             warnings.warn(f"{name}: without [[blocks]] the mean of its cycles is the load", stacklevel=4)
-        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds, kept)
+        signal = signal_from(self.folder / str(table.file), name, table, self.units, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}
         single = {each.name: each for each in signal.loops}
@@ -167,7 +173,7 @@ class StudyReader:
                 _form_of(table, _PROFILES)
                 if "level" in table.model_fields_set and not table.two_sided:
                     raise refused("", "level", "level with two_sided only")
-                profiles[name] = profile_from(name, table, self.folder, self.parts.units)
+                profiles[name] = profile_from(name, table, self.folder, self.units)
         return profiles
 
     def _blocks(self) -> list[Block]:
@@ -190,7 +196,7 @@ class StudyReader:
     def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
         parts, report = self.parts, self.report
-        if parts.units is None:
+        if self.units is None:
             if "material" in self.raw and "units" not in self.raw:
                 allowed = "with [units] only: a life needs a real contact"
                 report("material", "constants without [units]", allowed)
@@ -198,7 +204,7 @@ class StudyReader:
         # A modulus that is missing altogether is reported with the contacts: once.
         missing = [] if parts.sample else [name for name in OF_BODIES if name not in {*fixed, *axes}]
         told = {**dict.fromkeys(missing, 0.0), **fixed}
-        contacts, distance = read_given(parts.units, parts.material, told, self.folder, report)
+        contacts, distance = read_given(self.units, parts.material, told, self.folder, report)
         if distance is None:
             return contacts, fixed
         if DISTANCE in {*fixed, *axes}:
@@ -217,8 +223,7 @@ class StudyReader:
         """First values along axes, and of what is sampled; None where there is a mistake."""
         _, axes = self.fixed_and_axes(block.load for block in self.parts.blocks)
         found = {n: v.start if isinstance(v, Range) else (v or [None])[0] for n, v in axes.items()}
-        units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
-        samples, *_ = self._sample(rows(units) if units else PARAMETERS, {})
+        samples, *_ = self._sample(rows(self.units) if self.units else PARAMETERS, {})
         return found | {name: values[0] if values else None for name, values in samples.items()}
 
     def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -271,15 +276,17 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
         return signal_from(folder / table.file, name, table) if table.file else None
 
 
-def profile_from(name: str, table: ProfileTable, folder: Path, labels: Labels = None) -> TabulatedProfile:
+def profile_from(
+    name: str, table: ProfileTable, folder: Path, units: Units | None = None
+) -> TabulatedProfile:
     """A profile from its table."""
     if table.file is None:
         radius, height = table.radius, table.height
     elif table.two_sided:
-        return trace_from(folder / table.file, name, table, labels)
+        return trace_from(folder / table.file, name, table, units)
     else:
         kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
-        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels)[0].T
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, units)[0].T
     return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 

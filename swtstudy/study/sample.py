@@ -26,7 +26,7 @@ from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
-from swtstudy.study.units.rows import Units
+from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameters import Parameter
@@ -187,7 +187,7 @@ class SampleReader:
         """The columns of a file by name: numbers, and other texts as they are; empty with mistakes."""
         form = self.table
         with under(self.report, "sample", "file"):
-            table = read_table(path, (), self.rows, form, LONGEST_AXIS)
+            table = read_table(path, (), self.rows, form)
             names = {form.header(name): name for name in self.rows}
             own = [names.get(header, header) for header in table.headers if header]
             lost = [n for n in form.columns if n in self.rows and form.header(n) not in table.headers]
@@ -196,9 +196,8 @@ class SampleReader:
                 header = form.columns[name]
                 found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
             units = self.contacts.units if self.contacts else Units()
-            found += wrong_units(
-                table, [each for each in own if each in self.rows and each not in lost], units
-            )
+            there = (name for name in own if name in self.rows and name not in lost)
+            found += wrong_units(table, {name: kind_of(name) for name in there}, units)
             with under(self.report, "sample", "file"):  # and the values are told, too
                 found.refuse()
             if table.cells:

@@ -16,8 +16,9 @@ from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop, checked_name
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study import cycles
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import SignalTable, with_keys
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_of
@@ -262,11 +263,11 @@ def signal_from(
     path: Path,
     name: str,
     given: SignalTable,
-    labels: Labels = None,
+    units: Units | None = None,
     kinds: Mapping[str, str] = KINDS,
     kept: bool = False,
 ) -> Signal:
-    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units.
+    """The signal in a file; see `read_signal`, and `read_columns` for kinds and units.
 
     ``kept`` tells that its cycles are used one by one: they need not be alike.
     """
@@ -280,7 +281,7 @@ def signal_from(
     form = given.model_copy(update={"columns": given.columns | ({TIME: given.time} if given.time else {})})
     names = (*(TIME,) * bool(given.time), *COLUMNS, *(BULK,) * (BULK in given.columns))
     optional = () if BULK in given.columns else (BULK,)
-    values, rows = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
+    values, rows = read_columns(path, names, optional, form, kinds, units, gaps=given.time is not None)
     time = np.arange(len(values), dtype=np.float64)
     if given.time:
         time, values = values[:, 0], values[:, 1:]

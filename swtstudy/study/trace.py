@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from swtstudy.solver.table import FEWEST, TabulatedProfile
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import TraceTable, with_keys
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import refused
 
@@ -90,10 +91,10 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     return trace_from(Path(path), Path(path).stem if name is None else name, TraceTable.of(given))
 
 
-def trace_from(own: Path, name: str, form: TraceTable, labels: Labels = None) -> TabulatedProfile:
-    """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
+def trace_from(own: Path, name: str, form: TraceTable, units: Units | None = None) -> TabulatedProfile:
+    """The profile of a trace in a file; see `read_trace`, and `read_columns` for the units."""
     kinds = dict.fromkeys(COLUMNS, "length")
-    values, rows = read_columns(own, COLUMNS, (), form, kinds, labels, gaps=True)
+    values, rows = read_columns(own, COLUMNS, (), form, kinds, units, gaps=True)
     position, height = values.T
     if len(position) < 4 * FEWEST:
         raise refused("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))

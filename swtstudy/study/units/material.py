@@ -17,7 +17,7 @@ from swtstudy.points.values import read_exact
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, ShearConstants
-from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, read_units, right_place, wrong_size
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, right_place, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
@@ -50,7 +50,7 @@ Both = Sequence[Any]
 
 
 def read_given(
-    labels: Table, material: Table | None, fixed: Table, folder: Path, report: Report
+    units: Units, material: Table | None, fixed: Table, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """Units and materials of a study, and the critical distance, None without a threshold.
 
@@ -58,17 +58,15 @@ def read_given(
 
     Parameters
     ----------
-    labels, material, fixed
-        The tables units, material and fixed.
+    units
+        Labels of its units.
+    material, fixed
+        These tables.
     folder
         Folder of the study.
     report
         Called with key, found and allowed of each mistake.
     """
-    units = read_units(labels, report)
-    if units is None:  # reported: meanwhile the labels stand for units
-        given = {kind: labels.get(kind) for kind in KNOWN}
-        units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
     # 0 for what is no positive number: 0 is not below NaN.

@@ -85,8 +85,8 @@ def right_place(name: str, known: Collection[str]) -> str:
     return "in [fixed] or [axes]" if name in AXES else nearest(name, known)
 
 
-def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
-    """The units that a study says; every mistake is reported."""
+def read_units(raw: Mapping[str, object], report: Report) -> Units:
+    """The units that a study says; every mistake is reported, and a wrong label stands for a unit."""
     before = len(report)
     for name in (each for each in raw if each not in UNIT_KINDS):
         report(f"units.{name}", f"unknown key {literal(name)}", right_place(str(name), UNIT_KINDS))
@@ -103,7 +103,9 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             number, unit = f"{force / length**2 / stress:.3g}", labels["stress"]
             found = f"{labels['force']} over {labels['length']}², which is {number} {unit}"
             report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {unit}")
-    return Units(**labels) if len(report) == before else None
+    if len(report) > before:
+        labels = {kind: str(raw.get(kind) or f"the unit of {kind}") for kind in UNIT_KINDS}
+    return Units(**labels)
 
 
 def _likely_units(kind: str, label: str) -> list[str]:
