@@ -306,8 +306,8 @@ def one_of_study(
     return study_from(kept, "", path, Path(path).parent).grid
 
 
-def read_studies(paths: Iterable[str]) -> dict[str, Study]:
-    """The studies by path, each file once.
+def read_studies(paths: Iterable[str], mistakes: Report | None = None) -> dict[str, Study]:
+    """The sound studies by path, each file once.
 
     Each path leads to a file or a folder of files, or is the name of a study of the paper, such as
     "figure3".
@@ -315,17 +315,10 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     Raises
     ------
     StudyError
-        A ValueError with every mistake in every file; also if two files would have the same archive.
+        A ValueError with every mistake in every file, unless ``mistakes`` collects them; also if two files
+        would have the same archive.
     """
-    report = Report()
-    studies = sound_studies(paths, report)
-    report.refuse()
-    return studies
-
-
-def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
-    """The studies that are sound; every mistake is reported. See `read_studies`."""
-    files: list[str] = []
+    report, files = Report() if mistakes is None else mistakes, list[str]()
     for path in paths:
         is_folder = Path(path).is_dir()
         inside = sorted(map(str, Path(path).glob("*.toml"))) if is_folder else [str(find_study(path))]
@@ -340,4 +333,6 @@ def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
+    if mistakes is None:
+        report.refuse()
     return studies

@@ -18,6 +18,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field
 from swtstudy.points.reading import LONGEST_AXIS, Range
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study.figure import FigureLayout, Flag
+from swtstudy.study.units.life import Block
 from swtstudy.study.units.rows import right_place
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
@@ -157,7 +158,7 @@ class SampleTable(FileTable):
     """Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution."""
     covariance: Annotated[dict[str, Any], "a table of covariances"] = {}
     """Variances and covariances of constants, which scatter normally about the values in [material]."""
-    target_life: Annotated[float | None, "a number"] = None
+    target_life: Annotated[Positive, "a number of load cycles, greater than 0"] = None
     """Load cycles before which the probability of a crack is asked for."""
     file: File = None
     """CSV file of points: a row with names of parameters, then a row for each point."""
@@ -186,17 +187,6 @@ class LoadTable(SignalTable):
     """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
     keep_cycles: Flag = False
     """True if blocks of the load run all recorded cycles in turn, not their mean."""
-
-
-class BlockTable(Table):
-    """A block of a sequence: rounds of a load."""
-
-    allowed = "[[blocks]] with load and rounds"
-
-    load: Annotated[str, "the name of a load"]
-    """Name of a load; of a signal that keeps its cycles all of them in turn."""
-    rounds: Annotated[Any, allowed]
-    """Number of its rounds in each repetition of the sequence."""
 
 
 class ProfileTable(TraceTable):
@@ -238,7 +228,7 @@ class StudyTable(Table):
     bulk, or harmonics."""
     profiles: Annotated[dict[str, ProfileTable], "a table of profiles, [profiles.NAME]"] = {}
     """Profiles by name: radius and height, or a CSV file with these columns."""
-    blocks: Annotated[list[BlockTable], BlockTable.allowed] = []
+    blocks: Annotated[list[Block], Block.allowed] = []
     """Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only."""
     figure: FigureLayout | None = None
     """The layout of the figure; every axis needs a place."""
@@ -250,7 +240,7 @@ _WITHIN: dict[str, tuple[Any, int]] = {
     "sample": (SampleTable, 1),
     "loads": (LoadTable, 2),
     "profiles": (ProfileTable, 2),
-    "blocks": (BlockTable, 2),
+    "blocks": (Block, 2),
     "figure": (FigureLayout, 1),
 }
 #: How many keys lead to what is left out of a part of a study where one of its keys is wrong.
@@ -313,7 +303,7 @@ def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
     elif row := keys.get(str(path[levels])):
         if row.annotation != dict[str, list[Any]]:
             path = path[: levels + 1]  # what follows are kinds of values, or places in a list
-        allowed = next((each for each in row.metadata if isinstance(each, str)), "")
+        allowed = next((each for each in reversed(row.metadata) if isinstance(each, str)), "")
     name = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         key, choice = str(path[-1]), right_place if len(path) == 1 else nearest

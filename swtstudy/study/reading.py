@@ -23,7 +23,7 @@ from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, Tra
 from swtstudy.study.sample import Contacts, ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.life import Block, wrong_rounds
+from swtstudy.study.units.life import Block
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
@@ -184,14 +184,8 @@ class StudyReader:
         for part in ("fixed", "axes"):
             if parts.blocks and "load" in getattr(parts, part):
                 report(f"{part}.load", literal(raw[part]["load"]), "nothing: [[blocks]] give the loads")
-        blocks: list[Block] = []
-        for number, block in enumerate(parts.blocks):
-            wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
-            for mistake in wrong:
-                report(mistake.key, mistake.found, mistake.allowed)
-            rounds = 1.0 if wrong else float(block.rounds)
-            blocks += [Block(each, rounds) for each in self.cycles.get(block.load, [block.load])]
-        return blocks
+        single = self.cycles
+        return [replace(b, load=each) for b in parts.blocks for each in single.get(b.load, [b.load])]
 
     def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
@@ -307,8 +301,6 @@ def unused(raw: Mapping[str, Any], grid: Grid | None, source: str) -> Report:
             used = []
         names = tables.get(f"{parameter}s", {})
         for name in names if {*used}.isdisjoint(names) else ():
-            words = f"a {parameter} that is not used"
-            report(
-                f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in [fixed] or [axes], or none"
-            )
+            found, use = f"a {parameter} that is not used", f"{parameter} = {literal(name)}"
+            report(f"{parameter}s.{name}", found, f"{use} in [fixed] or [axes], or none")
     return report

@@ -250,15 +250,13 @@ class SampleReader:
     def _scatter(self, given: Mapping[str, Any]) -> Scatter | None:
         """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
         table, contacts, report = self.table, self.contacts, self.report
-        if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
+        if not given and {"covariance", "target_life"}.isdisjoint(self.given):
             return None
         if contacts is None or not contacts.has_lives:
             if not any(mistake.key.startswith("material") for mistake in report):
                 report("sample", "constants that scatter", "with the constants of lives in [material]")
             return None
-        before, target = len(report), table.target_life or 0.0
-        if table.target_life is not None and not 0.0 < target < math.inf:
-            report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
+        before = len(report)
         found = {name: np.array(column) for name, column in self._drawn(given, contacts).items()}
         for name, column in found.items():
             own, row = _own_values(name, contacts), SCATTERED[name]
@@ -278,7 +276,7 @@ class SampleReader:
             return None
         names = tuple(name for name in SCATTERED if name in found)
         draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
-        return Scatter(names, draws, target)
+        return Scatter(names, draws, table.target_life or 0.0)
 
     def _drawn(self, given: Mapping[str, Any], contacts: ContactDetails) -> Mapping[str, Any]:
         """Draws of constants: given ones, or from ranges and from a covariance about the constants."""

@@ -95,7 +95,7 @@ def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProf
     return TabulatedProfile(pure.name, *own, pure.geometry)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contact:
     """A real contact at rest, in any consistent set of units, such as N, mm and MPa.
 

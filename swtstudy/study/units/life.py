@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pydantic import ConfigDict, Field
+from pydantic.dataclasses import dataclass as checked_dataclass
 
 from swtstudy.study.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
@@ -361,26 +363,20 @@ class Scatter:
         return curve_of(type(constants), values)
 
 
-@dataclass(frozen=True)
+_ROUNDS = "a positive number of rounds"
+
+
+@checked_dataclass(frozen=True, config=ConfigDict(extra="forbid", use_attribute_docstrings=True))
 class Block:
-    """Rounds of one load within a sequence that repeats, for Miner's sum.
+    """A block of a sequence that repeats, for Miner's sum: rounds of a load."""
 
-    Attributes
-    ----------
-    load
-        Name of the load.
-    rounds
-        How many in each repetition of the sequence.
-    """
+    #: Words for it as a whole, in messages.
+    allowed: ClassVar[str] = "[[blocks]] with load and rounds"
 
-    load: str
-    rounds: float
-
-
-def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
-    """Return the mistake in a number of rounds."""
-    sound = 0.0 < plain_number(rounds) < math.inf
-    return [] if sound else [Mistake(key, literal(rounds), "a positive number of rounds")]
+    load: Annotated[str, "the name of a load"]
+    """Name of a load; of a signal that keeps its cycles all of them in turn."""
+    rounds: Annotated[float, _ROUNDS, Field(strict=True, gt=0.0, allow_inf_nan=False)]
+    """Number of its rounds in each repetition of the sequence."""
 
 
 def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tuple[Block, ...]:
@@ -396,7 +392,8 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tup
         raise refused("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
     report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
-        report += wrong_rounds(number, f"blocks.{name}")
+        if not 0.0 < plain_number(number) < math.inf:
+            report(f"blocks.{name}", literal(number), _ROUNDS)
     if left := [name for name in known if name not in rounds]:
         found = f"no rounds of {', '.join(map(literal, left))}"
         report("blocks", found, "rounds of each load, or none of these loads")

@@ -191,9 +191,9 @@ def _read_bodies(
         names = ()
     body = single.get("body")
     if names and isinstance(body, str) and body not in map(str, units.LABELS):
-        if body not in names:
-            report.of("body", literal(body), units.labels_or(names))
-        single["body"] = names.index(body) + 1 if body in names else 1
+        single["body"] = 1
+        with report:
+            single["body"] = units.checked_body(body, report.key("body"), names)
     return replace(given, pairs=pairs, similar=similar, body_names=names), single
 
 

@@ -254,10 +254,5 @@ def checked_body(body: object, key: str = "body", names: Sequence[str] = ()) -> 
     """
     number = names.index(body) + 1 if isinstance(body, str) and body in names else plain_number(body)
     if number not in LABELS:
-        raise refused(key, literal(body), labels_or(names))
+        raise refused(key, literal(body), " or ".join((*map(str, LABELS), *map(literal, names))))
     return int(number)
-
-
-def labels_or(names: Sequence[str]) -> str:
-    """The labels and names that a body may be called by, in words."""
-    return " or ".join((*map(str, LABELS), *map(literal, names)))
