@@ -166,9 +166,7 @@ class StudyReader:
     def _profiles(self) -> dict[str, Definition]:
         """The profiles that are tables, by name; a wrong one stands for any."""
         profiles: dict[str, Definition] = dict.fromkeys(self.parts.profiles, _ANY_PROFILE)
-        for name, table in self.parts.profiles.items():
-            if table is None:
-                continue
+        for name, table in ((name, table) for name, table in self.parts.profiles.items() if table):
             with under(self.report, f"profiles.{name}"):
                 _form_of(table, _PROFILES)
                 if "level" in table.model_fields_set and not table.two_sided:

@@ -141,7 +141,7 @@ def completed(
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
     named = Grid(fixed, axes, samples)
     loads, profiles, given = named.values("load"), named.values("profile"), {*named.names, *about.pairs}
-    fixed = fixed | grids.implied_amplitudes(given | replaced_by(given), loads, profiles)
+    fixed = fixed | grids.implied_amplitudes(given, loads, profiles)
     given |= {*fixed} | replaced_by({*given, *fixed})
     table = units.rows(grids.labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}

@@ -160,14 +160,11 @@ class Scale(NamedTuple):
         "length", "force" or "stress".
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
-    made_of
-        The parameter whose length it is, if there is one.
     """
 
     name: str
     kind: str
     power: float | None = None
-    made_of: str = ""
 
     def of(self, contact: Contact) -> float:
         """Its value for a contact."""
@@ -178,8 +175,8 @@ class Scale(NamedTuple):
 SCALES = {name: Scale(**row) for name, row in TABLES["scales"].items()}
 
 
-#: Parameters that a real contact needs: it has no usual friction.
-WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
+#: Defaults of real contacts: these have no usual friction, and a constant normal load is the plainest one.
+_DEFAULTS = {"poisson_ratio": None, "friction": None, "tangential_amplitude": None, "normal_amplitude": 0.0}
 #: Parameters that each of the two bodies has.
 OF_BODIES = ("young_modulus", "poisson_ratio")
 #: A fixed value that is no parameter: |β|/μ up to which the bodies count as similar, β Dundurs' constant, and
@@ -216,12 +213,9 @@ def rows(units: Units) -> dict[str, Parameter]:
     found: dict[str, Parameter] = {}
     for name in names:
         row, kind = AXES[name], kind_of(name)
-        own: dict[str, Any] = {"default": None if name in WITHOUT_DEFAULT else row.default}
-        if name == "normal_amplitude":
-            own["default"] = 0.0  # a constant normal load is the plainest one
+        own: dict[str, Any] = {"default": _DEFAULTS.get(name, row.default)}
         if kind is not None:
-            # Nothing else can be measured in what may be 0.
-            is_measure = any(scale.made_of == name for scale in SCALES.values())
+            is_measure = name == "waviness_amplitude"  # of √(hR): nothing is measured in what may be 0
             vanishes = row.scale and not row.open_lower and not is_measure and row.part != "quantity"
             lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
             label = units.label(kind)
