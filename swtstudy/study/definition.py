@@ -178,19 +178,18 @@ class Study:
             odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
             for line in (*doubts(study.grid, "axes."), *odd):
                 warnings.warn(f"{source}: {line}", stacklevel=2)
-        return replace(study, told=tuple(told))
+        return replace(study, told=tuple(str(each.message) for each in told))
 
 
 @contextmanager
-def _telling() -> Iterator[list[str]]:
-    """Collect the words of warnings, which are warned of at the end."""
-    caught, words = [], list[str]()
+def _telling() -> Iterator[list[warnings.WarningMessage]]:
+    """Collect warnings, and warn of them at the end."""
+    caught = list[warnings.WarningMessage]()
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            yield words
+            yield caught
     finally:
-        words += [str(each.message) for each in caught]
         for each in caught:
             warnings.warn(each.message, stacklevel=4)
 

@@ -20,9 +20,10 @@ from swtstudy.solver.table import TabulatedProfile
 from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
 from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
-from swtstudy.study.sample import Contacts, ReadSample, SampleReader
+from swtstudy.study.sample import ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
+from swtstudy.study.units.grid import ContactDetails, implied_amplitudes
 from swtstudy.study.units.life import Block
 from swtstudy.study.units.material import read_given
 from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
@@ -142,15 +143,11 @@ class StudyReader:
             allowed = "one of the two: kept cycles are as they were recorded"
             raise refused("", "keep_cycles and harmonics", allowed)
         # A depth and a displacement are recorded beside amplitudes of these.
-        parts, kinds = self.parts, dict(KINDS)
+        parts = self.parts
         sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
         given = {*parts.fixed, *parts.axes, *sampled}
-        if "normal_amplitude" in given:
-            kinds |= dict.fromkeys(COLUMNS, "length")
-        if "tangential_force_amplitude" in given:
-            kinds["tangential"] = "force"
-        if "tangential_amplitude" in given:
-            kinds["tangential"] = "length"
+        given |= {*implied_amplitudes(given, (ANY_MEASURED,), ())}
+        kinds = KINDS | {column: "length" for column in COLUMNS if f"{column}_amplitude" in given}
         kept = table.keep_cycles and bool(parts.blocks)
         if table.keep_cycles and not kept:
             warnings.warn(f"{name}: without [[blocks]] the mean of its cycles is the load", stacklevel=4)
@@ -185,7 +182,9 @@ class StudyReader:
         single = self.cycles
         return [replace(b, load=each) for b in parts.blocks for each in single.get(b.load, [b.load])]
 
-    def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
+    def _contacts(
+        self, fixed: dict[str, Any], axes: Mapping[str, Any]
+    ) -> tuple[ContactDetails | None, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
         parts, report = self.parts, self.report
         if self.units is None:
@@ -203,7 +202,9 @@ class StudyReader:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
-    def _sample(self, own: Mapping[str, Parameter], known: Known, contacts: Contacts = None) -> ReadSample:
+    def _sample(
+        self, own: Mapping[str, Parameter], known: Known, contacts: ContactDetails | None = None
+    ) -> ReadSample:
         """See `SampleReader.read`; nothing without a sample."""
         if self.parts.sample is None:
             return {}, None, None

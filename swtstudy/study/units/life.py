@@ -122,7 +122,7 @@ class _Constants:
     @property
     def curve(self) -> LifeCurve:
         """The curve of lives that they give."""
-        return curve_of(type(self), vars(self))
+        return curve_of(vars(self))
 
 
 @dataclass(frozen=True)
@@ -243,16 +243,12 @@ class ShearConstants(_Constants):
     @classmethod
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
         """Estimate them from tensile constants: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
-        if not -1.0 < plain_number(poisson_ratio) <= 0.5:
+        ν, root = plain_number(poisson_ratio), math.sqrt(3.0)
+        if not -1.0 < ν <= 0.5:
             raise refused("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")
-        root = math.sqrt(3.0)
-        return cls(
-            tensile.young_modulus / (2.0 + 2.0 * plain_number(poisson_ratio)),
-            tensile.strength / root,
-            tensile.strength_exponent,
-            root * tensile.ductility,
-            tensile.ductility_exponent,
-        )
+        shear_modulus, strength = tensile.young_modulus / (2.0 + 2.0 * ν), tensile.strength / root
+        b, c = tensile.strength_exponent, tensile.ductility_exponent
+        return cls(shear_modulus, strength, b, root * tensile.ductility, c)
 
     def parameter(self, cycles: ArrayLike) -> FloatArray:
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
@@ -289,19 +285,11 @@ class ShearConstants(_Constants):
         return self.curve.rounds("parameter", parameter, counted, counted_number)
 
 
-def curve_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeCurve:
-    """The curve by strain–life constants: the sum of an elastic and a plastic term.
-
-    Parameters
-    ----------
-    kind
-        The class of the constants.
-    values
-        Its attributes: numbers, or arrays of n draws.
-    """
+def curve_of(values: Mapping[str, Any]) -> LifeCurve:
+    """The curve by strain–life constants by name, numbers or n draws: an elastic and a plastic term."""
     b, c = values["strength_exponent"], values["ductility_exponent"]
     strength, ductility = np.log(values["strength"]), np.log(values["ductility"])
-    if issubclass(kind, ShearConstants):
+    if "shear_modulus" in values:
         columns = strength - np.log(values["shear_modulus"]), ductility, b, c
     else:
         columns = 2.0 * strength - np.log(values["young_modulus"]), strength + ductility, 2.0 * b, b + c
@@ -360,7 +348,7 @@ class Scatter:
             if torsion == in_torsion and body in bodies:
                 ratio = getattr(constants, name) / getattr(tensile, name) if tensile else 1.0
                 values[name] = draws * ratio
-        return curve_of(type(constants), values)
+        return curve_of(values)
 
 
 _ROUNDS = "a positive number of rounds"
