@@ -278,15 +278,15 @@ def one_of_study(
         if name not in profiles:
             raise refused("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")
         profiles[name] = {**profiles[name], "smoothing": smoothing}
-    replaced = {*values}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
+    replaced = {*values, DISTANCE}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
     if "profile" in values:  # what the profile does not have
         replaced |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
     if "criterion" in values:
         replaced |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
-    chosen = replaced | {*alone, DISTANCE, "body"}
-    several = {axis: one for axis, one in reader.firsts().items() if axis not in chosen}
+    chosen = replaced | {*alone, "body"}
+    several = {axis: one for axis, one in reader.firsts(axes).items() if axis not in chosen}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
         needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)
@@ -300,8 +300,7 @@ def one_of_study(
     if "criterion" in values and "material" in kept:
         own = {key: value for key, value in kept.pop("material").items() if key == STRENGTH}
         kept |= {"material": own} if own else {}
-    others = {name: value for name, value in fixed.items() if name not in replaced and name != DISTANCE}
-    kept["fixed"] = others | dict(values)
+    kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced} | dict(values)
     return study_from(kept, "", path, Path(path).parent).grid
 
 

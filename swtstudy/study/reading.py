@@ -23,10 +23,10 @@ from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, Tra
 from swtstudy.study.sample import ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.grid import ContactDetails, implied_amplitudes
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes
 from swtstudy.study.units.life import Block
 from swtstudy.study.units.material import read_given
-from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
+from swtstudy.study.units.reading import ANY, ANY_MEASURED, check_distances, read_contacts
 from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
@@ -95,8 +95,10 @@ class StudyReader:
             if contacts is None:
                 grid, wrong = read_grid(fixed, axes, *given, (DISTANCE,), samples, known)
             else:
-                grid, wrong = read_contacts(fixed, axes, contacts, *given, samples, known, asked.distances)
+                grid, wrong = read_contacts(fixed, axes, contacts, *given, samples, known)
             report += wrong
+            if isinstance(grid, PhysicalGrid):
+                check_distances(grid, asked.distances, report)
         if parts.figure is not None:
             # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
             dims = [name if name in AXES else meant(name, AXES) or name for name in axes]
@@ -212,9 +214,8 @@ class StudyReader:
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
         return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
 
-    def firsts(self) -> dict[str, object]:
+    def firsts(self, axes: Mapping[str, Any]) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""
-        _, axes = self.fixed_and_axes(block.load for block in self.parts.blocks)
         found = {n: v.start if isinstance(v, Range) else (v or [None])[0] for n, v in axes.items()}
         samples, *_ = self._sample(rows(self.units) if self.units else PARAMETERS, {})
         return found | {name: values[0] if values else None for name, values in samples.items()}

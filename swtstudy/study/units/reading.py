@@ -63,12 +63,8 @@ def read_contacts(
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
-    distances: Sequence[float] = (),
 ) -> tuple[PhysicalGrid | None, Report]:
-    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`.
-
-    Critical distances are held against their range, too.
-    """
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     raw, tables = everything.get("profile", PARAMETERS["profile"].default), known.get("profile", {})
@@ -99,8 +95,6 @@ def read_contacts(
     # Sizes of what stands for a wrong load are no mistakes.
     if not report and not any(load is ANY or load is ANY_MEASURED for load in grid.values("load")):
         check_contacts(grid, report)
-    if not report:
-        check_distances(grid, distances, report)
     return (None if report else grid), report
 
 
