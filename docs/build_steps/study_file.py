@@ -27,7 +27,7 @@ def study_file() -> str:
             _parameters(keys["fixed"]["properties"]),
             f"## `[axes]`\n\n{keys['axes']['description']} The names and ranges of their values are those of "
             "`[fixed]`. A range has\n",
-            _table(parts["RangeTable"]["properties"], set(parts["RangeTable"]["required"])),
+            _table(parts["Range"]["properties"], set(parts["Range"]["required"])),
             *_section("sample", keys, parts["SampleTable"]),
             *_section("loads", keys, parts["LoadTable"], ".NAME"),
             f"## `[[blocks]]`\n\n{keys['blocks']['description']}\n",

@@ -9,10 +9,12 @@ import sys
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Literal
+from typing import Annotated, Any, ClassVar, Literal
+
+from pydantic import ConfigDict, StrictInt
+from pydantic.dataclasses import dataclass
 
 from swtstudy.points import rules
 from swtstudy.points.canonical import canonical_number
@@ -41,18 +43,27 @@ OWN = {"load": "LoadPath", "profile": "TabulatedProfile"}
 LONGEST_AXIS = 1_000_000
 
 
-@dataclass(frozen=True)
+#: Words for an end of a range.
+_END = 'a number, or text such as "2*pi"'
+
+
+@dataclass(frozen=True, config=ConfigDict(extra="forbid", use_attribute_docstrings=True))
 class Range:
-    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios.
+    """Values of an axis in equal steps or equal ratios, both ends included."""
 
-    The values of `also` are put in among them.
-    """
+    #: Words for it as a whole, in messages.
+    allowed: ClassVar[str] = "a list of values or {start, stop, num}"
 
-    start: object
-    stop: object
-    num: int
-    spacing: Literal["linear", "log"] = "linear"
-    also: Sequence[object] = ()
+    start: Annotated[Any, _END]
+    """First value; a number, or a text such as "2*pi"."""
+    stop: Annotated[Any, _END]
+    """Last value, included."""
+    num: Annotated[StrictInt, "a whole number"]
+    """Number of values."""
+    spacing: Annotated[Literal["linear", "log"], '"linear" or "log"'] = "linear"
+    """Equal steps ("linear") or equal ratios ("log")."""
+    also: Annotated[Sequence[Any], "a list of values"] = ()
+    """Further values, put in among the others: where curves bend, for example."""
 
 
 #: Values along axes, by name; None for a wrong one, which is reported elsewhere.
@@ -248,7 +259,7 @@ def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
             text = raw if isinstance(raw, str) else str(read_exact(raw))
             ends.append(read_angle(text) if units == "rad" else read_exact(text))
         except ValueError as error:
-            report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
+            report(f"{key}.{part}", f"{literal(raw)} ({error})", _END)
     if not 2 <= axis.num <= LONGEST_AXIS:
         report(f"{key}.num", literal(axis.num), f"a whole number from 2 to {LONGEST_AXIS}")
         return []

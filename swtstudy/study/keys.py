@@ -13,7 +13,7 @@ from copy import deepcopy
 from inspect import signature
 from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from swtstudy.points.reading import LONGEST_AXIS, Range
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
@@ -31,13 +31,6 @@ DESIGNS: tuple[DesignName, ...] = get_args(DesignName)
 #: Separators between cells; a blank stands for any number of them.
 Separator = Literal[",", ";", "\t", "|", " "]
 SEPARATORS: tuple[Separator, ...] = get_args(Separator)
-Spacing = Literal["linear", "log"]
-
-
-def _one_of(choice: Any) -> str:
-    """The texts of a choice in words."""
-    *others, last = (f'"{text}"' for text in get_args(choice))
-    return f"{', '.join(others)} or {last}"
 
 
 class Table(BaseModel):
@@ -60,7 +53,6 @@ File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
 Order = Annotated[int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)]
 Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
-End = Annotated[Any, 'a number, or text such as "2*pi"']
 Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
 
@@ -119,26 +111,8 @@ class TraceTable(FileTable):
     """"axisymmetric", or "plane" for a long body: its radii are then half-widths."""
 
 
-class RangeTable(Table):
-    """Values of an axis in equal steps or equal ratios, both ends included."""
-
-    allowed = "a list of values or {start, stop, num}"
-
-    start: End
-    """First value; a number, or a text such as "2*pi"."""
-    stop: End
-    """Last value, included."""
-    num: Annotated[int, "a whole number"]
-    """Number of values."""
-    spacing: Annotated[Spacing, _one_of(Spacing)] = "linear"
-    """Equal steps ("linear") or equal ratios ("log")."""
-    also: Annotated[list[Any], "a list of values"] = []
-    """Further values, put in among the others: where curves bend, for example."""
-
-
 Axis = Annotated[
-    Annotated[list[Any], Tag("list")]
-    | Annotated[RangeTable, AfterValidator(lambda table: Range(**dict(table))), Tag("range")],
+    Annotated[list[Any], Tag("list")] | Annotated[Range, Tag("range")],
     Discriminator(lambda raw: "range" if isinstance(raw, dict) else "list"),
 ]
 
@@ -148,7 +122,7 @@ class SampleTable(FileTable):
 
     allowed = "a table with design, size and ranges, with points, or with file"
 
-    design: Annotated[DesignName | None, _one_of(DesignName)] = None
+    design: Annotated[DesignName | None, f"one of {', '.join(DESIGNS)}"] = None
     """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
     size: Size = None
     """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""
@@ -236,7 +210,7 @@ class StudyTable(Table):
 
 #: The tables within a study file, and how many keys lead to one of them.
 _WITHIN: dict[str, tuple[Any, int]] = {
-    "axes": (RangeTable, 2),
+    "axes": (Range, 2),
     "sample": (SampleTable, 1),
     "loads": (LoadTable, 2),
     "profiles": (ProfileTable, 2),

@@ -42,7 +42,7 @@ def study_schema() -> dict[str, Any]:
         "default": [],
     }
     for name in ("start", "stop"):
-        parts["RangeTable"][name]["type"] = ["number", "string"]
+        parts["Range"][name]["type"] = ["number", "string"]
     layout = parts["FigureLayout"]
     for role in ("x", "vertical", "hue", "panels"):
         names = [*PARAMETERS, *QUANTITY_AXES, *CONTACT_AXES, *((SAMPLE,) if role == "x" else ())]
@@ -58,7 +58,7 @@ def study_schema() -> dict[str, Any]:
     for name, row in given.items():
         description, value, limits = {"description": _description(row)}, _value(row), _limits(row)
         several = {"type": "array", "items": value, "minItems": 1}
-        either = several if row.kind == "name" else {"anyOf": [several, {"$ref": "#/$defs/RangeTable"}]}
+        either = several if row.kind == "name" else {"anyOf": [several, {"$ref": "#/$defs/Range"}]}
         fixed[name] = description | ({} if row.default is None else {"default": row.default}) | value
         axes[name] = description | either
         if name in NUMERIC:

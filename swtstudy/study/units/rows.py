@@ -104,7 +104,7 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units:
             found = f"{labels['force']} over {labels['length']}², which is {number} {unit}"
             report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {unit}")
     if len(report) > before:
-        labels = {kind: str(raw.get(kind) or f"the unit of {kind}") for kind in UNIT_KINDS}
+        labels = {kind: label or f"the unit of {kind}" for kind, label in labels.items()}
     return Units(**labels)
 
 
