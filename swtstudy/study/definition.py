@@ -203,16 +203,14 @@ def _text_of(file: Path, source: str) -> str:
     """The text of a study file; a StudyError with the reason if that cannot be read."""
     try:
         return read_text(file)
+    except FileNotFoundError as error:
+        found, allowed = reason_of(error), "a study file (TOML)"
+        if not file.suffix:
+            found, here = "no such file", f"{source}.toml"
+            of_paper = f", or a study of the paper: {nearest(source, shipped_studies())}"
+            allowed += f": {here} is there" if Path(here).exists() else of_paper
     except OSError as error:
         found, allowed = reason_of(error), _READABLE
-        if isinstance(error, FileNotFoundError):
-            allowed = "a study file (TOML)"
-            if not file.suffix:
-                found = "no such file"
-                here, known = f"{source}.toml", nearest(source, shipped_studies())
-                allowed += (
-                    f": {here} is there" if Path(here).exists() else f", or a study of the paper: {known}"
-                )
     except ValueError as error:
         found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), f"{_READABLE}, saved as UTF-8"))
     raise refused("", found, allowed, source)

@@ -292,15 +292,11 @@ def unused(raw: Mapping[str, Any], grid: Grid | None, source: str) -> Report:
     report, tables = Report(source), {key: own for key, own in raw.items() if isinstance(own, dict)}
     given = [str(key) for place in ("fixed", "axes") for key in tables.get(place, ())]
     for parameter in ("load", "profile"):
-        if grid:
-            used = [*map(str, grid.values(parameter))]
-            used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
-        elif {"sample", "blocks"} & raw.keys() or any(meant(key, [parameter], {}) for key in given):
-            continue
-        else:
-            used = []
+        used = [*map(str, grid.values(parameter))] if grid else []
+        used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
+        named = any(meant(key, [parameter], {}) for key in given) or {"sample", "blocks"} & raw.keys()
         names = tables.get(f"{parameter}s", {})
-        for name in names if {*used}.isdisjoint(names) else ():
+        for name in names if (grid or not named) and {*used}.isdisjoint(names) else ():
             found, use = f"a {parameter} that is not used", f"{parameter} = {literal(name)}"
             report(f"{parameter}s.{name}", found, f"{use} in [fixed] or [axes], or none")
     return report
