@@ -181,8 +181,10 @@ class StudyReader:
         for part in ("fixed", "axes"):
             if parts.blocks and "load" in getattr(parts, part):
                 report(f"{part}.load", literal(raw[part]["load"]), "nothing: [[blocks]] give the loads")
-        single = self.cycles
-        return [replace(b, load=each) for b in parts.blocks for each in single.get(b.load, [b.load])]
+        blocks: list[Block] = []
+        for block in parts.blocks:
+            blocks += [replace(block, load=each) for each in self.cycles.get(block.load, [block.load])]
+        return blocks
 
     def _contacts(
         self, fixed: dict[str, Any], axes: Mapping[str, Any]

@@ -47,7 +47,8 @@ def to_toml(
     for table in (fixed, axes) if about.blocks else ():  # which have the loads
         table.pop("load", None)
     material = {key: [getattr(each, key) for each in about.materials] for key in TENSILE}
-    material |= {key: [getattr(m, n) for m in about.shear_materials] for key, n in SHEAR_CONSTANTS.items()}
+    for key, name in SHEAR_CONSTANTS.items():
+        material[key] = [getattr(each, name) for each in about.shear_materials]
     material |= {STRENGTH: [*about.yield_strengths], LIMIT: [*about.findley_limits]}
     if about.scatter:
         points |= zip(about.scatter.names, about.scatter.draws, strict=True)

@@ -90,8 +90,7 @@ class Moduli:
 def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
     """A table to the digits of canonical points: in whichever units it was given, it is the same."""
     pure = table.scaled(length, depth)
-    smoothing = canonical_number(pure.smoothing)
-    own = rounded(pure.radius), rounded(pure.height), smoothing
+    own = rounded(pure.radius), rounded(pure.height), canonical_number(pure.smoothing)
     return TabulatedProfile(pure.name, *own, pure.geometry)
 
 

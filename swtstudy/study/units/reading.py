@@ -242,20 +242,16 @@ def check_bodies(grid: PhysicalGrid, report: Report) -> None:
 
     Without friction nothing is dragged along, and bodies of any moduli are right.
     """
-    rubbing = [as_number(value) for value in grid.values("friction") if as_number(value) > 0.0]
-    if not rubbing:
-        return
+    rubbing = [value for value in map(as_number, grid.values("friction")) if value > 0.0]
     pairs = itertools.product(*map(grid.of_both, units.OF_BODIES))
-    friction, beta = min(rubbing), max((Moduli(*both).mismatch for both in pairs), key=abs)
+    beta, friction = max((Moduli(*both).mismatch for both in pairs), key=abs), min(rubbing, default=math.inf)
     ratio = abs(beta) / friction
     found = f"Dundurs' β = {beta:.3g} is {ratio:.2g} times the friction {friction:g}"
     if ratio > grid.similar:
         enough = math.ceil(100.0 * ratio) / 100.0
-        allowed = (
-            f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1); "
-            f"{units.SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
-        )
-        report.of(units.OF_BODIES, f"bodies that are not similar: {found}", allowed)
+        allowed = f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
+        way = f"{units.SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
+        report.of(units.OF_BODIES, f"bodies that are not similar: {found}", f"{allowed}; {way}")
     elif ratio > units.NOTICEABLE_MISMATCH:
         words = f"{found}: pressure p drags tangential tractions of about β p along, which s leaves out"
         warnings.warn(words, stacklevel=2)
