@@ -31,7 +31,7 @@ def study_file() -> str:
             *_section("sample", keys, parts["SampleTable"]),
             *_section("loads", keys, parts["LoadTable"], ".NAME"),
             f"## `[[blocks]]`\n\n{keys['blocks']['description']}\n",
-            _table(parts["BlockTable"]["properties"], set(parts["BlockTable"]["required"])),
+            _table(parts["Block"]["properties"], set(parts["Block"]["required"])),
             *_section("profiles", keys, parts["ProfileTable"], ".NAME"),
             f"## `[figure]`\n\n{keys['figure']['description']}\n",
             _table(parts["FigureLayout"]["properties"], set(parts["FigureLayout"]["required"])),

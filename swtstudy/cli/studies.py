@@ -39,7 +39,7 @@ def new(name: str, units: bool) -> None:
       swtstudy run mine.toml
     """
     from swtstudy.study.schema import SCHEMA_FILE, schema_text
-    from swtstudy.study.template import template, template_with_units
+    from swtstudy.study.template import template
 
     if Path(name).name in ("", ".toml"):
         raise refused("NAME", literal(name), "a name for the study, such as mine")
@@ -47,7 +47,7 @@ def new(name: str, units: bool) -> None:
     check_writable(target)
     if os.path.lexists(target):
         raise FileExistsError(f"{target} already exists; choose another name")
-    write_text(target, (template_with_units if units else template)(target.stem.replace("_", " ")))
+    write_text(target, template(target.stem.replace("_", " "), units))
     click.echo(str(target))
     schema = target.with_name(SCHEMA_FILE)
     if not schema.exists():
@@ -69,10 +69,10 @@ def validate(studies: tuple[str, ...]) -> None:
       swtstudy validate studies
     """
     from swtstudy.points.labelled import foreseen_lines
-    from swtstudy.study.definition import sound_studies
+    from swtstudy.study.definition import read_studies
 
     report = Report()
-    defined = sound_studies(studies, report)
+    defined = read_studies(studies, report)
     for source, study in defined.items():
         grid = study.grid
         sizes = " × ".join(f"{n} {name}" for name, n in grid.sizes.items())

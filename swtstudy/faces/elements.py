@@ -22,7 +22,7 @@ from swtstudy.study.definition import tables_of
 from swtstudy.study.keys import FileTable, with_keys
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.material import read_given, two_of
-from swtstudy.study.units.rows import KNOWN, OF_BODIES, unit_factor
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, read_units, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import FATEMI_SOCIE, FINDLEY, SWT
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
@@ -262,8 +262,8 @@ def _properties(study: str | PathLike[str], body: int) -> tuple[ContactDetails, 
     tables: dict[str, Any] = {key: each for key, each in tables_of(study).items() if isinstance(each, dict)}
     report, details, fixed = Report(str(study)), ContactDetails(), tables.get("fixed", {})
     if "units" in tables:
-        labels, material = tables["units"], tables.get("material")
-        details, _ = read_given(labels, material, fixed, Path(study).parent, report)
+        units, material = read_units(tables["units"], report), tables.get("material")
+        details, _ = read_given(units, material, fixed, Path(study).parent, report)
     else:
         report("units", "nothing", "a table with length, force and stress")
     if body not in (1, 2):

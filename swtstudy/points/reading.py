@@ -12,10 +12,9 @@ import sys
 import warnings
 from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -46,20 +45,19 @@ OF_POINTS = ("a value for each point", "a single value, or an axis of its own")
 #: Names that results have of their own: no list of points may be along one of them.
 OF_RESULTS = {*AXES, *COUNTED_SIZES, *ATTRIBUTES, *EVERY_VARIABLE, "control", "rank"}
 OF_RESULTS |= {name + end for name in NAMES for end in ("", "_error")}
+#: Words for an end of a range.
+END = 'a number, or text such as "2*pi"'
 
 
-@dataclass(frozen=True)
-class Range:
-    """`num` values from `start` to `stop`, both included, in equal steps or ("log") in equal ratios.
+@runtime_checkable
+class Range(Protocol):
+    """`num` values from `start` to `stop`, in equal steps or ("log") ratios; those of `also` among them."""
 
-    The values of `also` are put in among them.
-    """
-
-    start: object
-    stop: object
+    start: Any
+    stop: Any
     num: int
-    spacing: Literal["linear", "log"] = "linear"
-    also: Sequence[object] = ()
+    spacing: Literal["linear", "log"]
+    also: list[Any]
 
 
 #: Values along axes, by name; None for a wrong one, which is reported elsewhere.
@@ -255,7 +253,7 @@ def _expand(axis: Range, key: str, report: Report, units: str) -> list[object]:
             text = raw if isinstance(raw, str) else str(read_exact(raw))
             ends.append(read_angle(text) if units == "rad" else read_exact(text))
         except ValueError as error:
-            report(f"{key}.{part}", f"{literal(raw)} ({error})", 'a number, or text such as "2*pi"')
+            report(f"{key}.{part}", f"{literal(raw)} ({error})", END)
     if not 2 <= axis.num <= LONGEST_AXIS:
         report(f"{key}.num", literal(axis.num), f"a whole number from 2 to {LONGEST_AXIS}")
         return []

@@ -20,13 +20,13 @@ import xarray as xr
 
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.labelled import margins
-from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.points.solve import solve_grid
 from swtstudy.points.values import as_number
 from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
+from swtstudy.study.units.rows import kind_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -413,7 +413,7 @@ def _read(
                     mistake = replace(mistake, key=key.removeprefix("tests.") if place else key, source=place)
                 report.append(mistake)
     if table and isinstance(grid, PhysicalGrid):
-        report += wrong_units(table, [each for each in columns if each in AXES], grid.labels)
+        report += wrong_units(table, {name: kind_of(name) for name in columns if name in AXES}, grid.labels)
     report.refuse()
     if not isinstance(grid, PhysicalGrid) or not grid.materials:
         allowed = "a study with [units] and the constants of [material]: a life needs a real contact"
@@ -468,7 +468,7 @@ def _columns(tests: object) -> tuple[dict[str, list[Any]], UserTable | None]:
             raise refused("tests", f"{literal(tests)} ({error})", allowed) from None
         named = by_aliases([*map(str, frame)], ALIASES)
         return {name: frame[own].tolist() for name, own in zip(named, frame, strict=True)}, None
-    table = read_table(Path(tests), (LIFE,), {*AXES, RUNOUT}, None, LONGEST_AXIS, ALIASES)
+    table = read_table(Path(tests), (LIFE,), {*AXES, RUNOUT}, None, ALIASES)
     if not table.cells:
         raise refused("", "no tests", "a row for each test", str(tests))
     columns = {name: table.values(name) for name in table.headers if name}

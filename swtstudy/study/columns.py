@@ -8,23 +8,23 @@ import io
 import math
 import re
 import warnings
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
 from itertools import islice
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 
+from swtstudy.points.reading import LONGEST_AXIS
 from swtstudy.study.keys import SEPARATORS, FileTable
-from swtstudy.study.units.rows import KNOWN, Units, kind_of, unit_factor
+from swtstudy.study.units.rows import KNOWN, Units, unit_factor
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.files import LARGEST_TABLE, plain_float, read_file, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, meant, nearest, refused
 
-#: More rows than this are no table that someone recorded for a study, nor are more columns.
-MOST_ROWS, MOST_COLUMNS = 1_000_000, 1000
+#: Rows are as many as values of an axis at most. More columns than this are no table recorded for a study.
+MOST_ROWS, MOST_COLUMNS = LONGEST_AXIS, 1000
 #: Rows in which a header is searched: loggers write a block of settings above it.
 WITHIN = 200
 #: Encodings that European rigs write where it is not UTF-8: Windows', and one that reads any byte.
@@ -45,8 +45,6 @@ COMMA_HINT = "; a comma in numbers is decimal = ',', if all have one"
 
 #: Cells, in small letters, without a value: MATLAB and pandas write NaN.
 MISSING = ("", "nan")
-#: The study's label of a unit by its kind; None without units.
-Labels = Mapping[str, Any] | None
 #: Number of the line of a row, and its cells.
 Row = tuple[int, list[str]]
 
@@ -64,8 +62,6 @@ class UserTable:
         Further columns that it may have, which tell its separator.
     form
         Its form, as far as it is given; None where there are no keys for it, so that messages propose none.
-    most
-        Largest number of rows.
     aliases
         Other headers of some columns, in small letters, where no header is given for these.
 
@@ -98,7 +94,6 @@ class UserTable:
         names: Sequence[str],
         known: Collection[str],
         form: FileTable | None,
-        most: int,
         aliases: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self.source, self.names, self.known = str(path), names, known
@@ -118,7 +113,7 @@ class UserTable:
             self.report("separator, decimal", "both ','", "two different signs")
             self.decimal = None
         try:
-            rows = list(islice(_rows(text, separator, self.form.skip_rows), above + most + 3))
+            rows = list(islice(_rows(text, separator, self.form.skip_rows), above + MOST_ROWS + 3))
         except csv.Error as error:
             raise self.refused("", str(error), _READABLE) from None
         skipped, (self.line, headers), rows = rows[:above], rows[above], rows[above + 1 :]
@@ -132,8 +127,8 @@ class UserTable:
         if self.units and self.form.units_row is None:
             notices.append(f"line {rows[0][0]} is read as units: {', '.join(filter(None, self.units))}")
         self.cells = rows[bool(self.units) :]
-        if len(self.cells) > most:
-            raise self.refused("", f"more than {most} rows", f"at most {most}")
+        if len(self.cells) > MOST_ROWS:
+            raise self.refused("", f"more than {MOST_ROWS} rows", f"at most {MOST_ROWS}")
         for place, own in self.cells:
             if len(own) - (own[-1] == "") > width:
                 allowed = "as many as columns: a comma between cells, a point in numbers"
@@ -377,7 +372,7 @@ def read_columns(
     optional: Sequence[str],
     form: FileTable,
     kinds: Mapping[str, str],
-    labels: Labels = None,
+    units: Units | None = None,
     gaps: bool = False,
 ) -> tuple[FloatArray, IndexArray]:
     """Columns of numbers of a table, shape (rows, k), in the order of the names, and the lines of the rows.
@@ -392,9 +387,9 @@ def read_columns(
         Names of further columns, appended if the file has them.
     form
         How it is written.
-    kinds, labels
-        "length", "force" or "stress" by column, and the study's label by kind: a unit of another kind is a
-        mistake, and so is another unit without `scale`, or with the inverse of its factor.
+    kinds, units
+        "length", "force" or "stress" by column, and the study's units: a unit of another kind is a mistake,
+        and so is another unit without `scale`, or with the inverse of its factor.
     gaps
         Whether rows with an empty cell or NaN are left out, with a message; otherwise they are mistakes.
 
@@ -408,7 +403,7 @@ def read_columns(
     if not known.keys() >= form.columns.keys():
         report.refuse()  # which column is meant is unknown
     with report:
-        table = UserTable(path, names, optional, form, MOST_ROWS)
+        table = UserTable(path, names, optional, form)
         report += table.report
         for name in () if form.columns else (name for name in optional if not table.has(name)):
             # Such as Bulk, or bulk_stress: left alone it would count as 0.
@@ -417,9 +412,8 @@ def read_columns(
                 found = f"the column {literal(alike[0])}"
                 report.append(Mistake(f"line {table.line}", found, allowed, table.source))
         names = [*names, *filter(table.has, optional)]
-        for name, kind in kinds.items():
-            if labels and name in names:
-                report += wrong_unit(table, name, kind, str(labels.get(kind)))
+        if units:
+            report += wrong_units(table, {name: kind for name, kind in kinds.items() if name in names}, units)
         columns = [*map(table.column, names)] if gaps else []
         cells = table.cells
         empty = {line: row for line, row in cells if any(row[k].lower() in MISSING for k in columns)}
@@ -452,10 +446,10 @@ def by_aliases(headers: Sequence[str], aliases: Mapping[str, str]) -> list[str]:
     ]
 
 
-def wrong_units(table: UserTable, names: Iterable[str], units: Units) -> list[Mistake]:
-    """The mistakes of columns of parameters in other units than the study's; see `wrong_unit`."""
-    kinds = {name: kind for name in names if (kind := kind_of(name))}
-    return [each for name, kind in kinds.items() for each in wrong_unit(table, name, kind, units.label(kind))]
+def wrong_units(table: UserTable, kinds: Mapping[str, str | None], units: Units) -> list[Mistake]:
+    """The mistakes of columns that have a kind, in other units than the study's; see `wrong_unit`."""
+    own = {name: kind for name, kind in kinds.items() if kind}
+    return [each for name, kind in own.items() for each in wrong_unit(table, name, kind, units.label(kind))]
 
 
 def wrong_unit(table: UserTable, name: str, kind: str, label: str) -> list[Mistake]:
@@ -481,11 +475,10 @@ def read_table(
     names: Sequence[str],
     known: Collection[str],
     form: FileTable | None,
-    most: int = MOST_ROWS,
     aliases: Mapping[str, str] = MappingProxyType({}),
 ) -> UserTable:
     """The table in a file, see `UserTable`; a StudyError with all that is wrong."""
-    table = UserTable(path, names, known, form, most, aliases)
+    table = UserTable(path, names, known, form, aliases)
     table.report.refuse()
     return table
 

@@ -63,11 +63,9 @@ def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> F
 
 def scatter(cycles: FloatArray) -> FloatArray:
     """Standard deviation of cycles (c, m, d) from their mean, root mean square over phases, shape (d,)."""
-    count = len(cycles)
-    if count < 2:
+    if len(cycles) < 2:
         return np.full(cycles.shape[-1], np.nan)
-    variance = cycles.var(axis=0, ddof=1)
-    return np.asarray(np.sqrt(variance.mean(axis=0)))
+    return np.asarray(np.sqrt(cycles.var(axis=0, ddof=1).mean(axis=0)))
 
 
 def structure(rest: FloatArray) -> FloatArray:

@@ -177,19 +177,18 @@ class Study:
             odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
             for line in (*doubts(study.grid, "axes."), *odd):
                 warnings.warn(f"{source}: {line}", stacklevel=2)
-        return replace(study, told=tuple(told))
+        return replace(study, told=tuple(str(each.message) for each in told))
 
 
 @contextmanager
-def _telling() -> Iterator[list[str]]:
-    """Collect the words of warnings, which are warned of at the end."""
-    caught, words = [], list[str]()
+def _telling() -> Iterator[list[warnings.WarningMessage]]:
+    """Collect warnings, and warn of them at the end."""
+    caught = list[warnings.WarningMessage]()
     try:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
-            yield words
+            yield caught
     finally:
-        words += [str(each.message) for each in caught]
         for each in caught:
             warnings.warn(each.message, stacklevel=4)
 
@@ -203,16 +202,14 @@ def _text_of(file: Path, source: str) -> str:
     """The text of a study file; a StudyError with the reason if that cannot be read."""
     try:
         return read_text(file)
+    except FileNotFoundError as error:
+        found, allowed = reason_of(error), "a study file (TOML)"
+        if not file.suffix:
+            found, here = "no such file", f"{source}.toml"
+            of_paper = f", or a study of the paper: {nearest(source, shipped_studies())}"
+            allowed += f": {here} is there" if Path(here).exists() else of_paper
     except OSError as error:
         found, allowed = reason_of(error), _READABLE
-        if isinstance(error, FileNotFoundError):
-            allowed = "a study file (TOML)"
-            if not file.suffix:
-                found = "no such file"
-                here, known = f"{source}.toml", nearest(source, shipped_studies())
-                allowed += (
-                    f": {here} is there" if Path(here).exists() else f", or a study of the paper: {known}"
-                )
     except ValueError as error:
         found, allowed = _OTHER_FILES.get(file.suffix.lower(), (str(error), f"{_READABLE}, saved as UTF-8"))
     raise refused("", found, allowed, source)
@@ -278,15 +275,15 @@ def one_of_study(
         if name not in profiles:
             raise refused("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")
         profiles[name] = {**profiles[name], "smoothing": smoothing}
-    replaced = {*values}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
+    replaced = {*values, DISTANCE}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
     if "profile" in values:  # what the profile does not have
         replaced |= {name for name in SHAPE_COLUMNS if values["profile"] not in families_with(name)}
     if "criterion" in values:
         replaced |= {"normal_sensitivity" if values["criterion"] == SWT else "walker_exponent"}
-    chosen = replaced | {*alone, DISTANCE, "body"}
-    several = {axis: one for axis, one in reader.firsts().items() if axis not in chosen}
+    chosen = replaced | {*alone, "body"}
+    several = {axis: one for axis, one in reader.firsts(axes).items() if axis not in chosen}
     if at_rest:
         # Any of its values will do for what the contact at rest does not depend on.
         needed = REST_DEPENDS_ON if "units" in raw else ("profile", *SHAPE_COLUMNS)
@@ -300,13 +297,12 @@ def one_of_study(
     if "criterion" in values and "material" in kept:
         own = {key: value for key, value in kept.pop("material").items() if key == STRENGTH}
         kept |= {"material": own} if own else {}
-    others = {name: value for name, value in fixed.items() if name not in replaced and name != DISTANCE}
-    kept["fixed"] = others | dict(values)
+    kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced} | dict(values)
     return study_from(kept, "", path, Path(path).parent).grid
 
 
-def read_studies(paths: Iterable[str]) -> dict[str, Study]:
-    """The studies by path, each file once.
+def read_studies(paths: Iterable[str], mistakes: Report | None = None) -> dict[str, Study]:
+    """The sound studies by path, each file once.
 
     Each path leads to a file or a folder of files, or is the name of a study of the paper, such as
     "figure3".
@@ -314,17 +310,10 @@ def read_studies(paths: Iterable[str]) -> dict[str, Study]:
     Raises
     ------
     StudyError
-        A ValueError with every mistake in every file; also if two files would have the same archive.
+        A ValueError with every mistake in every file, unless ``mistakes`` collects them; also if two files
+        would have the same archive.
     """
-    report = Report()
-    studies = sound_studies(paths, report)
-    report.refuse()
-    return studies
-
-
-def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
-    """The studies that are sound; every mistake is reported. See `read_studies`."""
-    files: list[str] = []
+    report, files = Report() if mistakes is None else mistakes, list[str]()
     for path in paths:
         is_folder = Path(path).is_dir()
         inside = sorted(map(str, Path(path).glob("*.toml"))) if is_folder else [str(find_study(path))]
@@ -339,4 +328,6 @@ def sound_studies(paths: Iterable[str], report: Report) -> dict[str, Study]:
         first = names.setdefault(Path(path).stem, path)
         if first != path:
             report.append(Mistake("", f"the same name as {first}", "names that differ", path))
+    if mistakes is None:
+        report.refuse()
     return studies

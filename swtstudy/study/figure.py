@@ -91,10 +91,8 @@ class FigureLayout:
 
     def roles(self) -> Iterator[tuple[str, str]]:
         """Role and name of every dimension that is used."""
-        for role in ("x", "vertical", "hue", "panels"):
-            name = getattr(self, role)
-            if name is not None:
-                yield role, name
+        names = ((role, getattr(self, role)) for role in ("x", "vertical", "hue", "panels"))
+        return ((role, name) for role, name in names if name is not None)
 
     @property
     def free(self) -> list[str]:

@@ -13,11 +13,12 @@ from copy import deepcopy
 from inspect import signature
 from typing import Annotated, Any, ClassVar, Literal, Self, get_args
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from swtstudy.points.reading import LONGEST_AXIS, Range
+from swtstudy.points.reading import END, LONGEST_AXIS
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study.figure import FigureLayout, Flag
+from swtstudy.study.units.life import Block
 from swtstudy.study.units.rows import right_place
 from swtstudy.vocabulary import mistakes as rules
 from swtstudy.vocabulary.choices import AXISYMMETRIC
@@ -30,13 +31,6 @@ DESIGNS: tuple[DesignName, ...] = get_args(DesignName)
 #: Separators between cells; a blank stands for any number of them.
 Separator = Literal[",", ";", "\t", "|", " "]
 SEPARATORS: tuple[Separator, ...] = get_args(Separator)
-Spacing = Literal["linear", "log"]
-
-
-def _one_of(choice: Any) -> str:
-    """The texts of a choice in words."""
-    *others, last = (f'"{text}"' for text in get_args(choice))
-    return f"{', '.join(others)} or {last}"
 
 
 class Table(BaseModel):
@@ -59,7 +53,6 @@ File = Annotated[str | None, "the path of a CSV file"]
 Positive = Annotated[float | None, "a positive number", Field(gt=0.0, allow_inf_nan=False)]
 Order = Annotated[int | None, f"a whole number, 1 to {HIGHEST_ORDER}", Field(ge=1, le=HIGHEST_ORDER)]
 Size = Annotated[int | None, f"a whole number from 1 to {LONGEST_AXIS}", Field(ge=1, le=LONGEST_AXIS)]
-End = Annotated[Any, 'a number, or text such as "2*pi"']
 Accuracy = Annotated[float, rules.ALLOWED_RTOL, Field(ge=rules.SMALLEST_RTOL, le=rules.LARGEST_RTOL)]
 
 
@@ -123,21 +116,20 @@ class RangeTable(Table):
 
     allowed = "a list of values or {start, stop, num}"
 
-    start: End
+    start: Annotated[Any, END]
     """First value; a number, or a text such as "2*pi"."""
-    stop: End
+    stop: Annotated[Any, END]
     """Last value, included."""
     num: Annotated[int, "a whole number"]
     """Number of values."""
-    spacing: Annotated[Spacing, _one_of(Spacing)] = "linear"
+    spacing: Annotated[Literal["linear", "log"], '"linear" or "log"'] = "linear"
     """Equal steps ("linear") or equal ratios ("log")."""
     also: Annotated[list[Any], "a list of values"] = []
     """Further values, put in among the others: where curves bend, for example."""
 
 
 Axis = Annotated[
-    Annotated[list[Any], Tag("list")]
-    | Annotated[RangeTable, AfterValidator(lambda table: Range(**dict(table))), Tag("range")],
+    Annotated[list[Any], Tag("list")] | Annotated[RangeTable, Tag("range")],
     Discriminator(lambda raw: "range" if isinstance(raw, dict) else "list"),
 ]
 
@@ -147,7 +139,7 @@ class SampleTable(FileTable):
 
     allowed = "a table with design, size and ranges, with points, or with file"
 
-    design: Annotated[DesignName | None, _one_of(DesignName)] = None
+    design: Annotated[DesignName | None, f"one of {', '.join(DESIGNS)}"] = None
     """The choice of the points; saltelli is for Sobol indices (swtstudy sensitivity)."""
     size: Size = None
     """Number of points; for sobol and saltelli a power of 2; saltelli makes size (d + 2) of them."""
@@ -157,7 +149,7 @@ class SampleTable(FileTable):
     """Sampled parameters, and constants of [material]: both ends, [low, high], or a distribution."""
     covariance: Annotated[dict[str, Any], "a table of covariances"] = {}
     """Variances and covariances of constants, which scatter normally about the values in [material]."""
-    target_life: Annotated[float | None, "a number"] = None
+    target_life: Annotated[Positive, "a number of load cycles, greater than 0"] = None
     """Load cycles before which the probability of a crack is asked for."""
     file: File = None
     """CSV file of points: a row with names of parameters, then a row for each point."""
@@ -186,17 +178,6 @@ class LoadTable(SignalTable):
     """The mean normal load from which c_n of vertices or harmonics deviates, in its unit."""
     keep_cycles: Flag = False
     """True if blocks of the load run all recorded cycles in turn, not their mean."""
-
-
-class BlockTable(Table):
-    """A block of a sequence: rounds of a load."""
-
-    allowed = "[[blocks]] with load and rounds"
-
-    load: Annotated[str, "the name of a load"]
-    """Name of a load; of a signal that keeps its cycles all of them in turn."""
-    rounds: Annotated[Any, allowed]
-    """Number of its rounds in each repetition of the sequence."""
 
 
 class ProfileTable(TraceTable):
@@ -238,7 +219,7 @@ class StudyTable(Table):
     bulk, or harmonics."""
     profiles: Annotated[dict[str, ProfileTable], "a table of profiles, [profiles.NAME]"] = {}
     """Profiles by name: radius and height, or a CSV file with these columns."""
-    blocks: Annotated[list[BlockTable], BlockTable.allowed] = []
+    blocks: Annotated[list[Block], Block.allowed] = []
     """Blocks of a sequence of loads that repeats, for Miner's sum; with [material] only."""
     figure: FigureLayout | None = None
     """The layout of the figure; every axis needs a place."""
@@ -250,7 +231,7 @@ _WITHIN: dict[str, tuple[Any, int]] = {
     "sample": (SampleTable, 1),
     "loads": (LoadTable, 2),
     "profiles": (ProfileTable, 2),
-    "blocks": (BlockTable, 2),
+    "blocks": (Block, 2),
     "figure": (FigureLayout, 1),
 }
 #: How many keys lead to what is left out of a part of a study where one of its keys is wrong.
@@ -313,7 +294,7 @@ def _mistake(model: type[Table], detail: Any, source: str) -> Mistake:
     elif row := keys.get(str(path[levels])):
         if row.annotation != dict[str, list[Any]]:
             path = path[: levels + 1]  # what follows are kinds of values, or places in a list
-        allowed = next((each for each in row.metadata if isinstance(each, str)), "")
+        allowed = next((each for each in reversed(row.metadata) if isinstance(each, str)), "")
     name = "".join(f"[{part}]" if isinstance(part, int) else f".{part}" for part in path)[1:]
     if detail["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
         key, choice = str(path[-1]), right_place if len(path) == 1 else nearest

@@ -6,26 +6,37 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from swtstudy.points.grid import SAMPLE, Grid
-from swtstudy.points.reading import Known, Range, read_distances, read_grid
+from swtstudy.points.reading import Known, read_distances, read_grid
 from swtstudy.points.values import read_angle
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.table import TabulatedProfile
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.figure import check_figure
-from swtstudy.study.keys import LoadTable, ProfileTable, SignalTable, Table, TraceTable, read_study, under
-from swtstudy.study.sample import Contacts, ReadSample, SampleReader
+from swtstudy.study.keys import (
+    LoadTable,
+    ProfileTable,
+    RangeTable,
+    SignalTable,
+    Table,
+    TraceTable,
+    read_study,
+    under,
+)
+from swtstudy.study.sample import ReadSample, SampleReader
 from swtstudy.study.signal import BULK, COLUMNS, KINDS, Signal, signal_from
 from swtstudy.study.trace import trace_from
-from swtstudy.study.units.life import Block, wrong_rounds
+from swtstudy.study.units.grid import ContactDetails, PhysicalGrid, implied_amplitudes
+from swtstudy.study.units.life import Block
 from swtstudy.study.units.material import read_given
-from swtstudy.study.units.reading import ANY, ANY_MEASURED, read_contacts
-from swtstudy.study.units.rows import OF_BODIES, read_units, rows
+from swtstudy.study.units.reading import ANY, ANY_MEASURED, check_distances, read_contacts
+from swtstudy.study.units.rows import OF_BODIES, Units, read_units, rows
 from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.derived import NAMES
@@ -60,6 +71,11 @@ class StudyReader:
         self.parts, self.of_structure = read_study(raw, source)
         self.report += self.of_structure
 
+    @cached_property
+    def units(self) -> Units | None:
+        """The units, None without any; their mistakes are reported once they are asked for."""
+        return None if self.parts.units is None else read_units(self.parts.units, self.report)
+
     def fields(self, text: str) -> dict[str, Any]:
         """The fields of a `Study` whose file has a text; a StudyError with every mistake."""
         parts, report = self.parts, self.report
@@ -88,8 +104,10 @@ class StudyReader:
             if contacts is None:
                 grid, wrong = read_grid(fixed, axes, *given, (DISTANCE,), samples, known)
             else:
-                grid, wrong = read_contacts(fixed, axes, contacts, *given, samples, known, asked.distances)
+                grid, wrong = read_contacts(fixed, axes, contacts, *given, samples, known)
             report += wrong
+            if isinstance(grid, PhysicalGrid):
+                check_distances(grid, asked.distances, report)
         if parts.figure is not None:
             # A misspelt axis counts as the one that was meant: it must not cause mistakes in the figure, too.
             dims = [name if name in AXES else meant(name, AXES) or name for name in axes]
@@ -113,7 +131,7 @@ class StudyReader:
             given = self.raw["loads"][name]
             measured = isinstance(given, dict) and {"absolute", "mean_normal"} & {*given}
             # Without units a measured load is a mistake of its own.
-            loads[name] = ANY_MEASURED if measured and self.parts.units else ANY
+            loads[name] = ANY_MEASURED if measured and self.units else ANY
             if table is not None:
                 part = "vertices" if table.vertices is not None else "file" if table.file is not None else ""
                 with under(self.report, f"loads.{name}", part):
@@ -136,19 +154,15 @@ class StudyReader:
             allowed = "one of the two: kept cycles are as they were recorded"
             raise refused("", "keep_cycles and harmonics", allowed)
         # A depth and a displacement are recorded beside amplitudes of these.
-        parts, kinds = self.parts, dict(KINDS)
+        parts = self.parts
         sampled = (*parts.sample.ranges, *parts.sample.points) if parts.sample else ()
         given = {*parts.fixed, *parts.axes, *sampled}
-        if "normal_amplitude" in given:
-            kinds |= dict.fromkeys(COLUMNS, "length")
-        if "tangential_force_amplitude" in given:
-            kinds["tangential"] = "force"
-        if "tangential_amplitude" in given:
-            kinds["tangential"] = "length"
+        given |= {*implied_amplitudes(given, (ANY_MEASURED,), ())}
+        kinds = KINDS | {column: "length" for column in COLUMNS if f"{column}_amplitude" in given}
         kept = table.keep_cycles and bool(parts.blocks)
         if table.keep_cycles and not kept:
             warnings.warn(f"{name}: without [[blocks]] the mean of its cycles is the load", stacklevel=4)
-        signal = signal_from(self.folder / str(table.file), name, table, parts.units, kinds, kept)
+        signal = signal_from(self.folder / str(table.file), name, table, self.units, kinds, kept)
         if not table.keep_cycles:
             return {name: signal.loop}
         single = {each.name: each for each in signal.loops}
@@ -160,14 +174,12 @@ class StudyReader:
     def _profiles(self) -> dict[str, Definition]:
         """The profiles that are tables, by name; a wrong one stands for any."""
         profiles: dict[str, Definition] = dict.fromkeys(self.parts.profiles, _ANY_PROFILE)
-        for name, table in self.parts.profiles.items():
-            if table is None:
-                continue
+        for name, table in ((name, table) for name, table in self.parts.profiles.items() if table):
             with under(self.report, f"profiles.{name}"):
                 _form_of(table, _PROFILES)
                 if "level" in table.model_fields_set and not table.two_sided:
                     raise refused("", "level", "level with two_sided only")
-                profiles[name] = profile_from(name, table, self.folder, self.parts.units)
+                profiles[name] = profile_from(name, table, self.folder, self.units)
         return profiles
 
     def _blocks(self) -> list[Block]:
@@ -179,18 +191,16 @@ class StudyReader:
             if parts.blocks and "load" in getattr(parts, part):
                 report(f"{part}.load", literal(raw[part]["load"]), "nothing: [[blocks]] give the loads")
         blocks: list[Block] = []
-        for number, block in enumerate(parts.blocks):
-            wrong = wrong_rounds(block.rounds, f"blocks[{number}].rounds")
-            for mistake in wrong:
-                report(mistake.key, mistake.found, mistake.allowed)
-            rounds = 1.0 if wrong else float(block.rounds)
-            blocks += [Block(each, rounds) for each in self.cycles.get(block.load, [block.load])]
+        for block in parts.blocks:
+            blocks += [replace(block, load=each) for each in self.cycles.get(block.load, [block.load])]
         return blocks
 
-    def _contacts(self, fixed: dict[str, Any], axes: Mapping[str, Any]) -> tuple[Contacts, dict[str, Any]]:
+    def _contacts(
+        self, fixed: dict[str, Any], axes: Mapping[str, Any]
+    ) -> tuple[ContactDetails | None, dict[str, Any]]:
         """Units and materials, None without units; the fixed values with the materials' critical distance."""
         parts, report = self.parts, self.report
-        if parts.units is None:
+        if self.units is None:
             if "material" in self.raw and "units" not in self.raw:
                 allowed = "with [units] only: a life needs a real contact"
                 report("material", "constants without [units]", allowed)
@@ -198,14 +208,16 @@ class StudyReader:
         # A modulus that is missing altogether is reported with the contacts: once.
         missing = [] if parts.sample else [name for name in OF_BODIES if name not in {*fixed, *axes}]
         told = {**dict.fromkeys(missing, 0.0), **fixed}
-        contacts, distance = read_given(parts.units, parts.material, told, self.folder, report)
+        contacts, distance = read_given(self.units, parts.material, told, self.folder, report)
         if distance is None:
             return contacts, fixed
         if DISTANCE in {*fixed, *axes}:
             report("material", f"a threshold and a fatigue limit beside a {DISTANCE}", "one of the two")
         return contacts, {**fixed, DISTANCE: distance} if DISTANCE not in axes else fixed
 
-    def _sample(self, own: Mapping[str, Parameter], known: Known, contacts: Contacts = None) -> ReadSample:
+    def _sample(
+        self, own: Mapping[str, Parameter], known: Known, contacts: ContactDetails | None = None
+    ) -> ReadSample:
         """See `SampleReader.read`; nothing without a sample."""
         if self.parts.sample is None:
             return {}, None, None
@@ -213,12 +225,10 @@ class StudyReader:
         single = {name: row for name, row in own.items() if name not in (DISTANCE, "body")}
         return SampleReader(table, given, self.folder, self.report, known, single, contacts).read()
 
-    def firsts(self) -> dict[str, object]:
+    def firsts(self, axes: Mapping[str, Any]) -> dict[str, object]:
         """First values along axes, and of what is sampled; None where there is a mistake."""
-        _, axes = self.fixed_and_axes(block.load for block in self.parts.blocks)
-        found = {n: v.start if isinstance(v, Range) else (v or [None])[0] for n, v in axes.items()}
-        units = read_units(self.parts.units, Report()) if self.parts.units is not None else None
-        samples, *_ = self._sample(rows(units) if units else PARAMETERS, {})
+        found = {n: v.start if isinstance(v, RangeTable) else (v or [None])[0] for n, v in axes.items()}
+        samples, *_ = self._sample(rows(self.units) if self.units else PARAMETERS, {})
         return found | {name: values[0] if values else None for name, values in samples.items()}
 
     def fixed_and_axes(self, of_blocks: Iterable[str]) -> tuple[dict[str, Any], dict[str, Any]]:
@@ -271,15 +281,17 @@ def read_signal_of(text: str, name: str, folder: Path) -> Signal | None:
         return signal_from(folder / table.file, name, table) if table.file else None
 
 
-def profile_from(name: str, table: ProfileTable, folder: Path, labels: Labels = None) -> TabulatedProfile:
+def profile_from(
+    name: str, table: ProfileTable, folder: Path, units: Units | None = None
+) -> TabulatedProfile:
     """A profile from its table."""
     if table.file is None:
         radius, height = table.radius, table.height
     elif table.two_sided:
-        return trace_from(folder / table.file, name, table, labels)
+        return trace_from(folder / table.file, name, table, units)
     else:
         kinds = dict.fromkeys(PROFILE_COLUMNS, "length")
-        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, labels)[0].T
+        radius, height = read_columns(folder / table.file, PROFILE_COLUMNS, (), table, kinds, units)[0].T
     return TabulatedProfile(name, radius, height, table.smoothing or 0.0, table.geometry)
 
 
@@ -291,17 +303,11 @@ def unused(raw: Mapping[str, Any], grid: Grid | None, source: str) -> Report:
     report, tables = Report(source), {key: own for key, own in raw.items() if isinstance(own, dict)}
     given = [str(key) for place in ("fixed", "axes") for key in tables.get(place, ())]
     for parameter in ("load", "profile"):
-        if grid:
-            used = [*map(str, grid.values(parameter))]
-            used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
-        elif {"sample", "blocks"} & raw.keys() or any(meant(key, [parameter], {}) for key in given):
-            continue
-        else:
-            used = []
+        used = [*map(str, grid.values(parameter))] if grid else []
+        used += [re.sub(r" \d+$", "", each) for each in used]  # kept cycles have the number of each
+        named = any(meant(key, [parameter], {}) for key in given) or {"sample", "blocks"} & raw.keys()
         names = tables.get(f"{parameter}s", {})
-        for name in names if {*used}.isdisjoint(names) else ():
-            words = f"a {parameter} that is not used"
-            report(
-                f"{parameter}s.{name}", words, f"{parameter} = {literal(name)} in [fixed] or [axes], or none"
-            )
+        for name in names if (grid or not named) and {*used}.isdisjoint(names) else ():
+            found, use = f"a {parameter} that is not used", f"{parameter} = {literal(name)}"
+            report(f"{parameter}s.{name}", found, f"{use} in [fixed] or [axes], or none")
     return report

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +18,13 @@ import numpy as np
 
 from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
 from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
-from swtstudy.points.values import Value, as_number, read_angle, read_exact, read_value
+from swtstudy.points.values import Value, as_number, read_value
 from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
 from swtstudy.study.keys import DesignName, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
-from swtstudy.study.units.rows import Units
+from swtstudy.study.units.rows import Units, kind_of
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, plain_number, refused
 from swtstudy.vocabulary.parameters import Parameter
@@ -119,8 +119,6 @@ def saltelli(a: FloatArray, b: FloatArray) -> FloatArray:
 Sampled = dict[str, tuple[Value, ...] | None]
 #: The sampled parameters, the design of values that are not given, and draws of constants.
 ReadSample = tuple[Sampled, Design | None, Scatter | None]
-#: None without units.
-Contacts = ContactDetails | None
 
 
 @dataclass(frozen=True)
@@ -142,7 +140,7 @@ class SampleReader:
     rows
         The parameters that may be sampled.
     contacts
-        The contacts, with the constants that may scatter.
+        The contacts, with the constants that may scatter; None without units.
     """
 
     table: SampleTable
@@ -151,7 +149,7 @@ class SampleReader:
     report: Report
     known: Known
     rows: Mapping[str, Parameter]
-    contacts: Contacts = None
+    contacts: ContactDetails | None = None
 
     def read(self) -> ReadSample:
         """The sampled parameters, the design of values that are not given, and draws of constants."""
@@ -162,7 +160,8 @@ class SampleReader:
             report("sample", " and ".join(forms) or "nothing", allowed)
             return {}, None, None
         is_design = forms == ["design"]
-        for name in () if is_design else (each for each in ("size", "seed", "ranges") if each in self.given):
+        of_designs = () if is_design else ("size", "seed", "ranges", "covariance")
+        for name in (name for name in of_designs if name in self.given):
             found = f"{literal(getattr(table, name))} beside {forms[0]}"
             report(f"sample.{name}", found, "only with a design")
         every: Mapping[str, Any] = table.ranges if is_design else table.points
@@ -185,7 +184,7 @@ class SampleReader:
         """The columns of a file by name: numbers, and other texts as they are; empty with mistakes."""
         form = self.table
         with under(self.report, "sample", "file"):
-            table = read_table(path, (), self.rows, form, LONGEST_AXIS)
+            table = read_table(path, (), self.rows, form)
             names = {form.header(name): name for name in self.rows}
             own = [names.get(header, header) for header in table.headers if header]
             lost = [n for n in form.columns if n in self.rows and form.header(n) not in table.headers]
@@ -194,9 +193,8 @@ class SampleReader:
                 header = form.columns[name]
                 found(f"columns.{name}", literal(header), nearest(header, table.headers, {}))
             units = self.contacts.units if self.contacts else Units()
-            found += wrong_units(
-                table, [each for each in own if each in self.rows and each not in lost], units
-            )
+            there = (name for name in own if name in self.rows and name not in lost)
+            found += wrong_units(table, {name: kind_of(name) for name in there}, units)
             with under(self.report, "sample", "file"):  # and the values are told, too
                 found.refuse()
             if table.cells:
@@ -249,15 +247,13 @@ class SampleReader:
     def _scatter(self, given: Mapping[str, Any]) -> Scatter | None:
         """Draws of constants; None if none of them scatters, or with mistakes, which are reported."""
         table, contacts, report = self.table, self.contacts, self.report
-        if not given and table.model_fields_set.isdisjoint({"covariance", "target_life"}):
+        if not given and {"covariance", "target_life"}.isdisjoint(self.given):
             return None
         if contacts is None or not contacts.has_lives:
             if not any(mistake.key.startswith("material") for mistake in report):
                 report("sample", "constants that scatter", "with the constants of lives in [material]")
             return None
-        before, target = len(report), table.target_life or 0.0
-        if table.target_life is not None and not 0.0 < target < math.inf:
-            report("sample.target_life", literal(target), "a number of load cycles, greater than 0")
+        before = len(report)
         found = {name: np.array(column) for name, column in self._drawn(given, contacts).items()}
         for name, column in found.items():
             own, row = _own_values(name, contacts), SCATTERED[name]
@@ -273,11 +269,14 @@ class SampleReader:
             if wrong := int((column * (-1.0 if row.constant.endswith("exponent") else 1.0) <= 0.0).sum()):
                 allowed = "less scatter, or a distribution that is cut off"
                 report(f"sample.{name}", f"{wrong} of {len(column)} draws with the wrong sign", allowed)
+        if not found and len(report) == before and table.target_life is not None:
+            allowed = "a life beside constants that scatter"
+            report("sample.target_life", literal(table.target_life), allowed)
         if len(report) > before or not found:
             return None
         names = tuple(name for name in SCATTERED if name in found)
         draws = tuple(tuple(float(f"{value:.6g}") for value in found[name]) for name in names)
-        return Scatter(names, draws, target)
+        return Scatter(names, draws, table.target_life or 0.0)
 
     def _drawn(self, given: Mapping[str, Any], contacts: ContactDetails) -> Mapping[str, Any]:
         """Draws of constants: given ones, or from ranges and from a covariance about the constants."""
@@ -285,7 +284,9 @@ class SampleReader:
         if given and "points" in self.given:
             listed = read_points(given, report, _CONSTANTS, {}, "sample.points", COMMA_HINT)
             return {name: column for name, column in listed.items() if column is not None}
-        correlated, root = _root(table.covariance, given, report)
+        correlated, root = list[str](), np.empty((0, 0))
+        with report:
+            correlated, root = _root(table.covariance, given)
         if table.design == "saltelli":
             allowed = "a design other than saltelli, for draws of constants"
             report("sample.design", literal(table.design), allowed)
@@ -320,22 +321,21 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[Floa
     report, known = Report(), ("distribution", "low", "high", *DISTRIBUTIONS[kind])
     for name in (each for each in raw if each not in known):
         report(f"{key}.{name}", f"unknown key {literal(name)}", nearest(str(name), known))
-    ends = {"low": parameter.lower, "high": parameter.upper}
-    numbers: dict[str, float] = {}
+    # An open end is a bound, although it is no value.
+    bound = replace(parameter, open_lower=False, words=parameter.allowed)
+    any_number = replace(bound, lower=-math.inf, upper=math.inf, words="a number")
+    positive = replace(any_number, lower=0.0, open_lower=True, words="a number greater than 0")
+    rows = {"low": bound, "high": bound, "deviation": positive, "median": positive}
+    ends, numbers = {"low": parameter.lower, "high": parameter.upper}, dict[str, float]()
     for name in known[1:]:
-        own = raw.get(name, ends.get(name) if kind in _UNBOUNDED else None)
+        row, own = rows.get(name, any_number), raw.get(name, ends.get(name) if kind in _UNBOUNDED else None)
         try:
             if own is None:
                 raise ValueError
-            if name not in ends:
-                numbers[name] = float((read_angle if parameter.units == "rad" else read_exact)(own))
-            elif own == parameter.lower:
-                numbers[name] = parameter.lower  # an open end is a bound, although it is no value
-            else:
-                numbers[name] = as_number(read_value(parameter, own))
+            numbers[name] = as_number(read_value(row, own))
         except ValueError as error:
             found = "nothing" if own is None else f"{literal(own)} ({error})"
-            report(f"{key}.{name}", found, parameter.allowed if name in ends else "a number")
+            report(f"{key}.{name}", found, row.words)
     report.refuse()
     low, high, deviation = numbers["low"], numbers["high"], numbers.get("deviation", 1.0)
     bounds, mode = f"the bounds {low:g} and {high:g}", numbers.get("mode", low)
@@ -345,9 +345,6 @@ def _distribution(parameter: Parameter, raw: object, key: str) -> Callable[[Floa
         factor = math.exp(deviation) if deviation < 700.0 else math.inf
         allowed = f"that of the natural logarithm, at most {_LARGEST_DEVIATION:g}: about the relative one"
         raise refused(f"{key}.deviation", f"{deviation:g}, as a factor {factor:.3g}", allowed)
-    for name in ("deviation", "median"):
-        if numbers.get(name, 1.0) <= 0.0:
-            raise refused(f"{key}.{name}", f"{numbers[name]:g}", "a number greater than 0")
     if not low <= mode <= high:
         raise refused(f"{key}.mode", f"{mode:g}", f"a number in [{low:g}, {high:g}]")
     if kind == "uniform":
@@ -374,14 +371,11 @@ def _own_values(name: str, contacts: ContactDetails) -> list[float]:
     return [getattr(materials[body], constant) for body in bodies if materials]
 
 
-def _root(
-    covariance: Mapping[str, Any], ranges: Mapping[str, Any], report: Report
-) -> tuple[list[str], FloatArray]:
-    """Names of the constants of a covariance, and its root, shape (k, k); none of a wrong one."""
-    key, before = "sample.covariance", len(report)
+def _root(covariance: Mapping[str, Any], ranges: Mapping[str, Any]) -> tuple[list[str], FloatArray]:
+    """Names of the constants of a covariance, and its root, shape (k, k); a StudyError with its mistakes."""
+    key, report = "sample.covariance", Report()
     if wrong := [name for name, row in covariance.items() if not isinstance(row, dict)]:
-        report(f"{key}.{wrong[0]}", literal(covariance[wrong[0]]), _MATRIX)
-        return [], np.empty((0, 0))
+        raise refused(f"{key}.{wrong[0]}", literal(covariance[wrong[0]]), _MATRIX)
     names = [*dict.fromkeys([*covariance, *(name for row in covariance.values() for name in row)])]
     given = {(i, j): value for i, row in covariance.items() for j, value in row.items()}
     for name in names:
@@ -398,8 +392,7 @@ def _root(
         if both and not (np.isfinite(both).all() and math.isclose(both[0], both[-1], rel_tol=1e-8)):
             allowed = "one finite number, said once or twice the same"
             report(f"{key}.{i}.{j}", " and ".join(map(literal, twice)), allowed)
-    if len(report) > before:
-        return [], np.empty((0, 0))
+    report.refuse()
     matrix = np.array([float(given.get((i, j), given.get((j, i), 0.0))) for i in names for j in names])
     matrix = matrix.reshape(len(names), len(names))
     deviation = np.sqrt(np.diag(matrix))
@@ -408,8 +401,7 @@ def _root(
     if values.min(initial=0.0) < -1e-9:
         i, j = divmod(int(np.abs(np.tril(correlation, -1)).argmax()), len(names))
         found = f"a correlation of {correlation[i, j]:.3g} between {names[i]} and {names[j]}"
-        report(key, found, "correlations within ±1 that are possible together")
-        return [], np.empty((0, 0))
+        raise refused(key, found, "correlations within ±1 that are possible together")
     return names, deviation[:, None] * vectors * np.sqrt(values.clip(0.0))
 
 

@@ -17,8 +17,9 @@ from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop, checked_name
 from swtstudy.solver.smooth_path import HIGHEST_ORDER
 from swtstudy.study import cycles
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import SignalTable, with_keys
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import literal, refused
 from swtstudy.vocabulary.wording import number_of
@@ -138,14 +139,10 @@ class Signal:
         else:
             mean = float(self.cycles[..., 0].mean())
         if not mean > 0.0:
-            allowed = (
-                "a mean above 0; where compression is negative: scale = { normal = -1 }, or minus its scale"
-            )
+            hint = "where compression is negative: scale = { normal = -1 }, or minus its scale"
             if (least := float(self.values[:, 1].min())) > 0.0:
-                allowed = (
-                    f"a mean above 0; tangential loads are {least:.3g} and more: are the columns exchanged?"
-                )
-            raise refused("absolute", f"a mean normal load of {mean:.3g}", allowed)
+                hint = f"tangential loads are {least:.3g} and more: are the columns exchanged?"
+            raise refused("absolute", f"a mean normal load of {mean:.3g}", f"a mean above 0; {hint}")
         return mean
 
     @cached_property
@@ -299,11 +296,11 @@ def signal_from(
     path: Path,
     name: str,
     given: SignalTable,
-    labels: Labels = None,
+    units: Units | None = None,
     kinds: Mapping[str, str] = KINDS,
     kept: bool = False,
 ) -> Signal:
-    """The signal in a file; see `read_signal`, and `read_columns` for kinds and the labels of units.
+    """The signal in a file; see `read_signal`, and `read_columns` for kinds and units.
 
     ``kept`` tells that its cycles are used one by one: they need not be alike.
     """
@@ -317,7 +314,7 @@ def signal_from(
     form = given.model_copy(update={"columns": given.columns | ({TIME: given.time} if given.time else {})})
     names = (*(TIME,) * bool(given.time), *COLUMNS, *(BULK,) * (BULK in given.columns))
     optional = () if BULK in given.columns else (BULK,)
-    values, rows = read_columns(path, names, optional, form, kinds, labels, gaps=given.time is not None)
+    values, rows = read_columns(path, names, optional, form, kinds, units, gaps=given.time is not None)
     time = np.arange(len(values), dtype=np.float64)
     if given.time:
         time, values = values[:, 0], values[:, 1:]
@@ -363,10 +360,9 @@ def _refuse_unlike(signal: Signal, key: str) -> None:
         length = 1.0 / signal.period if key == "frequency" else signal.period
         found = f"{signal.count if key == 'recorded_cycles' else length:.7g}: the {NAMES[k]} loads of its "
         found += f"{signal.count} cycles differ by {signal.scatter[k]:.3g}, more than their mean moves by, "
-        allowed = (
-            f"that of the record{_better(signal, key)}; keep_cycles = true in a block of single cycles; "
-        )
-        allowed += f"scale = {{ {NAMES[k]} = 0 }} if that column is noise"
+        single = "keep_cycles = true in a block of single cycles"
+        noise = f"scale = {{ {NAMES[k]} = 0 }} if that column is noise"
+        allowed = f"that of the record{_better(signal, key)}; {single}; {noise}"
         raise refused(key, f"{found}{moves[k]:.3g}", allowed)
 
 
@@ -456,11 +452,10 @@ def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
     elif unlike.max() > UNLIKE:
         k = int(unlike.argmax())
         moves = signal.mean_cycle[:, k].std()
-        found = (
-            f"the cycles' {NAMES[k]} loads differ by {signal.scatter[k]:.3g}, and their mean, which is the "
-        )
+        found = f"the cycles' {NAMES[k]} loads differ by {signal.scatter[k]:.3g}"
+        load = f"their mean, which is the load, moves by {moves:.3g} (standard deviations)"
         out = f"is the cycle another{better}?" if better else "a block with keep_cycles = true runs each"
-        yield f"{found}load, moves by {moves:.3g} (standard deviations): {out}"
+        yield f"{found}, and {load}: {out}"
 
 
 def _losses(signal: Signal) -> Iterator[str]:
@@ -482,11 +477,9 @@ def _losses(signal: Signal) -> Iterator[str]:
     off, order = cycles.cut_off(signal.mean_cycle[:, moving], samples)
     if (most := off.max(initial=0.0)) > CUT_OFF:
         found = f"{samples:.4g} samples a cycle, at other phases in each: straight lines between them take"
-        name = NAMES[moving[off.argmax()]]
-        way = (
-            f"harmonics = {order} takes nothing off" if order <= HIGHEST_ORDER else "more samples are needed"
-        )
-        yield f"{found} {most:.1%} off the {name} load; {way}"
+        smooth = f"harmonics = {order} takes nothing off"
+        way = smooth if order <= HIGHEST_ORDER else "more samples are needed"
+        yield f"{found} {most:.1%} off the {NAMES[moving[off.argmax()]]} load; {way}"
 
 
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from string import Template
@@ -13,26 +12,23 @@ from swtstudy.study.schema import SCHEMA_LINE
 from swtstudy.study.units.rows import Units, rows
 from swtstudy.study.writing import quoted
 from swtstudy.vocabulary.choices import FAMILIES, PLANE
+from swtstudy.vocabulary.files import read_text
 from swtstudy.vocabulary.mistakes import ALLOWED_RTOL, DEFAULT_RTOL
-from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES, Parameter, short
+from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES, short
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
 
 
-def template(title: str) -> str:
-    """The text of a study with two axes, and every other parameter as a comment."""
-    return _filled("template.toml", title, PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]})
+def template(title: str, with_units: bool = False) -> str:
+    """The text of a study with two axes, of real contacts if it has units.
 
-
-def template_with_units(title: str) -> str:
-    """The text of a study of real contacts, with every parameter that is not used as a comment."""
-    # Symbols and notes belong to parameters without units.
-    known = {name: replace(row, note="", symbol="") for name, row in rows(Units("mm", "N", "MPa")).items()}
-    return _filled("template_with_units.toml", title, known)
-
-
-def _filled(name: str, title: str, known: Mapping[str, Parameter]) -> str:
-    """A template with the profiles, and the parameters that it does not use with defaults, as comments."""
-    text = Path(__file__).with_name(name).read_text(encoding="utf-8")
+    The profiles, and the parameters that it does not use with their defaults, are comments.
+    """
+    name, known = "template.toml", PARAMETERS | {DISTANCE: QUANTITY_AXES[DISTANCE]}
+    if with_units:
+        # Symbols and notes belong to parameters without units.
+        own = rows(Units("mm", "N", "MPa")).values()
+        name, known = "template_with_units.toml", {row.name: replace(row, note="", symbol="") for row in own}
+    text = read_text(Path(__file__).with_name(name))
     used = re.findall(r"^(\w+) =", text, re.MULTILINE)
     lines = [f"profile = {quoted(str(PARAMETERS['profile'].default))}"]
     for family in FAMILIES.values():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
@@ -11,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from swtstudy.solver.table import FEWEST, TabulatedProfile
-from swtstudy.study.columns import Labels, read_columns
+from swtstudy.study.columns import read_columns
 from swtstudy.study.keys import TraceTable, with_keys
+from swtstudy.study.units.rows import Units
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 from swtstudy.vocabulary.mistakes import refused
 
@@ -90,10 +92,10 @@ def read_trace(path: str | PathLike[str], *, name: str | None = None, **given: A
     return trace_from(Path(path), Path(path).stem if name is None else name, TraceTable.of(given))
 
 
-def trace_from(own: Path, name: str, form: TraceTable, labels: Labels = None) -> TabulatedProfile:
-    """The profile of a trace in a file; see `read_trace`, and `read_columns` for the labels of units."""
+def trace_from(own: Path, name: str, form: TraceTable, units: Units | None = None) -> TabulatedProfile:
+    """The profile of a trace in a file; see `read_trace`, and `read_columns` for the units."""
     kinds = dict.fromkeys(COLUMNS, "length")
-    values, rows = read_columns(own, COLUMNS, (), form, kinds, labels, gaps=True)
+    values, rows = read_columns(own, COLUMNS, (), form, kinds, units, gaps=True)
     position, height = values.T
     if len(position) < 4 * FEWEST:
         raise refused("", f"{len(position)} points", f"{4 * FEWEST} at least", str(own))
@@ -127,27 +129,26 @@ def trace_from(own: Path, name: str, form: TraceTable, labels: Labels = None) ->
     return TabulatedProfile(name, fold.radius, fold.height, least, form.geometry)
 
 
-def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> list[str]:
+def _doubts(position: FloatArray, fold: Fold, rows: IndexArray) -> Iterator[str]:
     """Lines on the samples that were set aside, on gaps, and on a trace of which much is unused."""
-    lines, aside = [], rows[~fold.kept]
+    aside = rows[~fold.kept]
     if aside.size:
         plural = "s" * (aside.size > 1)
         parts = np.split(aside, np.flatnonzero(np.diff(aside) > 1) + 1)
         runs = [f"{part[0]} to {part[-1]}" if len(part) > 1 else f"{part[0]}" for part in parts]
         more = f" and {len(runs) - MOST_RUNS} more places" if len(runs) > MOST_RUNS else ""
         places = f"line{plural} {', '.join(runs[:MOST_RUNS])}{more} of the file"
-        lines.append(f"{aside.size} sample{plural} set aside that the other side does not have: {places}")
+        yield f"{aside.size} sample{plural} set aside that the other side does not have: {places}"
     at = np.sort(position)
     steps = np.diff(at)
     middle_step = float(np.median(steps[steps > 0.0]))
     for gap in np.flatnonzero(steps > GAP * middle_step):
         ends = f"a gap of {steps[gap]:.4g} in the positions, from {at[gap]:.4g} to {at[gap + 1]:.4g}"
-        lines.append(f"{ends}, where most steps are {middle_step:.4g}: the heights there are unknown")
+        yield f"{ends}, where most steps are {middle_step:.4g}: the heights there are unknown"
     used = 2.0 * fold.radius[-1] / np.ptp(position)
     if used < LEAST_USED:
         found = f"the middle is at {fold.middle:.4g}, so that only {used:.0%} of the trace has two sides"
-        lines.append(f"{found}: radii up to {fold.radius[-1]:.4g}; is that the middle?")
-    return lines
+        yield f"{found}: radii up to {fold.radius[-1]:.4g}; is that the middle?"
 
 
 @dataclass(frozen=True, eq=False)

@@ -82,6 +82,15 @@ def test_a_study_with_absolute_forces_needs_neither_the_mean_nor_amplitudes(tmp_
     np.testing.assert_allclose(contact.solve(rtol=1e-3).SWT, found.SWT, rtol=1e-9)
 
 
+@pytest.mark.parametrize("normal", [0, 1])
+def test_a_normal_amplitude_that_is_given_leaves_the_tangential_column_a_force(normal: int) -> None:
+    table = f"[loads.rig]\nabsolute = true\nvertices = {CYCLE[:, :2].tolist()}\n"
+    given = f"normal_force_amplitude = {normal}\n{table}"
+    grid = Study.from_text(RIG + given).grid
+    assert grid.fixed["tangential_force_amplitude"] == 1.0
+    assert grid.control.name == "forces"
+
+
 @pytest.mark.slow
 def test_each_load_of_an_axis_has_its_own_mean(tmp_path: Path) -> None:
     text = RIG.replace('load = "rig"\n', "") + '[axes]\nload = ["low", "high"]\n'

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import pytest
 from folders import DATA
 
 from swtstudy import Study
-from swtstudy.study.template import template, template_with_units
+from swtstudy.study.template import template
 
 
-@pytest.mark.parametrize(
-    ("made", "name"), [(template, "template.toml"), (template_with_units, "template_with_units.toml")]
-)
-def test_a_template_is_the_kept_one(made: Callable[[str], str], name: str) -> None:
+@pytest.mark.parametrize("with_units", [False, True])
+def test_a_template_is_the_kept_one(with_units: bool) -> None:
     """Where words of parameters have changed the kept one is to be written anew."""
-    text = made("A study")
+    text = template("A study", with_units)
+    name = "template_with_units.toml" if with_units else "template.toml"
     assert text == (DATA / name).read_text(encoding="utf-8")
     assert Study.from_text(text).title == "A study"
-    assert made('"') == text.replace('"A study"', r'"\""')
+    assert template('"', with_units) == text.replace('"A study"', r'"\""')

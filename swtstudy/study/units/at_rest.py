@@ -90,12 +90,11 @@ class Moduli:
 def _pure(table: TabulatedProfile, length: float, depth: float) -> TabulatedProfile:
     """A table to the digits of canonical points: in whichever units it was given, it is the same."""
     pure = table.scaled(length, depth)
-    smoothing = canonical_number(pure.smoothing)
-    own = rounded(pure.radius), rounded(pure.height), smoothing
+    own = rounded(pure.radius), rounded(pure.height), canonical_number(pure.smoothing)
     return TabulatedProfile(pure.name, *own, pure.geometry)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contact:
     """A real contact at rest, in any consistent set of units, such as N, mm and MPa.
 

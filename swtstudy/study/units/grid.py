@@ -237,13 +237,13 @@ class PhysicalGrid(ContactDetails, Grid):
     @property
     def distinct(self) -> list[Contact]:
         """The contacts at rest, each once."""
-        return [*{id(each): each for each in self.at_rest.values.flat}.values()]
+        return [*dict.fromkeys(self.at_rest.values.flat)]
 
     def each(self, value: Callable[[Contact], float], kind: type = float) -> xr.Variable:
         """A number of every contact at rest."""
-        numbers = {id(each): value(each) for each in self.distinct}
-        found: NDArray = np.array([numbers[id(each)] for each in self.at_rest.values.flat], kind)
-        return self.at_rest.copy(data=found.reshape(self.at_rest.shape))
+        import xarray as xr
+
+        return xr.apply_ufunc(cache(value), self.at_rest, vectorize=True, output_dtypes=[kind])
 
     def _contact(self, own: Mapping[str, Any]) -> Contact:
         """The contact with values of `AT_REST_NAMES`."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
+from pydantic import ConfigDict, Field
+from pydantic.dataclasses import dataclass as checked_dataclass
 
 from swtstudy.study.units.rows import wrong_size
 from swtstudy.vocabulary.arrays import FloatArray
@@ -120,7 +122,7 @@ class _Constants:
     @property
     def curve(self) -> LifeCurve:
         """The curve of lives that they give."""
-        return curve_of(type(self), vars(self))
+        return curve_of(vars(self))
 
 
 @dataclass(frozen=True)
@@ -241,16 +243,12 @@ class ShearConstants(_Constants):
     @classmethod
     def estimated(cls, tensile: FatigueConstants, poisson_ratio: float) -> ShearConstants:
         """Estimate them from tensile constants: τf′ = σf′/√3, γf′ = √3 εf′, and the same exponents."""
-        if not -1.0 < plain_number(poisson_ratio) <= 0.5:
+        ν, root = plain_number(poisson_ratio), math.sqrt(3.0)
+        if not -1.0 < ν <= 0.5:
             raise refused("poisson_ratio", literal(poisson_ratio), "a number in (-1, 0.5]")
-        root = math.sqrt(3.0)
-        return cls(
-            tensile.young_modulus / (2.0 + 2.0 * plain_number(poisson_ratio)),
-            tensile.strength / root,
-            tensile.strength_exponent,
-            root * tensile.ductility,
-            tensile.ductility_exponent,
-        )
+        shear_modulus, strength = tensile.young_modulus / (2.0 + 2.0 * ν), tensile.strength / root
+        b, c = tensile.strength_exponent, tensile.ductility_exponent
+        return cls(shear_modulus, strength, b, root * tensile.ductility, c)
 
     def parameter(self, cycles: ArrayLike) -> FloatArray:
         """The Fatemi–Socie parameter, a strain, that a specimen stands for N cycles."""
@@ -287,19 +285,11 @@ class ShearConstants(_Constants):
         return self.curve.rounds("parameter", parameter, counted, counted_number)
 
 
-def curve_of(kind: type[_Constants], values: Mapping[str, Any]) -> LifeCurve:
-    """The curve by strain–life constants: the sum of an elastic and a plastic term.
-
-    Parameters
-    ----------
-    kind
-        The class of the constants.
-    values
-        Its attributes: numbers, or arrays of n draws.
-    """
+def curve_of(values: Mapping[str, Any]) -> LifeCurve:
+    """The curve by strain–life constants by name, numbers or n draws: an elastic and a plastic term."""
     b, c = values["strength_exponent"], values["ductility_exponent"]
     strength, ductility = np.log(values["strength"]), np.log(values["ductility"])
-    if issubclass(kind, ShearConstants):
+    if "shear_modulus" in values:
         columns = strength - np.log(values["shear_modulus"]), ductility, b, c
     else:
         columns = 2.0 * strength - np.log(values["young_modulus"]), strength + ductility, 2.0 * b, b + c
@@ -358,29 +348,23 @@ class Scatter:
             if torsion == in_torsion and body in bodies:
                 ratio = getattr(constants, name) / getattr(tensile, name) if tensile else 1.0
                 values[name] = draws * ratio
-        return curve_of(type(constants), values)
+        return curve_of(values)
 
 
-@dataclass(frozen=True)
+_ROUNDS = "a positive number of rounds"
+
+
+@checked_dataclass(frozen=True, config=ConfigDict(extra="forbid", use_attribute_docstrings=True))
 class Block:
-    """Rounds of one load within a sequence that repeats, for Miner's sum.
+    """A block of a sequence that repeats, for Miner's sum: rounds of a load."""
 
-    Attributes
-    ----------
-    load
-        Name of the load.
-    rounds
-        How many in each repetition of the sequence.
-    """
+    #: Words for it as a whole, in messages.
+    allowed: ClassVar[str] = "[[blocks]] with load and rounds"
 
-    load: str
-    rounds: float
-
-
-def wrong_rounds(rounds: object, key: str) -> list[Mistake]:
-    """Return the mistake in a number of rounds."""
-    sound = 0.0 < plain_number(rounds) < math.inf
-    return [] if sound else [Mistake(key, literal(rounds), "a positive number of rounds")]
+    load: Annotated[str, "the name of a load"]
+    """Name of a load; of a signal that keeps its cycles all of them in turn."""
+    rounds: Annotated[float, _ROUNDS, Field(strict=True, gt=0.0, allow_inf_nan=False)]
+    """Number of its rounds in each repetition of the sequence."""
 
 
 def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tuple[Block, ...]:
@@ -396,7 +380,8 @@ def checked_blocks(rounds: Mapping[str, object], loads: Sequence[object]) -> tup
         raise refused("blocks", literal(rounds), f"rounds by the name of each load: {', '.join(known)}")
     report += [Mistake("blocks", literal(n), nearest(str(n), known, {})) for n in rounds if n not in known]
     for name, number in rounds.items():
-        report += wrong_rounds(number, f"blocks.{name}")
+        if not 0.0 < plain_number(number) < math.inf:
+            report(f"blocks.{name}", literal(number), _ROUNDS)
     if left := [name for name in known if name not in rounds]:
         found = f"no rounds of {', '.join(map(literal, left))}"
         report("blocks", found, "rounds of each load, or none of these loads")

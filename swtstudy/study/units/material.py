@@ -17,13 +17,13 @@ from swtstudy.points.values import read_exact
 from swtstudy.study.units.at_rest import Moduli
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, ShearConstants
-from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, read_units, right_place, wrong_size
+from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, right_place, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
-RANGES = ("threshold_stress_intensity_range", "fatigue_limit_range")
 LOAD_RATIO = "load_ratio"
+_THRESHOLD = ("threshold_stress_intensity_range", "fatigue_limit_range", LOAD_RATIO)
 #: Above which von Mises stress it yields; and what the Findley stress is compared with.
 STRENGTH, LIMIT = "yield_strength", "findley_limit"
 _YOUNG, _MODULUS = "young_modulus", "shear_modulus"
@@ -38,7 +38,7 @@ TENSILE = tuple(item.name for item in fields(FatigueConstants))
 SHEAR_CONSTANTS = {f"shear_{item.name.removeprefix('shear_')}": item.name for item in fields(ShearConstants)}
 #: Properties that go together, of which the load ratio alone may be left out.
 _TORSION = tuple(SHEAR_CONSTANTS)
-_TOGETHER = (TENSILE, _TORSION, (*RANGES, LOAD_RATIO))
+_TOGETHER = (TENSILE, _TORSION, _THRESHOLD)
 #: Values of metals, least and largest.
 USUAL: dict[str, Any] = TABLES["usual"]
 
@@ -50,7 +50,7 @@ Both = Sequence[Any]
 
 
 def read_given(
-    labels: Table, material: Table | None, fixed: Table, folder: Path, report: Report
+    units: Units, material: Table | None, fixed: Table, folder: Path, report: Report
 ) -> tuple[ContactDetails, float | None]:
     """Units and materials of a study, and the critical distance, None without a threshold.
 
@@ -58,17 +58,15 @@ def read_given(
 
     Parameters
     ----------
-    labels, material, fixed
-        The tables units, material and fixed.
+    units
+        Labels of its units.
+    material, fixed
+        These tables.
     folder
         Folder of the study.
     report
         Called with key, found and allowed of each mistake.
     """
-    units = read_units(labels, report)
-    if units is None:  # reported: meanwhile the labels stand for units
-        given = {kind: labels.get(kind) for kind in KNOWN}
-        units = Units(*(name if isinstance(name, str) else f"the unit of {k}" for k, name in given.items()))
     if material is None:
         return ContactDetails(units), None
     # 0 for what is no positive number: 0 is not below NaN.
@@ -132,7 +130,7 @@ def _read_material(
         shear_materials=of_both(ShearConstants, _TORSION),
         findley_limits=tuple(values.get(LIMIT, ())),
     )
-    ranges = [values[name][0] for name in (*RANGES, LOAD_RATIO) if name in values]
+    ranges = [values[name][0] for name in _THRESHOLD if name in values]
     return details, critical_distance(units, *ranges) if ranges else None
 
 
@@ -145,7 +143,7 @@ def _both(key: str, tables: list[dict[str, Any]], others: Both | None, units: Un
         wrong = {literal(each): allowed for each in both if not -math.inf < plain_number(each) < 1.0}
     if None in both:
         wrong = {"that of one body": "that of both bodies, or of none"}
-    elif not wrong and key in (*RANGES, LOAD_RATIO) and both[0] != both[1]:
+    elif not wrong and key in _THRESHOLD and both[0] != both[1]:
         words = "one value: there is one critical distance for both bodies"
         wrong = {", ".join(map(literal, both)): words}
     for found, words in wrong.items():

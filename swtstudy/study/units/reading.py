@@ -62,12 +62,8 @@ def read_contacts(
     source: str = "",
     samples: Mapping[str, tuple[Value, ...] | None] | None = None,
     known: Known = NOTHING_KNOWN,
-    distances: Sequence[float] = (),
 ) -> tuple[PhysicalGrid | None, Report]:
-    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`.
-
-    Critical distances are held against their range, too.
-    """
+    """The grid of real contacts spanned by fixed values and axes; as `swtstudy.points.reading.read_grid`."""
     report, samples = Report(source, keys), samples or {}
     everything = {**fixed, **axes, **samples}
     raw, tables = everything.get("profile", PARAMETERS["profile"].default), known.get("profile", {})
@@ -98,8 +94,6 @@ def read_contacts(
     # Sizes of what stands for a wrong load are no mistakes.
     if not report and not any(load is ANY or load is ANY_MEASURED for load in grid.values("load")):
         check_contacts(grid, report)
-    if not report:
-        check_distances(grid, distances, report)
     return (None if report else grid), report
 
 
@@ -140,7 +134,7 @@ def completed(
     """A grid with what contacts have unless it is given; and with both bodies, if they differ."""
     named = Grid(fixed, axes, samples)
     loads, profiles, given = named.values("load"), named.values("profile"), {*named.names, *about.pairs}
-    fixed = fixed | grids.implied_amplitudes(given | replaced_by(given), loads, profiles)
+    fixed = fixed | grids.implied_amplitudes(given, loads, profiles)
     given |= {*fixed} | replaced_by({*given, *fixed})
     table = units.rows(grids.labels_of(about.units, profiles, given))
     defaults = {n: read_value(row, row.default) for n, row in table.items() if row.default is not None}
@@ -190,9 +184,9 @@ def _read_bodies(
         names = ()
     body = single.get("body")
     if names and isinstance(body, str) and body not in map(str, units.LABELS):
-        if body not in names:
-            report.of("body", literal(body), units.labels_or(names))
-        single["body"] = names.index(body) + 1 if body in names else 1
+        single["body"] = 1
+        with report:
+            single["body"] = units.checked_body(body, report.key("body"), names)
     return replace(given, pairs=pairs, similar=similar, body_names=names), single
 
 
@@ -247,20 +241,16 @@ def check_bodies(grid: PhysicalGrid, report: Report) -> None:
 
     Without friction nothing is dragged along, and bodies of any moduli are right.
     """
-    rubbing = [as_number(value) for value in grid.values("friction") if as_number(value) > 0.0]
-    if not rubbing:
-        return
+    rubbing = [value for value in map(as_number, grid.values("friction")) if value > 0.0]
     pairs = itertools.product(*map(grid.of_both, units.OF_BODIES))
-    friction, beta = min(rubbing), max((Moduli(*both).mismatch for both in pairs), key=abs)
+    beta, friction = max((Moduli(*both).mismatch for both in pairs), key=abs), min(rubbing, default=math.inf)
     ratio = abs(beta) / friction
     found = f"Dundurs' β = {beta:.3g} is {ratio:.2g} times the friction {friction:g}"
     if ratio > grid.similar:
         enough = math.ceil(100.0 * ratio) / 100.0
-        allowed = (
-            f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1); "
-            f"{units.SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
-        )
-        report.of(units.OF_BODIES, f"bodies that are not similar: {found}", allowed)
+        allowed = f"|β|/μ ≤ {grid.similar:g}, since (1 − 2ν1)/G1 = (1 − 2ν2)/G2 is assumed (eq. 1)"
+        way = f"{units.SIMILAR_KEY} = {enough:g} accepts them: s leaves out tangential tractions of about β p"
+        report.of(units.OF_BODIES, f"bodies that are not similar: {found}", f"{allowed}; {way}")
     elif ratio > units.NOTICEABLE_MISMATCH:
         words = f"{found}: pressure p drags tangential tractions of about β p along, which s leaves out"
         warnings.warn(words, stacklevel=2)

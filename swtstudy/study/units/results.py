@@ -12,7 +12,7 @@ import xarray as xr
 
 from swtstudy.points.values import index_at
 from swtstudy.study.units.life import Block, LifeCurve
-from swtstudy.study.units.rows import LABELS, TABLES
+from swtstudy.study.units.rows import LABELS, TABLES, Units
 from swtstudy.vocabulary.arrays import FloatArray
 from swtstudy.vocabulary.choices import CRITERIA, SWT
 from swtstudy.vocabulary.derived import DERIVED, LIFE, LIVES, NORMALISED, PERCENTS, RANKS, REPETITIONS, SHARE
@@ -22,7 +22,6 @@ from swtstudy.vocabulary.wording import number_words, numbers_words
 if TYPE_CHECKING:
     from swtstudy.study.units.at_rest import Contact
     from swtstudy.study.units.grid import PhysicalGrid
-    from swtstudy.study.units.rows import Units
     from swtstudy.vocabulary.derived import Derived
 
 #: Facts that an archive has even where there are none; others are left out then.

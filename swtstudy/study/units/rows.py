@@ -85,8 +85,8 @@ def right_place(name: str, known: Collection[str]) -> str:
     return "in [fixed] or [axes]" if name in AXES else nearest(name, known)
 
 
-def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
-    """The units that a study says; every mistake is reported."""
+def read_units(raw: Mapping[str, object], report: Report) -> Units:
+    """The units that a study says; every mistake is reported, and a wrong label stands for a unit."""
     before = len(report)
     for name in (each for each in raw if each not in UNIT_KINDS):
         report(f"units.{name}", f"unknown key {literal(name)}", right_place(str(name), UNIT_KINDS))
@@ -103,7 +103,9 @@ def read_units(raw: Mapping[str, object], report: Report) -> Units | None:
             number, unit = f"{force / length**2 / stress:.3g}", labels["stress"]
             found = f"{labels['force']} over {labels['length']}², which is {number} {unit}"
             report("units", found, f"a consistent set, such as N, mm and MPa: that is to be 1 {unit}")
-    return Units(**labels) if len(report) == before else None
+    if len(report) > before:
+        labels = {kind: label or f"the unit of {kind}" for kind, label in labels.items()}
+    return Units(**labels)
 
 
 def _likely_units(kind: str, label: str) -> list[str]:
@@ -158,14 +160,11 @@ class Scale(NamedTuple):
         "length", "force" or "stress".
     power
         Of δ0, in proportion to which it grows with the depth; None if it follows no power.
-    made_of
-        The parameter whose length it is, if there is one.
     """
 
     name: str
     kind: str
     power: float | None = None
-    made_of: str = ""
 
     def of(self, contact: Contact) -> float:
         """Its value for a contact."""
@@ -176,8 +175,8 @@ class Scale(NamedTuple):
 SCALES = {name: Scale(**row) for name, row in TABLES["scales"].items()}
 
 
-#: Parameters that a real contact needs: it has no usual friction.
-WITHOUT_DEFAULT = ("poisson_ratio", "friction", "tangential_amplitude")
+#: Defaults of real contacts: these have no usual friction, and a constant normal load is the plainest one.
+_DEFAULTS = {"poisson_ratio": None, "friction": None, "tangential_amplitude": None, "normal_amplitude": 0.0}
 #: Parameters that each of the two bodies has.
 OF_BODIES = ("young_modulus", "poisson_ratio")
 #: A fixed value that is no parameter: |β|/μ up to which the bodies count as similar, β Dundurs' constant, and
@@ -214,12 +213,9 @@ def rows(units: Units) -> dict[str, Parameter]:
     found: dict[str, Parameter] = {}
     for name in names:
         row, kind = AXES[name], kind_of(name)
-        own: dict[str, Any] = {"default": None if name in WITHOUT_DEFAULT else row.default}
-        if name == "normal_amplitude":
-            own["default"] = 0.0  # a constant normal load is the plainest one
+        own: dict[str, Any] = {"default": _DEFAULTS.get(name, row.default)}
         if kind is not None:
-            # Nothing else can be measured in what may be 0.
-            is_measure = any(scale.made_of == name for scale in SCALES.values())
+            is_measure = name == "waviness_amplitude"  # of √(hR): nothing is measured in what may be 0
             vanishes = row.scale and not row.open_lower and not is_measure and row.part != "quantity"
             lower = -LARGEST if row.lower < 0.0 else 0.0 if vanishes else SMALLEST
             label = units.label(kind)
@@ -252,10 +248,5 @@ def checked_body(body: object, key: str = "body", names: Sequence[str] = ()) -> 
     """
     number = names.index(body) + 1 if isinstance(body, str) and body in names else plain_number(body)
     if number not in LABELS:
-        raise refused(key, literal(body), labels_or(names))
+        raise refused(key, literal(body), " or ".join((*map(str, LABELS), *map(literal, names))))
     return int(number)
-
-
-def labels_or(names: Sequence[str]) -> str:
-    """The labels and names that a body may be called by, in words."""
-    return " or ".join((*map(str, LABELS), *map(literal, names)))
