@@ -60,15 +60,12 @@ class Box:
             raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
         return cls(corners, tuple(over), low, high)
 
-    def values(self, unit: FloatArray) -> FloatArray:
-        """Values of the parameters at points of the unit cube, shape (n, d)."""
-        # Not low + unit (high - low): rounding must not leave the range.
-        return self.low * (1.0 - unit) + self.high * unit
-
     def sample(self, unit: FloatArray) -> Grid:
         """The grid whose sample is n points of the unit cube, shape (n, d)."""
         axes = {name: values for name, values in self.corners.axes.items() if name not in self.names}
-        samples = dict(zip(self.names, map(tuple, self.values(unit).T.tolist()), strict=True))
+        # Not low + unit (high - low): rounding must not leave the range.
+        values = self.low * (1.0 - unit) + self.high * unit
+        samples = dict(zip(self.names, map(tuple, values.T.tolist()), strict=True))
         return replace(self.corners, axes=axes, samples=samples)
 
 
@@ -87,12 +84,6 @@ def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[ob
             axes[name] = None
             report(f"over.{name}", literal(ends), "both ends of a range, (low, high)")
     return axes, report
-
-
-def worst(values: xr.DataArray) -> FloatArray:
-    """Values of the points of a sample: of both bodies, and both directions, that which is worse."""
-    others = [dim for dim in values.dims if dim != SAMPLE]
-    return np.asarray((values.min(others) if values.name in LIVES else values.max(others)).values, float)
 
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
@@ -224,8 +215,10 @@ _POLISHED, _APART = 8, 0.1
 _TRIAL = 8
 
 
-class Search:
-    """The search of the unit cube for the least value of a quantity, or of its negative.
+def search(
+    solve: Callable[[FloatArray], xr.Dataset], dimensions: int, quantity: str, sign: int, seed: int
+) -> tuple[FloatArray, FloatArray]:
+    """Search the unit cube for the least value of a quantity, or of its negative.
 
     Parameters
     ----------
@@ -240,82 +233,93 @@ class Search:
     seed
         Seed of the random numbers.
 
-    Attributes
-    ----------
-    points, values
-        Shapes (n, d) and (n,): all points that were solved, in the unit cube, and the values times the sign.
+    Returns
+    -------
     best
-        Shape (d,): the point with the least of these values.
+        Shape (d,): the point with the least of the values.
+    values
+        Shape (n,): the values at all points that were solved, times the sign; infinite where there is none.
 
     Raises
     ------
     StudyError
         If there is no finite value anywhere.
     """
+    from scipy.optimize import differential_evolution
 
-    def __init__(
-        self, solve: Callable[[FloatArray], xr.Dataset], dimensions: int, quantity: str, sign: int, seed: int
-    ) -> None:
-        from scipy.optimize import differential_evolution
+    points: list[FloatArray] = []
+    values: list[FloatArray] = []
 
-        self._solve, self._quantity, self._sign = solve, quantity, sign
-        self.points, self.values = np.empty((0, dimensions)), np.empty(0)
-        differential_evolution(
-            lambda columns: self._at(np.clip(columns.T, 0.0, 1.0)),
-            # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
-            # sends what leaves its bounds back to anywhere inside.
-            [(-0.1, 1.1)] * dimensions,
-            popsize=max(16, 64 // dimensions),  # about scipy's 15 for each parameter, and 64 at least
-            init="sobol",
-            maxiter=100,  # most searches converge before
-            tol=0.01,  # values differ by this fraction of their mean: the polish does the rest
-            seed=seed,
-            polish=False,
-            updating="deferred",
-            vectorized=True,
-        )
-        if not np.isfinite(self.values.min()):
-            words = f"no finite value at any of {len(self.values)} points"
-            raise refused("over", words, "ranges in which the quantity is finite somewhere")
-        self._polish(seed)
-        self.best = self.points[self.values.argmin()]
+    def solved(unit: FloatArray) -> FloatArray:
+        """Values at points of the unit cube, (n, d) to (n,)."""
+        found = solve(unit)[quantity]
+        others = [dim for dim in found.dims if dim != SAMPLE]
+        # Of both bodies, and of both directions, the worse one counts.
+        worse = (found.min(others) if quantity in LIVES else found.max(others)).values
+        points.append(unit)
+        values.append(np.where(np.isfinite(worse), sign * worse, np.inf))
+        return values[-1]
 
-    def _at(self, unit: FloatArray) -> FloatArray:
-        """Values times the sign at points of the unit cube, (n, d) to (n,); infinite where there is none."""
-        found = worst(self._solve(unit)[self._quantity])
-        values = np.where(np.isfinite(found), self._sign * found, np.inf)
-        self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
-        return values
-
-    def _polish(self, seed: int) -> None:
-        """Polish the best points; what all of them ask for next is one batch, in which a point costs less."""
-        # The best points that are apart from better ones.
-        begin: list[int] = []
-        for row in self.values.argsort(kind="stable")[: np.isfinite(self.values).sum()].tolist():
-            away = [np.abs(self.points[row] - self.points[other]).max() for other in begin]
-            if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
-                begin.append(row)
-        polishes = [polish(self.points[row], float(self.values[row]), seed) for row in begin]
-        lowest = dict(zip(polishes, self.values[begin].tolist(), strict=True))
-        asked = {each: next(each) for each in polishes}
-        for batch in itertools.count(1):
-            values = self._at(np.concatenate(list(asked.values())))
-            ends = np.cumsum([len(points) for points in asked.values()])
-            for each, part in zip(list(asked), np.split(values, ends[:-1]), strict=True):
-                lowest[each] = min(lowest[each], *part)
-                try:
-                    asked[each] = each.send(part)
-                except StopIteration:
-                    del asked[each]
-            if not asked:
-                return
-            if batch % _TRIAL == 0:
-                leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
-                asked = {each: asked[each] for each in leading}
+    differential_evolution(
+        lambda columns: solved(np.clip(columns.T, 0.0, 1.0)),
+        # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
+        # sends what leaves its bounds back to anywhere inside.
+        [(-0.1, 1.1)] * dimensions,
+        popsize=max(16, 64 // dimensions),  # about scipy's 15 for each parameter, and 64 at least
+        init="sobol",
+        maxiter=100,  # most searches converge before
+        tol=0.01,  # values differ by this fraction of their mean: the polish does the rest
+        seed=seed,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+    )
+    every = np.concatenate(values)
+    if not np.isfinite(every.min()):
+        words = f"no finite value at any of {len(every)} points"
+        raise refused("over", words, "ranges in which the quantity is finite somewhere")
+    polish_best(solved, np.concatenate(points), every, seed)
+    every = np.concatenate(values)
+    return np.concatenate(points)[every.argmin()], every
 
 
-#: The data variables that may be minimised: values that all results have, and quantities on request.
-MINIMISED = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
+def polish_best(
+    solved: Callable[[FloatArray], FloatArray], points: FloatArray, values: FloatArray, seed: int
+) -> None:
+    """Polish the best of n points; what all polishes ask for next is one batch, in which a point costs less.
+
+    Parameters
+    ----------
+    solved
+        Values at points, from their shape (n, d).
+    points, values
+        Shapes (n, d) and (n,).
+    seed
+        As of `polish`.
+    """
+    # The best points that are apart from better ones.
+    begin: list[int] = []
+    for row in values.argsort(kind="stable")[: np.isfinite(values).sum()].tolist():
+        away = [np.abs(points[row] - points[other]).max() for other in begin]
+        if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
+            begin.append(row)
+    polishes = [polish(points[row], float(values[row]), seed) for row in begin]
+    lowest = dict(zip(polishes, values[begin].tolist(), strict=True))
+    asked = {each: next(each) for each in polishes}
+    for batch in itertools.count(1):
+        found = solved(np.concatenate(list(asked.values())))
+        ends = np.cumsum([len(part) for part in asked.values()])
+        for each, part in zip(list(asked), np.split(found, ends[:-1]), strict=True):
+            lowest[each] = min(lowest[each], *part)
+            try:
+                asked[each] = each.send(part)
+            except StopIteration:
+                del asked[each]
+        if not asked:
+            return
+        if batch % _TRIAL == 0:
+            leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
+            asked = {each: asked[each] for each in leading}
 
 
 @with_parameters(PARAMETERS.values())
@@ -367,7 +371,9 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    report, known = Report(), MINIMISED
+    report = Report()
+    # Values that all results have, and quantities on request.
+    known = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
     with report:
         axes, wrong = read_ranges(over, NUMERIC)
         corners, found = read_grid(parameters, axes, lambda name: f"over.{name}" if name in axes else name)
@@ -389,15 +395,13 @@ def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) 
 
     d, best = len(box.names), -1 if minimise in LIVES else 1
     with Progress(None, "optimise"):
-        signs = {"best": best, "worst": -best}
-        found = {case: Search(solve, d, minimise, sign, seed) for case, sign in signs.items()}
-        units = np.array([each.best for each in found.values()])
-        cases = solve(units).drop_vars(SAMPLE).rename({SAMPLE: "case"})
-    searches = [*found.values()]
-    evaluations = [len(each.values) for each in searches]
+        found = [search(solve, d, minimise, sign, seed) for sign in (best, -best)]
+        places, values = zip(*found, strict=True)
+        cases = solve(np.array(places)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
     words = {"long_name": "number of points solved"}
-    cases = cases.assign(evaluations=("case", evaluations, words)).assign_coords(case=[*found])
-    without = sum(int(np.isinf(each.values).sum()) for each in searches)
+    cases = cases.assign(evaluations=("case", [*map(len, values)], words))
+    cases = cases.assign_coords(case=["best", "worst"])
+    without = int(np.isinf(np.concatenate(values)).sum())
     return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 
 
