@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,41 +32,19 @@ from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import NAMED, Request
 
 
-@dataclass(frozen=True)
-class Box:
-    """Ranges of d parameters; the others are fixed. A point of it is a point of the unit cube.
+def ends_of(corners: Grid, over: Mapping[str, object]) -> FloatArray:
+    """The lower and the upper ends of ranges, shape (2, d), from the grid of all ends.
 
-    Attributes
-    ----------
-    corners
-        The grid of the ends of all ranges; of real contacts of both bodies, too.
-    names
-        The parameters that are searched over.
-    low, high
-        Shape (d,): the ends of the ranges, in the order of the names.
+    Raises
+    ------
+    StudyError
+        If a range is the wrong way round.
     """
-
-    corners: Grid
-    names: tuple[str, ...]
-    low: FloatArray
-    high: FloatArray
-
-    @classmethod
-    def of(cls, corners: Grid, over: Mapping[str, object]) -> Box:
-        """Make the box of a grid of the ends of ranges; a StudyError if a range is the wrong way round."""
-        low, high = np.array([corners.axes[name] for name in over], float).T
-        names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
-        if names:
-            raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
-        return cls(corners, tuple(over), low, high)
-
-    def sample(self, unit: FloatArray) -> Grid:
-        """The grid whose sample is n points of the unit cube, shape (n, d)."""
-        axes = {name: values for name, values in self.corners.axes.items() if name not in self.names}
-        # Not low + unit (high - low): rounding must not leave the range.
-        values = self.low * (1.0 - unit) + self.high * unit
-        samples = dict(zip(self.names, map(tuple, values.T.tolist()), strict=True))
-        return replace(self.corners, axes=axes, samples=samples)
+    low, high = ends = np.array([corners.axes[name] for name in over], float).T
+    names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
+    if names:
+        raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
+    return ends
 
 
 def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], Report]:
@@ -379,21 +357,40 @@ def optimise(
         corners, found = read_grid(parameters, axes, lambda name: f"over.{name}" if name in axes else name)
         if corners is None or wrong:
             raise StudyError([*wrong, *found])
-        box = Box.of(corners, over)
-        known += box.corners.margins
+        ends_of(corners, over)
+        known += corners.margins
     check_asked(report, minimise, rtol, seed, known)
     report.refuse()
+    assert corners is not None
     asked = Request((minimise,) if minimise in NAMED else ())
-    return optimum_in(box, minimise, float(rtol), int(seed), asked)
+    return optimum_in(corners, over, minimise, float(rtol), int(seed), asked)
 
 
-def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
-    """The best and the worst points of a box; see `optimise`. The best life is the longest."""
+def optimum_in(
+    corners: Grid, over: Mapping[str, object], minimise: str, rtol: float, seed: int, asked: Request
+) -> xr.Dataset:
+    """The best and the worst points of ranges; see `optimise`. The best life is the longest.
+
+    Parameters
+    ----------
+    corners
+        The grid of the ends of all ranges; of real contacts of both bodies, too.
+    over, minimise, rtol, seed
+        As of `optimise`.
+    asked
+        The quantities to be computed beside s.
+    """
+    low, high = ends_of(corners, over)
+    axes = {name: values for name, values in corners.axes.items() if name not in over}
 
     def solve(unit: FloatArray) -> xr.Dataset:
-        return solve_grid(box.sample(unit), rtol, asked)
+        """Results at points of the unit cube, shape (n, d), each a point of a sample."""
+        # Not low + unit (high - low): rounding must not leave the range.
+        values = low * (1.0 - unit) + high * unit
+        samples = dict(zip(over, map(tuple, values.T.tolist()), strict=True))
+        return solve_grid(replace(corners, axes=axes, samples=samples), rtol, asked)
 
-    d, best = len(box.names), -1 if minimise in LIVES else 1
+    d, best = len(over), -1 if minimise in LIVES else 1
     with Progress(None, "optimise"):
         found = [search(solve, d, minimise, sign, seed) for sign in (best, -best)]
         places, values = zip(*found, strict=True)
