@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -65,22 +64,17 @@ def solve(rtol: float, quantities: str | None, **texts: str | None) -> None:
       swtstudy solve --phase 0,pi/2 --profile rounded_punch --flat-radius 1/2
       swtstudy list --parameters  # what each means
     """
+    from swtstudy.results.evaluate import to_table
+
     parameters: dict[str, Any] = {name: _values(text) for name, text in texts.items() if text is not None}
     asked = [] if quantities is None else [part.strip() for part in quantities.split(",")]
     dataset = swtstudy.solve(rtol=rtol, quantities=asked, **parameters)
-
-    def places(dims: list[str]) -> Iterator[tuple[str, ...]]:
-        return itertools.product(*(map(short, dataset[dim].values.tolist()) for dim in dims))
-
     dims = [*map(str, dataset.s.dims)]
-    found = dict(zip(dims, zip(*places(dims), strict=True), strict=True))
-    dataset["regime"] = dataset.swt.words()
-    for name in dict.fromkeys((*_FORMATS, *map(str, dataset.data_vars))):
-        # A quantity with dimensions of its own has a column for each place in them.
-        own, form = [str(dim) for dim in dataset[name].dims if dim not in dims], _FORMATS.get(name, ".6g")
-        values = dataset[name].transpose(*dims, *own).values.reshape(dataset.s.size, -1)
-        for place, column in zip(places(own), values.T, strict=True):
-            found[f"{name}[{','.join(place)}]" if own else name] = tuple(f"{v:{form}}" for v in column)
+    # A quantity with dimensions of its own has a column for each place in them.
+    table = to_table(dataset, [str(dim) for dim in dataset.dims if dim not in dims])
+    found = {name: [*map(short, table[name].tolist())] for name in dims}
+    for name in (*_FORMATS, *(n for n in table if n not in (*_FORMATS, *dataset.coords))):
+        found[name] = [f"{value:{_FORMATS.get(name, '.6g')}}" for value in table[name]]
     lines, room = [*zip(*found.values(), strict=True)], terminal.line_length()
     if room is None:  # for programs
         click.echo("\n".join("\t".join(line) for line in [(*found,), *lines]))

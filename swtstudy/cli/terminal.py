@@ -7,6 +7,7 @@ import sys
 import textwrap
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from functools import partial
 from itertools import groupby
 from pathlib import Path
 from shutil import get_terminal_size
@@ -124,13 +125,10 @@ def _offered(incomplete: str, *patterns: str, names: Iterable[str] = ()) -> list
 
 #: Arguments and options of several commands.
 with_study = click.argument("study", shell_complete=study_completion)
-with_studies = click.argument(
-    "studies", nargs=-1, required=True, metavar="STUDY...", shell_complete=study_completion
-)
+_several = partial(click.argument, nargs=-1, required=True)
+with_studies = _several("studies", metavar="STUDY...", shell_complete=study_completion)
 with_archive = click.argument("archive", shell_complete=archive_completion)
-with_archives = click.argument(
-    "archives", nargs=-1, required=True, metavar="ARCHIVE...", shell_complete=archive_completion
-)
+with_archives = _several("archives", metavar="ARCHIVE...", shell_complete=archive_completion)
 with_results = click.option(
     "--results", default="results", show_default=True, help="Folder for archives and what is made of them."
 )
@@ -173,9 +171,8 @@ def wrapped(line: str, width: int | None, indent: int = 0) -> str:
     line = printable(line)
     if width is None or len(line) <= width:
         return line
-    look: dict[str, Any] = {"subsequent_indent": " " * indent}
-    look |= {"break_long_words": False, "break_on_hyphens": False}
-    return textwrap.fill(line, max(width, indent + 12), **look)
+    whole: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
+    return textwrap.fill(line, max(width, indent + 12), subsequent_indent=" " * indent, **whole)
 
 
 def pairs(option: str, texts: Iterable[str], allowed: str) -> dict[str, str]:

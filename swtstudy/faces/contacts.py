@@ -387,7 +387,7 @@ class PhysicalContact:
         StudyError
             A ValueError with every mistake.
         """
-        from swtstudy.results.optimise import Box, check_asked, optimum_in, read_ranges
+        from swtstudy.results.optimise import check_asked, optimum_in, read_ranges
 
         one_contact(self.grid)
         grid, asked = self._request(rtol, critical_distance, constants, yield_strength)
@@ -412,7 +412,7 @@ class PhysicalContact:
             report(DISTANCE, "several", "one: what is made least is one value")
         report.refuse()
         assert corners is not None
-        return optimum_in(Box.of(corners, over), minimise, float(rtol), int(seed), asked)
+        return optimum_in(corners, over, minimise, float(rtol), int(seed), asked)
 
     def parameters(self, body: int | str = 1) -> dict[str, Any]:
         """The non-dimensional parameters of one contact, for `swtstudy.solve` and all others.

@@ -35,6 +35,7 @@ ORDERS = {
     "abaqus": ("S11", "S22", "S33", "S12", "S13", "S23"),
     "ansys": ("SX", "SY", "SZ", "SXY", "SYZ", "SXZ"),
 }
+_HEADERS = " or ".join(map(", ".join, ORDERS.values()))
 #: Axes of a component in a header, in small letters, and what stands before them; a normal stress may have
 #: one axis alone.
 _COMPONENT = re.compile(
@@ -132,11 +133,8 @@ def _components(table: UserTable, order: str | None) -> tuple[FloatArray, str]:
             raise refused(place, f"{' and '.join(twice)}, each {component}", "one of them", table.source)
     if {*own.values()} not in ({*COMPONENTS}, {*COMPONENTS} - {*ACROSS}):
         if order is None:
-            known = " or ".join(map(", ".join, ORDERS.values()))
-            allowed = (
-                f"columns {known}; of plane elements without the two across; with other headers an order "
-            )
-            allowed += f"of six columns, {' or '.join(ORDERS)}"
+            allowed = f"columns {_HEADERS}; of plane elements without the two across; with other headers an "
+            allowed += f"order of six columns, {' or '.join(ORDERS)}"
             raise refused(place, ", ".join(table.headers), allowed, table.source)
         if len(names) != len(COMPONENTS):
             allowed = f"six columns of components beside {STEP}, {ID} and the coordinates"
@@ -207,12 +205,9 @@ def evaluate_history(
     stress = _in_our_order(given, details.units.stress)
     unit = {"units": details.units.stress}
     if (largest := float(np.abs(stress).max(initial=0.0))) > MOST_STRAIN * young:
-        words = (
-            f"stresses up to {largest:.4g} {details.units.stress} are {largest / young:.3g} of young_modulus"
-        )
-        warnings.warn(
-            f"{words}: are they in another unit? A row of units, or a header, says it", stacklevel=2
-        )
+        words = f"stresses up to {largest:.4g} {unit['units']} are {largest / young:.3g} of young_modulus"
+        doubt = "are they in another unit? A row of units, or a header, says it"
+        warnings.warn(f"{words}: {doubt}", stacklevel=2)
     found = given.drop_dims("component")
     gamma, sensitivity = own.get("walker_exponent", 0.5), own.get("normal_sensitivity")
 
@@ -251,8 +246,7 @@ def _in_our_order(history: xr.Dataset, unit: str) -> FloatArray:
         labels = list(map(str, stress["component"].values))
         found = [component_of(label) for label in labels]
         if sorted(map(str, found)) != sorted(COMPONENTS):
-            allowed = " or ".join(map(", ".join, ORDERS.values()))
-            raise refused("component", ", ".join(labels), allowed)
+            raise refused("component", ", ".join(labels), _HEADERS)
         stress = stress.assign_coords(component=found).sel(component=[*COMPONENTS])
     return np.asarray(stress.transpose("point", STEP, "component").values) * factor
 

@@ -14,6 +14,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.faces.html import rendered, symbol_html, value_text
 from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import KNOWN_LIVES
 from swtstudy.points.values import index_at
@@ -24,12 +25,10 @@ from swtstudy.study.units.results import measures, usual_measure
 from swtstudy.vocabulary.choices import FAMILIES, SWT, family_of
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import StudyError
-from swtstudy.vocabulary.parameters import AXES, PARAMETERS
+from swtstudy.vocabulary.parameters import AXES
 from swtstudy.vocabulary.quantities import has_units
 from swtstudy.vocabulary.wording import numbers_words
 
-#: The parameter whose values have an s of another kind each.
-CRITERION = "criterion"
 #: A parameter that changes the quantity by less goes unmentioned in the sentences.
 _CHANGES = 1.005
 
@@ -77,9 +76,9 @@ def measured(dataset: xr.Dataset) -> xr.DataArray:
 
 def measured_at(dataset: xr.Dataset, place: xr.Dataset) -> xr.DataArray:
     """The quantity that the criterion of a place measures."""
-    if CRITERION not in dataset.dims:
+    if "criterion" not in dataset.dims:
         return measured(dataset)
-    part = dataset.sel({CRITERION: place[CRITERION].item()})
+    part = dataset.sel(criterion=place["criterion"].item())
     return part[usual_measure(part)]
 
 
@@ -93,7 +92,7 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
     first = layout_of(dataset).x if "figure" in dataset.attrs else "phase"
     found = []
     for name in map(str, values.dims):
-        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name == CRITERION:
+        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name == "criterion":
             continue
         table = extrema(dataset.assign(measured=values), name, "measured")
         ratio = table.ratio.where(np.isfinite(table.ratio))
@@ -144,14 +143,14 @@ def _most_sensitive(indices: xr.Dataset) -> list[tuple[str, Markup, str]]:
 
 def _ranges(dataset: xr.Dataset) -> Iterator[tuple[str, xr.DataArray, int, list[str], bool]]:
     """The values of each criterion: its name if there are several, number, ends, whether they vary."""
-    several = CRITERION in dataset.dims
-    for k in range(dataset.sizes.get(CRITERION, 1)):
-        one = dataset.isel({CRITERION: k}, missing_dims="ignore")
+    several = "criterion" in dataset.dims
+    for k in range(dataset.sizes.get("criterion", 1)):
+        one = dataset.isel(criterion=k, missing_dims="ignore")
         own = measured_at(dataset, one) if several else measured(dataset)
         known = own.values[np.isfinite(own.values)]
         ends = numbers_words((known.min(), np.median(known), known.max())) if known.size else []
         varies = bool(known.size and known.max() > _CHANGES * known.min())
-        yield value_text(CRITERION, one.criterion.item()) if several else "", own, known.size, ends, varies
+        yield value_text("criterion", one.criterion.item()) if several else "", own, known.size, ends, varies
 
 
 def indices_of(dataset: xr.Dataset) -> xr.Dataset | StudyError | None:
@@ -178,8 +177,8 @@ def extreme_places(dataset: xr.Dataset) -> dict[str, dict[str, int]]:
 def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
     """The best and the worst point by words such as "lowest"; one point, without a word, if all are equal."""
     life = is_life(measured(dataset).attrs)
-    if CRITERION in dataset.dims:
-        dataset = dataset.isel({CRITERION: 0})  # values of several are not to be compared
+    if "criterion" in dataset.dims:
+        dataset = dataset.isel(criterion=0)  # values of several are not to be compared
     points = [dataset.isel(place) for place in extreme_places(dataset).values()]
     words: tuple[str, ...] = ("longest", "shortest") if life else ("lowest", "highest")
     if len({measured(one).item() for one in points}) == 1:
@@ -190,9 +189,8 @@ def extreme_points(dataset: xr.Dataset) -> dict[str, xr.Dataset]:
 def parameters_of(one: xr.Dataset) -> dict[str, Any]:
     """The parameters without units that one point of results was solved with, for `swtstudy.inspect`."""
     grid = grid_of(one)
-    shape = {"profile", *family_of(grid.fixed["profile"]).shape}
-    lacking = {name for name, row in PARAMETERS.items() if row.part == "shape"} - shape
-    if grid.fixed.get(CRITERION, SWT) == SWT:
+    lacking = {*SHAPE_COLUMNS} - {*family_of(grid.fixed["profile"]).shape}
+    if grid.fixed.get("criterion", SWT) == SWT:
         lacking.add("normal_sensitivity")
     return {
         name: each

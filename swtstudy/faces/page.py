@@ -113,7 +113,6 @@ def page(dataset: xr.Dataset, name: str, home: str = "") -> str:
         sentences=findings.sentences(dataset, indices),
         tiles=tiles(dataset, ends),
         contact=read_contact(dataset.attrs[CONTACT]) if has_units(dataset) else None,
-        stress=str(dataset.peak_pressure.attrs["units"]) if "peak_pressure" in dataset else "",
         figure=shown,
         source=html.packed(rows),
         size=rows.shape,

@@ -92,12 +92,10 @@ def write_reports(
             report("ARCHIVE", ", ".join(same), "names that differ: each has a page")
         if f"{name}.html" == INDEX:
             report("ARCHIVE", same[0], f"another name: {INDEX} lists the others")
-    if several and output is None:
-        report("--output", "nothing", f"a folder for {len(paths)} pages, such as -o site/")
-    elif several and (not is_folder or Path(str(output)).is_file()):
-        report("--output", str(output), f"a folder for {len(paths)} pages")
-    elif output is not None and not is_folder and Path(output).suffix.lower() not in (".html", ".htm"):
-        report("--output", str(output), "a file that ends with .html, or a folder")
+    if several and (not is_folder or Path(place).is_file()):
+        report("--output", place or "nothing", f"a folder for {len(paths)} pages, such as -o site/")
+    elif place and not is_folder and Path(place).suffix.lower() not in (".html", ".htm"):
+        report("--output", place, "a file that ends with .html, or a folder")
     report.refuse()
     target = paths[0].with_suffix(".html") if output is None else Path(output)
     check_writable(target / INDEX if several else target)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from matplotlib.figure import Figure
 
 from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import Style, entitle, stroke
+from swtstudy.figures.style import Style, arrow, entitle, stroke
 from swtstudy.figures.words import show_units
 from swtstudy.points.reading import read_grid
 from swtstudy.points.values import as_number
@@ -75,7 +74,7 @@ def draw_load(
     # Loads are drawn as forces or displacements; one that rests is what its mean is given as.
     moves = any(map(as_number, grid.values(grid.control.given_for("normal_amplitude"))))
     rests_as_force = not moves and bool(grid.values("normal_force"))
-    control = replace(grid.control, normal_force=True) if rests_as_force else grid.control
+    control = grid.control._replace(normal_force=True) if rests_as_force else grid.control
     names = (control.given_for("normal_amplitude"), control.given_for("tangential_amplitude"))
     labels = (grid.row(each).units for each in (*names, "bulk_stress_amplitude"))
     units = ["" if label in ("", "1") else f" ({as_text(label)})" for label in labels]
@@ -222,9 +221,8 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
     axes.plot(x, lower, color="0.2")
     axes.axhline(0.0, color="C0", lw=1.0)
     axes.fill_between(x, -1.35, 0.0, color="C0", alpha=0.12, lw=0.0)
-    arrow = {"arrowstyle": "-|>", "color": "k", "lw": 1.4, "shrinkA": 0.0, "shrinkB": 0.0}
     for end, word, offset in (((0.45 * reach, 0.0), "$x$", (3, 4)), ((0.0, -1.3), "$z$", (5, 0))):
-        axes.annotate("", end, (0.0, 0.0), arrowprops=arrow)
+        arrow(axes, (0.0, 0.0), end, lw=1.4)
         axes.annotate(word, end, offset, textcoords="offset points")
     plane = profile.plane
     normal, tangential = ("line load $P$", "$Q$") if plane else ("depth $\\delta$, force", "$u$, force")
@@ -234,7 +232,7 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
     )
     for *places, words in loads:
         end, start, at = ((reach * x, top * y) for x, y in places)
-        axes.annotate("", end, start, arrowprops={**arrow, "color": "C3", "lw": 2.0})
+        arrow(axes, start, end, color="C3", lw=2.0)
         axes.annotate(words, at, color="C3", fontsize="small")
     axes.annotate("$\\delta_0$", (-0.12 * reach, -0.6), color="0.3")
     axes.set(xlim=(-reach, reach), ylim=(-1.35, top), xlabel="$x/a_H$", ylabel="$-z/\\delta_0$")
@@ -243,12 +241,11 @@ def _draw_sketch(axes: Axes, profile: AtRest, reach: float) -> None:
 
 def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], labels: Labels) -> None:
     """The radius of the face, or the length of a wave and its height, above the lower end of the indenter."""
-    look: dict[str, Any] = {"arrowstyle": "<|-|>", "color": "k", "lw": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
     right = axes.get_xlim()[1]
     face = shape.get("flat_radius", shape.get("flat_half_width", 0.0))
     if face:
         end = min(face, right)
-        axes.annotate("", (end, -0.8), (0.0, -0.8), arrowprops={**look, "mutation_scale": 8.0})
+        arrow(axes, (0.0, -0.8), (end, -0.8), "<|-|>", lw=0.8, mutation_scale=8.0)
         axes.plot([face, face], [-1.0, -0.72], **stroke(linewidth=0.6))
         axes.annotate("$b$", (0.5 * end, -0.77), ha="center", va="bottom")
     height = shape.get("waviness_amplitude", 0.0)
@@ -257,7 +254,7 @@ def _draw_lengths(axes: Axes, profile: AtRest, shape: Mapping[str, float], label
         # The waves are −h cos kx about the paraboloid: crests half a wave from the axis.
         first = length * (0.5 + math.floor(0.5 * right / length))
         level = float(_height(profile, np.array([first, first + length])).max()) - 1.0 + 0.12
-        axes.annotate("", (first + length, level), (first, level), arrowprops={**look, "mutation_scale": 6.0})
+        arrow(axes, (first, level), (first + length, level), "<|-|>", lw=0.8, mutation_scale=6.0)
         tall = labels["height"].number(2.0 * height, 3) if labels else f"{2.0 * height:.3g} $\\delta_0$"
         words = f"$\\lambda$, height $2h$ = {tall}"
         axes.annotate(words, (first, level + 0.03), ha="center", va="bottom", fontsize="small")
@@ -281,8 +278,7 @@ def _draw_springs(axes: Axes, profile: AtRest, edge: float, labels: Labels) -> N
         other.set_ylim(axes.get_ylim())
         other.grid(False)
         show_units(other, (None, "pressure"), labels)
-    what = "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0"
-    entitle(axes, what)
+    entitle(axes, "line load, and pressure at its mean" if profile.plane else "springs, and pressure at δ0")
     axes.legend(frameon=False, loc="upper left")
 
 

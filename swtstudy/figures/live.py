@@ -20,6 +20,7 @@ from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import entitle, save_figure, styled
 from swtstudy.figures.words import tick_in_pi
+from swtstudy.points.canonical import SHAPE_COLUMNS
 from swtstudy.points.solve import solve
 from swtstudy.points.values import read_value
 from swtstudy.results.inspection import load_and_springs
@@ -197,16 +198,14 @@ class Explorer:
         """The parameters that the widgets show, as `swtstudy.solve` takes them."""
         control = next(each for each, name in CONTROLS.items() if name == self.controls["control"].value)
         values = {name: each.value for name, each in self.controls.items() if name != "control"}
-        own = FAMILIES[values["profile"]].shape
-        others = {name for family in FAMILIES.values() for name in family.shape if name not in own}
+        others = {*SHAPE_COLUMNS} - {*FAMILIES[values["profile"]].shape}
         return {control.given_for(name): value for name, value in values.items() if name not in others}
 
     def _follow(self, _: object) -> None:
         """Draw what the widgets show; where that cannot be, say why, and leave the picture."""
         parameters = self.parameters
-        for family in FAMILIES.values():
-            for name in family.shape:
-                self.controls[name].layout.display = "" if name in parameters else "none"
+        for name in SHAPE_COLUMNS:
+            self.controls[name].layout.display = "" if name in parameters else "none"
         for force, displacement in PAIRS.items():
             name = force if force in parameters else displacement
             self.controls[displacement].description = _words(name)

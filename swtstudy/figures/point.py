@@ -22,7 +22,7 @@ from matplotlib.patches import Patch
 
 from swtstudy.figures.labels import NO_LABELS, Labels
 from swtstudy.figures.sheet import Sheet, Width
-from swtstudy.figures.style import DASHES, Style, dots, entitle, stroke
+from swtstudy.figures.style import DASHES, Style, arrow, dots, entitle, stroke
 from swtstudy.figures.words import flag_words, show_units, tick_in_pi
 from swtstudy.points.validity import validity_lines
 from swtstudy.results.inspection import inspect_point
@@ -208,8 +208,7 @@ def _draw_loop(axes: Axes, dataset: xr.Dataset, across: str, up: str, labels: La
     distance = np.linalg.norm(scaled[:, :, None] - scaled[:, None, marked], axis=0).min(axis=1)
     at = int(distance[1:-1].argmax()) + 1
     if distance[at] > 0.0:
-        ends: dict[str, Any] = {"xytext": (x[at - 1], y[at - 1]), "xy": (x[at + 1], y[at + 1])}
-        axes.annotate("", **ends, arrowprops={"arrowstyle": "-|>", "color": "black", "mutation_scale": 18})
+        arrow(axes, path[at - 1], path[at + 1], mutation_scale=18, shrinkA=2.0, shrinkB=2.0)
     _mark(axes, [(int(n), x[k], y[k]) for n, k in zip(dataset.instant.values, marked, strict=True)])
 
 
@@ -343,8 +342,7 @@ def draw_stress(axes: Axes, dataset: xr.Dataset, labels: Labels = NO_LABELS) -> 
     axes.plot(time[peak], stress[peak], **dots("black", 1.75))
     last, high, low = float(time[-1]), float(swing.max()), float(swing.min())
     _guide(other, (high, low), color=_SECOND, alpha=0.7)
-    arrow = {"arrowstyle": "<->", "color": _SECOND, "shrinkA": 0, "shrinkB": 0}
-    other.annotate("", xy=(0.93 * last, high), xytext=(0.93 * last, low), arrowprops=arrow)
+    arrow(other, (0.93 * last, low), (0.93 * last, high), "<->", _SECOND)
     words: dict[str, Any] = {"color": _SECOND, "ha": "right", "va": "center", "bbox": _BOX}
     other.text(0.915 * last, 0.5 * (high + low), rf"$\Delta{symbol}$", **words)
     draw_time_axis(axes, time)
@@ -417,9 +415,7 @@ def _draw_plane(axes: Axes, degrees: float) -> None:
     inset.axhspan(-1.0, 0.0, color="0.9")
     inset.plot([-1.2, 1.2], [0, 0], **stroke(linewidth=_thin()))
     inset.plot(*np.outer(plane, (0.0, 0.85)), **stroke(linewidth=1.5 * rcParams["lines.linewidth"]))
-    start = 0.42 * plane
-    arrow = {"arrowstyle": "-|>", "color": "black", "shrinkA": 0, "shrinkB": 0}
-    inset.annotate("", xy=tuple(start + 0.6 * normal), xytext=tuple(start), arrowprops=arrow)
+    arrow(inset, 0.42 * plane, 0.42 * plane + 0.6 * normal)
     inset.text(-1.3, -0.5, f"{degrees:.1f}°".replace("-", "−"), ha="right", va="center", fontsize="small")
     inset.set(xlim=(-1.2, 1.2), ylim=(-1.0, 0.3), xticks=[], yticks=[], aspect="equal")
     inset.set_frame_on(False)

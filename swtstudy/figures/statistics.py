@@ -16,6 +16,7 @@ from swtstudy.figures.style import COLOURS, Style, dots, entitle, stroke
 from swtstudy.figures.words import flag_words, is_life, parts_of, quantity_words, tick_angles, tick_flags
 from swtstudy.points.grid import SAMPLE
 from swtstudy.points.validity import outside
+from swtstudy.points.values import unit_of
 from swtstudy.results.evaluate import quantity
 from swtstudy.study.figure import FigureLayout, wrong_formula
 from swtstudy.vocabulary.parameters import AXES
@@ -198,10 +199,8 @@ def fit_lines(fitted: xr.Dataset, math: bool = False) -> list[str]:
         if f"{name}_low" not in fitted:
             continue
         value, low, high = (float(fitted[f"{name}{end}"]) for end in ("", "_low", "_high"))
-        unit = str(fitted[name].attrs["units"])
         shown = f"${fitted[name].attrs['symbol']}$" if math else name
-        unit = "" if unit == "1" else f" {unit}"
-        lines.append(f"{shown} = {value:.4g}{unit} ({level}: {low:.4g} to {high:.4g})")
+        lines.append(f"{shown} = {value:.4g}{unit_of(fitted[name])} ({level}: {low:.4g} to {high:.4g})")
     count = fitted.sizes["test"]
     scatter = 10.0 ** float(fitted.scatter)
     within = ", ".join(f"{int(fitted[f'within_{factor}'])} within a factor of {factor}" for factor in (2, 5))

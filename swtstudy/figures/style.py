@@ -62,6 +62,12 @@ def dots(color: Any = "black", size: float = 1.0, **own: Any) -> dict[str, Any]:
     return {"color": color, "linestyle": "none", **own}
 
 
+def arrow(axes: Axes, start: Any, end: Any, ends: str = "-|>", color: Any = "black", **own: Any) -> None:
+    """Draw an arrow from one place to another, with matplotlib's style of its ends."""
+    look = {"arrowstyle": ends, "color": color, "shrinkA": 0.0, "shrinkB": 0.0, **own}
+    axes.annotate("", end, start, arrowprops=look)
+
+
 def entitle(axes: Axes, words: str) -> None:
     """Give a panel a title, flush left."""
     axes.set_title(words, loc="left")

@@ -36,9 +36,8 @@ VERDICTS = ("none", "line_search", "plane_through_y", "symmetry_line", "surface"
 _ATTRIBUTES = read_table(__file__, "audit")
 _ATTRIBUTES["regime"] |= flag_attributes(REGIMES)
 _ATTRIBUTES["verdict"] |= flag_attributes(VERDICTS)
-#: What follows from these; and the numbers that the audit of a point finds.
-_FOLLOWS = ("excess", "remainder", "shortfall", "verdict")
-FOUND = [name for name in _ATTRIBUTES if name not in (*_FOLLOWS, "regime")]
+#: The numbers that the audit of a point finds; the others follow from these.
+FOUND = [n for n in _ATTRIBUTES if n not in ("excess", "remainder", "shortfall", "verdict", "regime")]
 #: An audited point, in an array: its numbers, and its regime's flag value.
 AUDITED = np.dtype([*((name, np.float64) for name in FOUND), ("regime", np.int8)])
 #: Columns of the rows that an audit holds: the loop knows what it costs. And the columns of names.

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -112,28 +111,20 @@ def raises_and_lowers(figure3: xr.Dataset, figure7: xr.Dataset, by: float) -> Me
     return holds, {"changes": "; ".join(words)}
 
 
-class Oscillation(NamedTuple):
-    """The oscillation of one curve.
+def oscillations(dataset: xr.Dataset, *others: str) -> list[tuple[FloatArray, FloatArray]]:
+    """The oscillation of every curve over h/δ0; the curves differ in other parameters.
 
-    Attributes
-    ----------
-    periods
-        Distances from one maximum to the next, and from one minimum to the next, alternately.
-    swings
-        Absolute changes of s from each turning point to the next.
+    Returns
+    -------
+    list
+        Of each curve its periods, the distances from one maximum to the next, and from one minimum to the
+        next, alternately; and its swings, the absolute changes of s from each turning point to the next.
     """
-
-    periods: FloatArray
-    swings: FloatArray
-
-
-def oscillations(dataset: xr.Dataset, *others: str) -> list[Oscillation]:
-    """The oscillation of every curve over h/δ0; the curves differ in other parameters."""
     curves = with_dims(dataset, "waviness_amplitude", *others).sortby("waviness_amplitude").s
     h, found = curves.waviness_amplitude.values, []
     for s in curves.transpose(..., "waviness_amplitude").values.reshape(-1, len(h)):
         turns = turning_points(s, _RIPPLE * float(np.ptp(s)))
-        found.append(Oscillation(h[turns][2:] - h[turns][:-2], np.abs(np.diff(s[turns]))))
+        found.append((h[turns][2:] - h[turns][:-2], np.abs(np.diff(s[turns]))))
     return found
 
 
@@ -167,11 +158,12 @@ def turning_points(values: FloatArray, smallest_swing: float) -> list[int]:
     return [index for index in found if index > 0]
 
 
-def growing(found: Sequence[Oscillation]) -> tuple[BoolArray, BoolArray]:
+def growing(found: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[BoolArray, BoolArray]:
     """True if each period exceeds the last one, and each rise, or fall, the last rise, or fall."""
-    periods = np.concatenate([np.diff(one.periods) for one in found])
-    swings = np.concatenate([one.swings[2:] - one.swings[:-2] for one in found])
-    return periods > 0, swings > 0
+    periods, swings = zip(*found, strict=True)
+    longer = np.concatenate([np.diff(own) for own in periods])
+    larger = np.concatenate([own[2:] - own[:-2] for own in swings])
+    return longer > 0, larger > 0
 
 
 def as_a_rule(steps: Sequence[BoolArray], share: float) -> bool:
@@ -182,7 +174,7 @@ def as_a_rule(steps: Sequence[BoolArray], share: float) -> bool:
 def oscillations_shrink(figure7: xr.Dataset, share: float) -> Measured:
     """Growth of periods and swings with h on all curves together."""
     found = oscillations(figure7, "wavelength", "normal_amplitude")
-    steps, longest = growing(found), max(found, key=lambda one: len(one.swings))
+    steps, longest = growing(found), max(found, key=lambda one: len(one[1]))
     periods, swings = (f"{each.sum()} of {len(each)}" for each in steps)
     ends = [f"{each[0]:.2g} to {each[-1]:.2g}" if len(each) else "none" for each in longest]
     words = {"periods": periods, "swings": swings, "curves": len(found)}

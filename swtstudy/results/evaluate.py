@@ -6,7 +6,8 @@ place.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from swtstudy.points.values import AXIS_TOLERANCE, Value, index_of, read_exact, 
 from swtstudy.study.figure import QUANTITY, reference
 from swtstudy.study.units.results import usual_measure
 from swtstudy.vocabulary.mistakes import Report, literal, nearest, refused
-from swtstudy.vocabulary.parameters import AXES
+from swtstudy.vocabulary.parameters import AXES, short
 from swtstudy.vocabulary.quantities import COMPUTED, COUNTED, error_of
 from swtstudy.vocabulary.wording import coordinate_words
 
@@ -189,11 +190,15 @@ def extrema(dataset: xr.Dataset, dim: str, y: str | None = None) -> xr.Dataset:
     return found
 
 
-def to_table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Results as a table, one row per point: see ``to_table`` of the accessor."""
+def to_table(dataset: xr.Dataset, beside: Sequence[str] | None = None) -> pd.DataFrame:
+    """Results as a table, one row per point: see ``to_table`` of the accessor.
+
+    What has dimensions that are ``beside`` those of the rows, by default `dims_beside`, has a column for each
+    place along these.
+    """
     # A point has several cycles, which are no column.
     dataset = dataset.drop_vars({*COUNTED} & {*dataset.variables})
-    beside = dims_beside(dataset)
+    beside = dims_beside(dataset) if beside is None else beside
     dims = [str(name) for name in dataset.dims if name not in beside]
     # Parameters of a sample are along its dimension, single values along none.
     others = [str(name) for name in dataset.coords if name not in (*dims, *beside)]
@@ -201,15 +206,14 @@ def to_table(dataset: xr.Dataset) -> pd.DataFrame:
     columns = {}
     for name in [*dims, *others, *map(str, dataset.data_vars)]:
         values = dataset[name]
-        parts = {name: values}
-        for own in {*beside} & {*values.dims}:
-            parts = {f"{name}[{place.item()}]": values.sel({own: place}, drop=True) for place in values[own]}
-        for label, part in parts.items():
+        own = [dim for dim in beside if dim in values.dims]
+        for place in itertools.product(*(values[dim].values.tolist() for dim in own)):
+            part = values.sel(dict(zip(own, place, strict=True)), drop=True)
             flat = part.broadcast_like(rows).transpose(*dims).values.ravel()
             if "flag_meanings" in part.attrs:
                 meanings = part.attrs["flag_meanings"].split()
                 flat = pd.Categorical.from_codes(_flags(flat, part.attrs), meanings)
-            columns[label] = flat
+            columns[f"{name}[{','.join(map(short, place))}]" if own else name] = flat
     return pd.DataFrame(columns).rename_axis("point")
 
 

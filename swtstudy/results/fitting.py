@@ -30,7 +30,6 @@ from swtstudy.study.units.rows import kind_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
-    Mistake,
     Report,
     StudyError,
     literal,
@@ -47,14 +46,7 @@ from swtstudy.vocabulary.wording import number_of
 #: The columns of a table of tests with the observed lives in load cycles, and with marks of run-outs.
 LIFE, RUNOUT = "life", "runout"
 #: Other headers of them, in small letters.
-ALIASES = {
-    LIFE: LIFE,
-    RUNOUT: RUNOUT,
-    "run_out": RUNOUT,
-    "run-out": RUNOUT,
-    "run out": RUNOUT,
-    "runouts": RUNOUT,
-}
+ALIASES = {LIFE: LIFE} | dict.fromkeys((RUNOUT, "run_out", "run-out", "run out", "runouts"), RUNOUT)
 #: Marks of a run-out, and of a test that ended with a crack.
 YES, NO = ("1", "1.0", "true", "yes", "y", "x"), ("0", "0.0", "false", "no", "n", "", "nan")
 #: Likeness of a column's name to a parameter's name from which it is a misspelling (difflib).
@@ -396,7 +388,7 @@ def _read(
         )
     columns = {name: values for name, values in own.items() if name not in others}
     if not columns and not report:
-        report.append(Mistake("tests", f"the column {LIFE} alone", "parameters that vary, besides"))
+        report("tests", f"the column {LIFE} alone", "parameters that vary, besides")
     grid = None
     if columns:
         # The tests are the sample of the study: mistakes in it are mistakes in them, or in their file.

@@ -18,8 +18,6 @@ from swtstudy.vocabulary.parameters import PARAMETERS
 #: The criterion that has no plane, and all but swt.
 CROSSLAND = "crossland"
 _KNOWN = (*(name for name in CRITERIA if name != SWT), CROSSLAND)
-#: γ of the Smith–Watson–Topper parameter.
-SWT_EXPONENT = 0.5
 #: No plane has a value that is higher than the largest one by more than this, relative.
 TOLERANCE = 1e-5
 #: Rounding error of a distance, as a share of the size of a path, and of a unit normal's component.
@@ -48,7 +46,7 @@ class CriticalPlane(NamedTuple):
 
 
 def swt_of_history(
-    stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0, walker_exponent: float = SWT_EXPONENT
+    stress: ArrayLike, poisson_ratio: float, young_modulus: float = 1.0, walker_exponent: float = 0.5
 ) -> CriticalPlane:
     """Largest Smith–Watson–Topper parameter over all planes (eq. 9).
 

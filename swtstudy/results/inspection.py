@@ -13,10 +13,11 @@ import xarray as xr
 
 from swtstudy.points.solve import solve
 from swtstudy.results.one_point import labelled_time, named, read_cycle, turns_of
-from swtstudy.results.stress import slip_map
+from swtstudy.results.stress import STATES, slip_map
 from swtstudy.solver.load_cycle import LoadCycle
 from swtstudy.vocabulary.arrays import FloatArray, IndexArray
 from swtstudy.vocabulary.choices import CRITERIA, NORMAL_STRAIN, SHEAR_STRESS
+from swtstudy.vocabulary.quantities import flag_attributes
 
 #: States of the contact at its instants, `swtstudy.kernel.course.STATE`.
 States = Any
@@ -119,7 +120,6 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     time = turns_of(cycle.points) * instant
     slip = slip_map(slip_radius, time=time, **parameters)
     course, marked = _load_and_springs(cycle, instant, states, of_plane, np.abs(slip_radius))
-
     some: States = states[marked]
 
     def tractions(at: FloatArray) -> list[FloatArray]:
@@ -130,8 +130,6 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     pressure, traction = tractions(radius)
     # Both are even in x if nothing moves the stick zone.
     both_tractions = _both_sides(tractions(-radius)[1] if cycle.moved else traction, traction)
-    at_instants = "instant", "x"
-    position = named("position in the direction of sliding", "x/a_H")
     variables: Variables = {
         "stick_left": ((), left, named("left end of what always sticks", "x/a_H")),
         "stick_right": ((), right, named("right end of what always sticks", "x/a_H")),
@@ -141,11 +139,10 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         "shown_x": ((), x, named("position at which the stress is shown", "x/a_H")),
         "shown_angle": ((), np.degrees(double_angle) / 2.0, {"long_name": "plane shown", "units": "degree"}),
         "s_local": ("x", _both_sides(values[:, 1], values[:, 0]), named(criterion.words, criterion.symbol)),
-        "pressure": (at_instants, _both_sides(pressure, pressure), named("pressure", "p")),
-        "traction": (at_instants, both_tractions, named("tangential traction in +x", "q")),
+        "pressure": (("instant", "x"), _both_sides(pressure, pressure), named("pressure", "p")),
+        "traction": (("instant", "x"), both_tractions, named("tangential traction in +x", "q")),
     }
-    states_of_edge = "state of the contact next to its edge, until the next instant"
-    course.edge_state.attrs.update(slip.state.attrs, long_name=states_of_edge)
+    position = named("position in the direction of sliding", "x/a_H")
     found = slip.assign(variables).assign_coords(x=("x", _both_sides(-radius, radius), position))
     return found.assign(course.drop_vars(("time", "r"))).merge(solved)
 
@@ -237,7 +234,8 @@ def _load_and_springs(
         of_force = named("tangential force in the diagram", r"\tau/(\mu F_0)")
     curves["compression"] = ("instant", "r"), compression, of_compression
     curves["force"] = ("instant", "r"), force, of_force
-    curves["edge_state"] = "time", edge.astype(np.int8), {}
+    words = {"long_name": "state of the contact next to its edge, until the next instant"}
+    curves["edge_state"] = "time", edge.astype(np.int8), words | flag_attributes(STATES)
     coordinates = {
         "time": labelled_time(cycle.points, time, ("time",)),
         "r": ("r", radius, named("distance from the axis", "r/a_H")),

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -32,44 +32,19 @@ from swtstudy.vocabulary.progress import Progress
 from swtstudy.vocabulary.quantities import NAMED, Request
 
 
-@dataclass(frozen=True)
-class Box:
-    """Ranges of d parameters; the others are fixed. A point of it is a point of the unit cube.
+def ends_of(corners: Grid, over: Mapping[str, object]) -> FloatArray:
+    """The lower and the upper ends of ranges, shape (2, d), from the grid of all ends.
 
-    Attributes
-    ----------
-    corners
-        The grid of the ends of all ranges; of real contacts of both bodies, too.
-    names
-        The parameters that are searched over.
-    low, high
-        Shape (d,): the ends of the ranges, in the order of the names.
+    Raises
+    ------
+    StudyError
+        If a range is the wrong way round.
     """
-
-    corners: Grid
-    names: tuple[str, ...]
-    low: FloatArray
-    high: FloatArray
-
-    @classmethod
-    def of(cls, corners: Grid, over: Mapping[str, object]) -> Box:
-        """Make the box of a grid of the ends of ranges; a StudyError if a range is the wrong way round."""
-        low, high = np.array([corners.axes[name] for name in over], float).T
-        names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
-        if names:
-            raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
-        return cls(corners, tuple(over), low, high)
-
-    def values(self, unit: FloatArray) -> FloatArray:
-        """Values of the parameters at points of the unit cube, shape (n, d)."""
-        # Not low + unit (high - low): rounding must not leave the range.
-        return self.low * (1.0 - unit) + self.high * unit
-
-    def sample(self, unit: FloatArray) -> Grid:
-        """The grid whose sample is n points of the unit cube, shape (n, d)."""
-        axes = {name: values for name, values in self.corners.axes.items() if name not in self.names}
-        samples = dict(zip(self.names, map(tuple, self.values(unit).T.tolist()), strict=True))
-        return replace(self.corners, axes=axes, samples=samples)
+    low, high = ends = np.array([corners.axes[name] for name in over], float).T
+    names = [name for name, wrong in zip(over, low > high, strict=True) if wrong]
+    if names:
+        raise StudyError([Mistake(f"over.{n}", literal(over[n]), "the lower end first") for n in names])
+    return ends
 
 
 def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[object] | None], Report]:
@@ -87,12 +62,6 @@ def read_ranges(over: object, names: Collection[str]) -> tuple[dict[str, list[ob
             axes[name] = None
             report(f"over.{name}", literal(ends), "both ends of a range, (low, high)")
     return axes, report
-
-
-def worst(values: xr.DataArray) -> FloatArray:
-    """Values of the points of a sample: of both bodies, and both directions, that which is worse."""
-    others = [dim for dim in values.dims if dim != SAMPLE]
-    return np.asarray((values.min(others) if values.name in LIVES else values.max(others)).values, float)
 
 
 #: Step of a difference quotient as a fraction of the distance, and its least: rounding of s is 1e-8.
@@ -224,8 +193,10 @@ _POLISHED, _APART = 8, 0.1
 _TRIAL = 8
 
 
-class Search:
-    """The search of the unit cube for the least value of a quantity, or of its negative.
+def search(
+    solve: Callable[[FloatArray], xr.Dataset], dimensions: int, quantity: str, sign: int, seed: int
+) -> tuple[FloatArray, FloatArray]:
+    """Search the unit cube for the least value of a quantity, or of its negative.
 
     Parameters
     ----------
@@ -240,82 +211,93 @@ class Search:
     seed
         Seed of the random numbers.
 
-    Attributes
-    ----------
-    points, values
-        Shapes (n, d) and (n,): all points that were solved, in the unit cube, and the values times the sign.
+    Returns
+    -------
     best
-        Shape (d,): the point with the least of these values.
+        Shape (d,): the point with the least of the values.
+    values
+        Shape (n,): the values at all points that were solved, times the sign; infinite where there is none.
 
     Raises
     ------
     StudyError
         If there is no finite value anywhere.
     """
+    from scipy.optimize import differential_evolution
 
-    def __init__(
-        self, solve: Callable[[FloatArray], xr.Dataset], dimensions: int, quantity: str, sign: int, seed: int
-    ) -> None:
-        from scipy.optimize import differential_evolution
+    points: list[FloatArray] = []
+    values: list[FloatArray] = []
 
-        self._solve, self._quantity, self._sign = solve, quantity, sign
-        self.points, self.values = np.empty((0, dimensions)), np.empty(0)
-        differential_evolution(
-            lambda columns: self._at(np.clip(columns.T, 0.0, 1.0)),
-            # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
-            # sends what leaves its bounds back to anywhere inside.
-            [(-0.1, 1.1)] * dimensions,
-            popsize=max(16, 64 // dimensions),  # about scipy's 15 for each parameter, and 64 at least
-            init="sobol",
-            maxiter=100,  # most searches converge before
-            tol=0.01,  # values differ by this fraction of their mean: the polish does the rest
-            seed=seed,
-            polish=False,
-            updating="deferred",
-            vectorized=True,
-        )
-        if not np.isfinite(self.values.min()):
-            words = f"no finite value at any of {len(self.values)} points"
-            raise refused("over", words, "ranges in which the quantity is finite somewhere")
-        self._polish(seed)
-        self.best = self.points[self.values.argmin()]
+    def solved(unit: FloatArray) -> FloatArray:
+        """Values at points of the unit cube, (n, d) to (n,)."""
+        found = solve(unit)[quantity]
+        others = [dim for dim in found.dims if dim != SAMPLE]
+        # Of both bodies, and of both directions, the worse one counts.
+        worse = (found.min(others) if quantity in LIVES else found.max(others)).values
+        points.append(unit)
+        values.append(np.where(np.isfinite(worse), sign * worse, np.inf))
+        return values[-1]
 
-    def _at(self, unit: FloatArray) -> FloatArray:
-        """Values times the sign at points of the unit cube, (n, d) to (n,); infinite where there is none."""
-        found = worst(self._solve(unit)[self._quantity])
-        values = np.where(np.isfinite(found), self._sign * found, np.inf)
-        self.points, self.values = np.concatenate([self.points, unit]), np.append(self.values, values)
-        return values
-
-    def _polish(self, seed: int) -> None:
-        """Polish the best points; what all of them ask for next is one batch, in which a point costs less."""
-        # The best points that are apart from better ones.
-        begin: list[int] = []
-        for row in self.values.argsort(kind="stable")[: np.isfinite(self.values).sum()].tolist():
-            away = [np.abs(self.points[row] - self.points[other]).max() for other in begin]
-            if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
-                begin.append(row)
-        polishes = [polish(self.points[row], float(self.values[row]), seed) for row in begin]
-        lowest = dict(zip(polishes, self.values[begin].tolist(), strict=True))
-        asked = {each: next(each) for each in polishes}
-        for batch in itertools.count(1):
-            values = self._at(np.concatenate(list(asked.values())))
-            ends = np.cumsum([len(points) for points in asked.values()])
-            for each, part in zip(list(asked), np.split(values, ends[:-1]), strict=True):
-                lowest[each] = min(lowest[each], *part)
-                try:
-                    asked[each] = each.send(part)
-                except StopIteration:
-                    del asked[each]
-            if not asked:
-                return
-            if batch % _TRIAL == 0:
-                leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
-                asked = {each: asked[each] for each in leading}
+    differential_evolution(
+        lambda columns: solved(np.clip(columns.T, 0.0, 1.0)),
+        # What is beyond the ends of a range counts as the ends: extremes are often there, and the search
+        # sends what leaves its bounds back to anywhere inside.
+        [(-0.1, 1.1)] * dimensions,
+        popsize=max(16, 64 // dimensions),  # about scipy's 15 for each parameter, and 64 at least
+        init="sobol",
+        maxiter=100,  # most searches converge before
+        tol=0.01,  # values differ by this fraction of their mean: the polish does the rest
+        seed=seed,
+        polish=False,
+        updating="deferred",
+        vectorized=True,
+    )
+    every = np.concatenate(values)
+    if not np.isfinite(every.min()):
+        words = f"no finite value at any of {len(every)} points"
+        raise refused("over", words, "ranges in which the quantity is finite somewhere")
+    polish_best(solved, np.concatenate(points), every, seed)
+    every = np.concatenate(values)
+    return np.concatenate(points)[every.argmin()], every
 
 
-#: The data variables that may be minimised: values that all results have, and quantities on request.
-MINIMISED = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
+def polish_best(
+    solved: Callable[[FloatArray], FloatArray], points: FloatArray, values: FloatArray, seed: int
+) -> None:
+    """Polish the best of n points; what all polishes ask for next is one batch, in which a point costs less.
+
+    Parameters
+    ----------
+    solved
+        Values at points, from their shape (n, d).
+    points, values
+        Shapes (n, d) and (n,).
+    seed
+        As of `polish`.
+    """
+    # The best points that are apart from better ones.
+    begin: list[int] = []
+    for row in values.argsort(kind="stable")[: np.isfinite(values).sum()].tolist():
+        away = [np.abs(points[row] - points[other]).max() for other in begin]
+        if len(begin) < _POLISHED and min(away, default=1.0) > _APART:
+            begin.append(row)
+    polishes = [polish(points[row], float(values[row]), seed) for row in begin]
+    lowest = dict(zip(polishes, values[begin].tolist(), strict=True))
+    asked = {each: next(each) for each in polishes}
+    for batch in itertools.count(1):
+        found = solved(np.concatenate(list(asked.values())))
+        ends = np.cumsum([len(part) for part in asked.values()])
+        for each, part in zip(list(asked), np.split(found, ends[:-1]), strict=True):
+            lowest[each] = min(lowest[each], *part)
+            try:
+                asked[each] = each.send(part)
+            except StopIteration:
+                del asked[each]
+        if not asked:
+            return
+        if batch % _TRIAL == 0:
+            leading = sorted(asked, key=lambda each: lowest[each])[: -(-len(asked) // 2)]
+            asked = {each: asked[each] for each in leading}
 
 
 @with_parameters(PARAMETERS.values())
@@ -367,37 +349,56 @@ def optimise(
     >>> found.phase.sel(case="best").round(3).item(), found.s.sel(case="best").round(4).item()
     (2.662, 0.1053)
     """
-    report, known = Report(), MINIMISED
+    report = Report()
+    # Values that all results have, and quantities on request.
+    known = ("s", "s_surface", "critical_x", "critical_angle", *NAMED)
     with report:
         axes, wrong = read_ranges(over, NUMERIC)
         corners, found = read_grid(parameters, axes, lambda name: f"over.{name}" if name in axes else name)
         if corners is None or wrong:
             raise StudyError([*wrong, *found])
-        box = Box.of(corners, over)
-        known += box.corners.margins
+        ends_of(corners, over)
+        known += corners.margins
     check_asked(report, minimise, rtol, seed, known)
     report.refuse()
+    assert corners is not None
     asked = Request((minimise,) if minimise in NAMED else ())
-    return optimum_in(box, minimise, float(rtol), int(seed), asked)
+    return optimum_in(corners, over, minimise, float(rtol), int(seed), asked)
 
 
-def optimum_in(box: Box, minimise: str, rtol: float, seed: int, asked: Request) -> xr.Dataset:
-    """The best and the worst points of a box; see `optimise`. The best life is the longest."""
+def optimum_in(
+    corners: Grid, over: Mapping[str, object], minimise: str, rtol: float, seed: int, asked: Request
+) -> xr.Dataset:
+    """The best and the worst points of ranges; see `optimise`. The best life is the longest.
+
+    Parameters
+    ----------
+    corners
+        The grid of the ends of all ranges; of real contacts of both bodies, too.
+    over, minimise, rtol, seed
+        As of `optimise`.
+    asked
+        The quantities to be computed beside s.
+    """
+    low, high = ends_of(corners, over)
+    axes = {name: values for name, values in corners.axes.items() if name not in over}
 
     def solve(unit: FloatArray) -> xr.Dataset:
-        return solve_grid(box.sample(unit), rtol, asked)
+        """Results at points of the unit cube, shape (n, d), each a point of a sample."""
+        # Not low + unit (high - low): rounding must not leave the range.
+        values = low * (1.0 - unit) + high * unit
+        samples = dict(zip(over, map(tuple, values.T.tolist()), strict=True))
+        return solve_grid(replace(corners, axes=axes, samples=samples), rtol, asked)
 
-    d, best = len(box.names), -1 if minimise in LIVES else 1
+    d, best = len(over), -1 if minimise in LIVES else 1
     with Progress(None, "optimise"):
-        signs = {"best": best, "worst": -best}
-        found = {case: Search(solve, d, minimise, sign, seed) for case, sign in signs.items()}
-        units = np.array([each.best for each in found.values()])
-        cases = solve(units).drop_vars(SAMPLE).rename({SAMPLE: "case"})
-    searches = [*found.values()]
-    evaluations = [len(each.values) for each in searches]
+        found = [search(solve, d, minimise, sign, seed) for sign in (best, -best)]
+        places, values = zip(*found, strict=True)
+        cases = solve(np.array(places)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
     words = {"long_name": "number of points solved"}
-    cases = cases.assign(evaluations=("case", evaluations, words)).assign_coords(case=[*found])
-    without = sum(int(np.isinf(each.values).sum()) for each in searches)
+    cases = cases.assign(evaluations=("case", [*map(len, values)], words))
+    cases = cases.assign_coords(case=["best", "worst"])
+    without = int(np.isinf(np.concatenate(values)).sum())
     return cases.assign_attrs(minimise=minimise, seed=seed, without_value=without)
 
 

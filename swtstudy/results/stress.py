@@ -148,7 +148,7 @@ def swt_field(x: object, y: object, z: object, **parameters: object) -> xr.Datas
 #: Instants of a cycle by default: slip fronts are seen to move, and the map is computed in milliseconds.
 _INSTANTS_OF_SLIP = 64
 #: States of the surface, in the order of the flag values.
-_STATES = ("open", "stick", "forward_slip", "backward_slip")
+STATES = ("open", "stick", "forward_slip", "backward_slip")
 
 
 def slip_map(r: object, *, time: object | None = None, **parameters: object) -> xr.Dataset:
@@ -193,7 +193,7 @@ def slip_map(r: object, *, time: object | None = None, **parameters: object) -> 
     off = np.abs(radius.values - centre[:, None]) if cycle.moved else place
     inside = off < states.front_s[:, None]
     state = np.where(inside, 1, np.where(touching, slips, 0)).astype(np.int8)
-    flags = {"long_name": "state of the contact", **flag_attributes(_STATES)}
+    flags = {"long_name": "state of the contact", **flag_attributes(STATES)}
     variables: dict[str, Any] = {
         "state": ((*instants.dims, "r"), state.reshape(*instants.shape, radius.size), flags)
     }

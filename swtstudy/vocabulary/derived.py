@@ -75,23 +75,21 @@ def _of_criterion(criterion: str, row: Criterion) -> Iterator[Derived]:
         yield Derived(*error, *scale, error_of(of), criterion=criterion)
 
 
-def _of_life(row: Criterion, end: str) -> Iterator[Derived]:
-    """Repetitions of a sequence of blocks to a crack, and the share of each load in its damage."""
-    life, start = f"{row.life}{end}", row.life.removesuffix(LIFE)
-    place, words = end.removeprefix("_"), end.replace("_", " ") + "{shear}" * bool(row.by)
+def _of_life(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
+    """All that is made of a life: by blocks, and of constants that scatter.
+
+    Blocks: repetitions of their sequence to a crack, and the share of each load in its damage. Constants that
+    scatter: percentiles of the life, and the probability of a crack before a target.
+    """
+    life, start, place = f"{row.life}{end}", row.life.removesuffix(LIFE), end.removeprefix("_")
+    words = end.replace("_", " ") + "{shear}" * bool(row.by)
     for kind, symbol, meaning in (
         (REPETITIONS, _indexed("N", "seq", row.subscript, place), f"repetitions to a crack{words}"),
         (SHARE, "D_k/D", f"share of the damage{words}"),
     ):
         yield Derived(f"{start}{kind}{end}", symbol, meaning, of=life, needs=("blocks",), kind=kind)
-
-
-def _of_scatter(criterion: str, row: Criterion, end: str) -> Iterator[Derived]:
-    """Percentiles of a life, and the probability of a crack before a target, of constants that scatter."""
-    life, place, start = f"{row.life}{end}", end.removeprefix("_"), row.life.removesuffix(LIFE)
     of = {"of": life, "criterion": criterion}
     for percent in map(str, PERCENTS):
-        words = f"{end.replace('_', ' ')}{'{shear}' * bool(row.by)}"
         meaning = f"rounds to a crack{words}, before which {percent} % fail"
         symbol = _indexed("N", row.subscript, place, percent)
         yield Derived(f"{life}_{percent}", symbol, meaning, needs=("scatter",), kind=percent, **of)
@@ -107,11 +105,9 @@ def _rows() -> Iterator[Derived]:
         yield from _of_criterion(criterion, row)
     for name, alike in read_table(__file__, "derived").items():
         yield Derived(name, **alike)
-    with_life = [(name, row, end) for name, row in CRITERIA.items() if row.life for end in _ENDS.values()]
-    for _, row, end in with_life:
-        yield from _of_life(row, end)
-    for each in with_life:
-        yield from _of_scatter(*each)
+    lives = [(name, row, end) for name, row in CRITERIA.items() if row.life for end in _ENDS.values()]
+    made = [each for life in lives for each in _of_life(*life)]
+    yield from sorted(made, key=lambda each: each.kind in RANKS)  # by blocks first
 
 
 #: Ends of names by what they are made of: s, and its means over a critical distance.

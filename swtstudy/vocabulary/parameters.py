@@ -15,6 +15,7 @@ from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from textwrap import shorten
+from typing import NamedTuple
 
 from swtstudy.vocabulary.choices import CRITERIA, FAMILIES, SHIFTS
 from swtstudy.vocabulary.files import read_table
@@ -79,10 +80,6 @@ class Parameter:
     optional: bool = False
     note: str = ""
     words: str = ""
-
-    def __post_init__(self) -> None:
-        if self.names:
-            object.__setattr__(self, "kind", "name")
 
     def goes_without_saying(self, value: object) -> bool:
         """Return whether a value means that the scene lacks the parameter's subject."""
@@ -225,8 +222,7 @@ def replaced_by(names: Iterable[str]) -> set[str]:
     return {PAIRS[name] for name in names if name in PAIRS}
 
 
-@dataclass(frozen=True)
-class Control:
+class Control(NamedTuple):
     """The quantities prescribed in the two directions, each a displacement or a force.
 
     A normal force is in units of that at the depth δ0, a tangential one in μ times that.

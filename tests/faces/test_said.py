@@ -28,6 +28,7 @@ from swtstudy.archive.paths import ArchiveError
 from swtstudy.faces import html, site
 from swtstudy.faces import page as pages
 from swtstudy.faces.elements import write_history
+from swtstudy.results.optimise import ends_of
 
 FIGURE = """
 [figure]
@@ -523,19 +524,19 @@ def test_what_an_optimum_is_searched_over(kept: Kept, monkeypatch: pytest.Monkey
     )
     two.optimise({"tangential_force_amplitude": (1, 9)}, "SWT_volume", critical_distance=0.1, rtol=1e-3)
     said = {}
-    for box, *asked in searched:
-        ends = [*box.low.tolist(), *box.high.tolist()]
-        corners = box.corners
+    for corners, over, *asked in searched:
+        low, high = ends_of(corners, over)
+        ends = [*low.tolist(), *high.tolist()]
         axes = {name: [*map(str, values)] for name, values in corners.axes.items()}
         fixed = {name: str(value) for name, value in corners.fixed.items()}
         pairs = {name: [*map(float, both)] for name, both in corners.pairs.items()}
-        middle = box.sample(np.full((1, len(ends) // 2), 0.5)).samples
+        middle = dict(zip(over, 0.5 * (low + high)[:, None], strict=True))
         more = [
             *map(str, asked),
             str(corners.materials),
             {name: [*map(float, v)] for name, v in middle.items()},
         ]
-        said[", ".join(box.names)] = [ends, axes, fixed, pairs, *more]
+        said[", ".join(over)] = [ends, axes, fixed, pairs, *more]
     kept("contact_searches", said)
 
 
