@@ -1,12 +1,13 @@
 """`swtstudy.optimise`: the parameters for which a quantity is smallest, and for which it is largest.
 
-The search of the whole box is differential evolution, a generation in one batch. A polish of the best points
-knows that the largest of several maxima has kinks where these change places. s is the largest of many local
-maxima, over points, planes and instants, each of which depends smoothly on the parameters. Its least value is
-mostly in a kink, where some of them are equal: there a descent along gradients zigzags and a simplex
-collapses. Planes through the values and gradients at several points around are below all of the maxima
-nearby, and the lowest point of the highest plane is the kink (a bundle method). If the function is smooth,
-Newton's step with the same gradients is the better one: both are tried.
+One range is looked at evenly, then ever more closely where the value may be lowest. The search of a box of
+several is differential evolution, a generation in one batch. A polish of its best points knows that the
+largest of several maxima has kinks where these change places. s is the largest of many local maxima, over
+points, planes and instants, each of which depends smoothly on the parameters. Its least value is mostly in a
+kink, where some of them are equal: there a descent along gradients zigzags and a simplex collapses. Planes
+through the values and gradients at several points around are below all of the maxima nearby, and the lowest
+point of the highest plane is the kink (a bundle method). If the function is smooth, Newton's step with the
+same gradients is the better one: both are tried.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Collection, Generator, Iterator, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -186,6 +188,8 @@ def polish(start: FloatArray, value: float, seed: int) -> Generator[FloatArray, 
             return
 
 
+#: Even points of a single range, as many as differential evolution begins with.
+_EVEN = 65
 #: So many points of the search begin to be polished, this far apart in the unit cube: minima may be nearly
 #: equal, and the search has stopped at differences of 1 %. With 3 one minimum of 20 random ones was missed.
 _POLISHED, _APART = 8, 0.1
@@ -223,8 +227,6 @@ def search(
     StudyError
         If there is no finite value anywhere.
     """
-    from scipy.optimize import differential_evolution
-
     points: list[FloatArray] = []
     values: list[FloatArray] = []
 
@@ -237,6 +239,48 @@ def search(
         points.append(unit)
         values.append(np.where(np.isfinite(worse), sign * worse, np.inf))
         return values[-1]
+
+    if dimensions == 1:
+        search_line(solved)
+    else:
+        evolve(solved, dimensions, seed)
+    every = np.concatenate(values)
+    if not np.isfinite(every.min()):
+        words = f"no finite value at any of {len(every)} points"
+        raise refused("over", words, "ranges in which the quantity is finite somewhere")
+    if dimensions > 1:
+        polish_best(solved, np.concatenate(points), every, seed)
+        every = np.concatenate(values)
+    return np.concatenate(points)[every.argmin()], every
+
+
+def search_line(solved: Callable[[FloatArray], FloatArray]) -> None:
+    """Look at a range evenly, then from each low point to both sides by steps that are halved.
+
+    A point is given up where it cannot become the lowest: next to it the function falls by no more than it
+    rises to its sides. ``solved`` gives values at points.
+    """
+    places = np.linspace(0.0, 1.0, _EVEN)
+    step, values = places[1], solved(places[:, None])
+    sides = np.stack([np.append(np.inf, values[:-1]), np.append(values[1:], np.inf)], axis=1)
+    low = np.isfinite(values) & (values <= sides.min(axis=1))
+    places, values, sides = places[low], values[low], sides[low]
+    while step > _LAST and len(places):
+        rises = np.where(np.isfinite(sides), sides, values[:, None]).max(axis=1) - values
+        kept = (values - rises < values.min()) | (np.arange(len(values)) == values.argmin())
+        places, values, step = places[kept], values[kept], 0.5 * step
+        around = np.clip(places[:, None] + step * np.array([-1.0, 1.0]), 0.0, 1.0)
+        sides = solved(around.reshape(-1, 1)).reshape(-1, 2)
+        row, side = np.arange(len(values)), sides.argmin(axis=1)
+        moved = sides[row, side] < values
+        places = np.where(moved, around[row, side], places)
+        lowest = np.minimum(sides[row, side], values)
+        sides, values = np.where(moved[:, None], values[:, None], sides), lowest
+
+
+def evolve(solved: Callable[[FloatArray], FloatArray], dimensions: int, seed: int) -> None:
+    """Search the unit cube by differential evolution; ``solved`` gives values at points."""
+    from scipy.optimize import differential_evolution
 
     differential_evolution(
         lambda columns: solved(np.clip(columns.T, 0.0, 1.0)),
@@ -252,13 +296,6 @@ def search(
         updating="deferred",
         vectorized=True,
     )
-    every = np.concatenate(values)
-    if not np.isfinite(every.min()):
-        words = f"no finite value at any of {len(every)} points"
-        raise refused("over", words, "ranges in which the quantity is finite somewhere")
-    polish_best(solved, np.concatenate(points), every, seed)
-    every = np.concatenate(values)
-    return np.concatenate(points)[every.argmin()], every
 
 
 def polish_best(
@@ -311,9 +348,10 @@ def optimise(
 ) -> xr.Dataset:
     """The parameters in given ranges for which a quantity is smallest, and for which it is largest.
 
-    Differential evolution (`scipy.optimize.differential_evolution`) searches the ranges, a generation solved
-    in one batch; a bundle method follows its best points into the kinks that s has where two local maxima
-    over the body change places. The same call gives the same result.
+    One range is searched from 65 even points, by steps that are halved. Several are searched by differential
+    evolution (`scipy.optimize.differential_evolution`), a generation solved in one batch; a bundle method
+    follows its best points into the kinks that s has where two local maxima over the body change places. The
+    same call gives the same result.
 
     Parameters
     ----------
@@ -325,7 +363,7 @@ def optimise(
     rtol
         Relative accuracy asked of s.
     seed
-        Seed of the random numbers, 0 or more.
+        Seed of the random numbers of a search of several ranges, 0 or more.
     **parameters
         The names below, each a single value, as for `swtstudy.solve`.
 
@@ -383,12 +421,17 @@ def optimum_in(
     low, high = ends_of(corners, over)
     axes = {name: values for name, values in corners.axes.items() if name not in over}
 
-    def solve(unit: FloatArray) -> xr.Dataset:
-        """Results at points of the unit cube, shape (n, d), each a point of a sample."""
+    @cache  # both searches begin alike
+    def solved(content: bytes) -> xr.Dataset:
+        unit = np.frombuffer(content).reshape(-1, len(over))
         # Not low + unit (high - low): rounding must not leave the range.
         values = low * (1.0 - unit) + high * unit
         samples = dict(zip(over, map(tuple, values.T.tolist()), strict=True))
         return solve_grid(replace(corners, axes=axes, samples=samples), rtol, asked)
+
+    def solve(unit: FloatArray) -> xr.Dataset:
+        """Results at points of the unit cube, shape (n, d), each a point of a sample."""
+        return solved(unit.tobytes())
 
     d, best = len(over), -1 if minimise in LIVES else 1
     with Progress(None, "optimise"):
