@@ -17,6 +17,7 @@ from swtstudy.points.validity import outside_words, point_words, validity_lines
 from swtstudy.points.values import index_at, unit_of
 from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import FigureLayout
+from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import FatigueConstants, Scatter, ShearConstants
 from swtstudy.study.units.reading import read_contact
 from swtstudy.study.units.results import measures, sequence_words
@@ -183,6 +184,7 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     lives = given.materials or given.shear_materials
     several: dict[str, Iterable[str]] = {
         "units": [", ".join(filter(None, vars(given.units).values()))],
+        "pulled": [_carrier(dataset, given)],
         "material": map(_constants, dict.fromkeys(given.materials)),
         "scatter": [scatter_words(given.scatter)] if given.scatter else (),
         "in torsion": map(_constants, dict.fromkeys(given.shear_materials)),
@@ -192,6 +194,14 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
         "sequence": [sequence_words(dataset, given.blocks)],
     }
     yield from ((label, words) for label, lines in several.items() for words in lines if words)
+
+
+def _carrier(dataset: xr.Dataset, given: ContactDetails) -> str:
+    """The body that carries the bulk stress; empty without one."""
+    if not any(np.any(dataset.get(f"bulk_stress_{part}", 0.0)) for part in ("amplitude", "mean", "ratio")):
+        return ""
+    body = given.bulk_stress_body
+    return f"body {body + 1}" + (f", {given.body_names[body]}" if given.body_names else "")
 
 
 def scatter_words(scatter: Scatter) -> str:

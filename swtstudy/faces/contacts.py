@@ -524,7 +524,7 @@ _ASKED = ("rtol", "quantities", DISTANCE, "constants")
 def physical(
     *,
     similar: Any = units.SIMILAR,
-    bulk_stress_body: Any = 1,
+    bulk_stress_body: Any = None,
     bodies: Any = None,
     yield_strength: Any = None,
     findley_limit: Any = None,
@@ -542,7 +542,7 @@ def physical(
     similar
         Largest ``|β|/μ`` at which the bodies count as similar (eq. 1); β is Dundurs' constant.
     bulk_stress_body
-        1 or 2: the body that carries the bulk stress; the other one has none.
+        1 or 2, or its name: the body that carries the bulk stress, the first unless given.
     bodies
         Names of the two bodies, such as ("pad", "specimen"), in results and figures beside 1 and 2.
     yield_strength
@@ -608,8 +608,7 @@ def physical(
         "shear_materials": _of_both("shear_constants", shear_constants, report, ShearConstants),
     }
     with report:
-        carrier = units.checked_body(bulk_stress_body, "bulk_stress_body") - 1
-        about = ContactDetails(bulk_stress_body=carrier, **properties)
+        about = ContactDetails(**properties)
     own = {name: value for name, value in parameters.items() if name not in _ASKED}
     pairs = {
         name: own.pop(name) for name in units.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)
@@ -620,7 +619,8 @@ def physical(
     fixed |= {name: list(raw) if dimensions_of(raw) == 1 else raw for name, raw in pairs.items()}
     if "body" not in parameters:
         axes["body"] = units.LABELS
-    named = {} if bodies is None else {units.NAMES_KEY: bodies}
+    named = {units.NAMES_KEY: bodies, units.CARRIER_KEY: bulk_stress_body}
+    named = {key: value for key, value in named.items() if value is not None}
     given = {**fixed, **named, units.SIMILAR_KEY: similar}
     grid, found = read_contacts(given, axes, about, samples=samples)
     if grid is None or report:

@@ -14,8 +14,7 @@ from swtstudy.archive.recall import grid_of
 from swtstudy.faces.html import rendered, symbol_html, value_text
 from swtstudy.figures.draw import layout_of
 from swtstudy.figures.words import flag_words, is_life
-from swtstudy.points.canonical import SHAPE_COLUMNS
-from swtstudy.points.grid import SAMPLE
+from swtstudy.points.grid import SAMPLE, SHAPE_COLUMNS
 from swtstudy.points.validity import KNOWN_LIVES
 from swtstudy.points.values import index_at
 from swtstudy.results.evaluate import extrema

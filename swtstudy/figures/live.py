@@ -20,7 +20,7 @@ from swtstudy.figures.point import draw_load, draw_load_plane, draw_springs
 from swtstudy.figures.sheet import Figure
 from swtstudy.figures.style import entitle, save_figure, styled
 from swtstudy.figures.words import tick_in_pi
-from swtstudy.points.canonical import SHAPE_COLUMNS
+from swtstudy.points.grid import SHAPE_COLUMNS
 from swtstudy.points.solve import solve
 from swtstudy.points.values import read_value
 from swtstudy.results.inspection import load_and_springs

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 from difflib import get_close_matches
@@ -26,7 +26,7 @@ from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
-from swtstudy.study.units.rows import kind_of
+from swtstudy.study.units.rows import ONE_OF, kind_of
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -92,8 +92,8 @@ def fit(
     Parameters
     ----------
     study
-        A study file with units and constants, common to all tests. Its axes, sample and figure do
-        not count, nor do parameters that the table of tests gives.
+        A study file with units and constants, common to all tests. What the table of tests gives replaces
+        what it has; another axis has a single value. Its figure does not count.
     tests
         A CSV file, a DataFrame, or columns by name: parameters, in the units of the study, and ``life``, the
         load cycles to a crack; a row for each test. A run-out has the cycles that it survived, as ">1e7" or
@@ -393,7 +393,8 @@ def _read(
     if columns:
         # The tests are the sample of the study: mistakes in it are mistakes in them, or in their file.
         kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
-        fixed, replaced = raw.get("fixed", {}), columns.keys() | {DISTANCE}
+        replaced = {*columns, DISTANCE}.union(*(pair for pair in ONE_OF if {*pair} & columns.keys()))
+        fixed = raw.get("fixed", {}) | _single(raw, replaced, str(study))
         kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced}
         kept["sample"] = {"points": columns}
         try:
@@ -413,6 +414,27 @@ def _read(
     if grid.dimension("friction") and parameters > 1:
         raise refused("friction", "a column of the tests", "one value to fit, from the study")
     return grid, np.array(lives), np.array(runout, bool)
+
+
+def _single(raw: Mapping[str, Any], replaced: Collection[str], source: str) -> dict[str, object]:
+    """The single values along axes of a study that its tests do not replace; others are refused."""
+    report, single = Report(source), dict[str, object]()
+    if raw.get("blocks"):
+        report("blocks", "a sequence of blocks", "a study of one load: a test has the load cycles of that")
+    tables = {key: table for key, table in raw.items() if isinstance(table, dict)}
+    sample = tables.get("sample", {})
+    axes = {f"axes.{name}": values for name, values in tables.get("axes", {}).items()}
+    axes |= {f"sample.{name}": None for part in ("ranges", "points") for name in sample.get(part, ())}
+    for key, values in axes.items():
+        name = key.partition(".")[2]
+        if name in replaced or name not in AXES:
+            continue
+        if isinstance(values, list) and len(values) == 1:
+            single[name] = values[0]
+        elif name != "body":  # the shorter life of both counts
+            report(key, f"several values of {name}", "one for all tests, or a column of the tests")
+    report.refuse()
+    return single
 
 
 def _observed(

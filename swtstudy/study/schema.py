@@ -10,7 +10,17 @@ from swtstudy.points.values import NUMERIC
 from swtstudy.study.keys import StudyTable
 from swtstudy.study.sample import DISTRIBUTIONS
 from swtstudy.study.units.material import BY_NAME, PROPERTIES
-from swtstudy.study.units.rows import KNOWN, NAMES_KEY, OF_BODIES, SIMILAR, SIMILAR_KEY, UNIT_KINDS, kind_of
+from swtstudy.study.units.rows import (
+    CARRIER_KEY,
+    KNOWN,
+    NAMES_KEY,
+    OF_ALL,
+    OF_BODIES,
+    SIMILAR,
+    SIMILAR_KEY,
+    UNIT_KINDS,
+    kind_of,
+)
 from swtstudy.vocabulary.choices import families_with
 from swtstudy.vocabulary.parameters import CONTACT_AXES, PARAMETERS, QUANTITY_AXES, Parameter
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
@@ -21,6 +31,7 @@ SCHEMA_LINE = f"#:schema {SCHEMA_FILE}\n"
 
 _NAMES = 'What the two bodies are called, such as ["pad", "specimen"]; with units only'
 _SIMILAR = "|β|/μ up to which two bodies count as similar, β Dundurs' constant (eq. 1); with units only"
+_CARRIER = "The body that carries the bulk stress, 1 or 2, or its name; with units only"
 _LABEL = {"type": "string", "minLength": 1}
 _TWO = {"minItems": 2, "maxItems": 2}
 
@@ -69,7 +80,8 @@ def study_schema() -> dict[str, Any]:
         axes_alone[name] = False if name in CONTACT_AXES else {"items": limits}
     fixed[SIMILAR_KEY] = {"description": _SIMILAR, "type": "number", "minimum": 0.0, "default": SIMILAR}
     fixed[NAMES_KEY] = {"description": _NAMES, "type": "array", "items": _LABEL, **_TWO}
-    fixed_alone |= {SIMILAR_KEY: False, NAMES_KEY: False}
+    fixed[CARRIER_KEY] = {"description": _CARRIER, "type": ["integer", "string"], "default": 1}
+    fixed_alone |= dict.fromkeys(OF_ALL, False)
     _close(keys, "fixed", fixed)
     _close(keys, "axes", axes)
     _close(parts["SampleTable"], "ranges", ranges)

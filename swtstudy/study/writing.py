@@ -11,6 +11,7 @@ from swtstudy.points.grid import Grid
 from swtstudy.study.figure import FigureLayout
 from swtstudy.study.units.grid import ContactDetails, PhysicalGrid
 from swtstudy.study.units.material import LIMIT, SHEAR_CONSTANTS, STRENGTH, TENSILE
+from swtstudy.study.units.rows import CARRIER_KEY, NAMES_KEY, SIMILAR_KEY
 from swtstudy.vocabulary.quantities import DISTANCE, NOTHING, Request
 
 
@@ -42,8 +43,9 @@ def to_toml(
     about, units = ContactDetails(), dict[str, str]()
     if isinstance(grid, PhysicalGrid):
         about, units = grid.about, vars(grid.units)
-        names = {"bodies": about.body_names} if about.body_names else {}
-        fixed |= {**about.pairs, **names, "similar": about.similar}
+        names = {NAMES_KEY: about.body_names} if about.body_names else {}
+        carrier = {CARRIER_KEY: about.bulk_stress_body + 1} if grid.is_pulled else {}
+        fixed |= {**about.pairs, **names, **carrier, SIMILAR_KEY: about.similar}
     for table in (fixed, axes) if about.blocks else ():  # which have the loads
         table.pop("load", None)
     material = {key: [getattr(each, key) for each in about.materials] for key in TENSILE}

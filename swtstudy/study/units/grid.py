@@ -372,6 +372,12 @@ class PhysicalGrid(ContactDetails, Grid):
         return (*super().margins, "radius_ratio", *("slide_ratio",) * (not self.control.tangential_force))
 
     @property
+    def is_pulled(self) -> bool:
+        """True if a body carries a bulk stress at some point."""
+        given = (self.values(name) for name in ("bulk_stress_amplitude", "bulk_stress_mean"))
+        return any(value != 0.0 for values in given for value in values)
+
+    @property
     def _strain_share(self) -> xr.Variable:
         """Strain of the body with the bulk stress over the mean of both; negative at the other body."""
         carrier, several = self.bulk_stress_body, bool(self.values("body"))

@@ -72,10 +72,9 @@ def read_contacts(
     labels = grids.labels_of(given.units, profiles, everything)
     own = {name: row for name, row in units.rows(labels).items() if name != DISTANCE}
     given, single = _read_bodies(fixed, given, own, report)
-    of_all = units.SIMILAR_KEY, units.NAMES_KEY
-    for name in (name for name in of_all if name in axes):
+    for name in (name for name in units.OF_ALL if name in axes):
         report.of(name, "an axis", "one for all points, under [fixed]")
-    others = (DISTANCE, *of_all, *given.pairs)
+    others = (DISTANCE, *units.OF_ALL, *given.pairs)
     good_fixed, good_axes = read_values(single, axes, report, others, samples, known, own)
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
@@ -90,6 +89,10 @@ def read_contacts(
         return None, report
     grid = completed(good_fixed, good_axes, good_samples, given)
     check_bodies(grid, report)
+    if given.body_names and grid.is_pulled and units.CARRIER_KEY not in fixed:
+        one, other = map(literal, given.body_names)
+        words = f"{one} carries the bulk stress, as the first of bodies"
+        warnings.warn(f"{words}; if it is the other one, {units.CARRIER_KEY} = {other}", stacklevel=3)
     rules.check_loops(grid, report)
     # Sizes of what stands for a wrong load are no mistakes.
     if not report and not any(load is ANY or load is ANY_MEASURED for load in grid.values("load")):
@@ -146,9 +149,8 @@ def completed(
     own = {name: fixed[name] for name in table if name in fixed}
     grid = PhysicalGrid(own, axes, samples, **vars(about))
     # Bodies with different s, SWT or cycles are both there.
-    pulled = any(v != 0.0 for n in ("bulk_stress_amplitude", "bulk_stress_mean") for v in grid.values(n))
     of_both = (grid.materials, grid.yield_strengths, grid.shear_materials, grid.findley_limits)
-    if "body" not in given and (grid.pairs or pulled or any(len({*each}) > 1 for each in of_both)):
+    if "body" not in given and (grid.pairs or grid.is_pulled or any(len({*each}) > 1 for each in of_both)):
         return replace(grid, axes={**axes, "body": (1.0, 2.0)})
     return grid
 
@@ -182,6 +184,10 @@ def _read_bodies(
     if raw is not None and (len(names) != 2 or not sound or names[0] == names[1]):
         report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         names = ()
+    carrier = single.pop(units.CARRIER_KEY, None) or given.bulk_stress_body + 1
+    with report:
+        carrier = units.checked_body(carrier, report.key(units.CARRIER_KEY), names)
+    given = replace(given, bulk_stress_body=int(plain_number(carrier) == 2))
     body = single.get("body")
     if names and isinstance(body, str) and body not in map(str, units.LABELS):
         single["body"] = 1

@@ -186,6 +186,10 @@ SIMILAR_KEY, SIMILAR = "similar", 0.3
 NOTICEABLE_MISMATCH = 0.06
 #: Another: what the two bodies are called.
 NAMES_KEY = "bodies"
+#: Another: the body that carries the bulk stress, the first one unless given.
+CARRIER_KEY = "bulk_stress_body"
+#: The three.
+OF_ALL = (SIMILAR_KEY, NAMES_KEY, CARRIER_KEY)
 #: Exactly one of each group is given.
 MEAN_LOADS = ("depth", "normal_force")
 #: One of each pair takes the other's place.
