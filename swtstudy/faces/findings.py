@@ -85,13 +85,15 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
     """Every dimension of more than one value: the figure's x first, then by ratio.
 
     Without a figure the phase is first, which costs nothing to choose. A sample has none, since its points
-    differ in all that is sampled; nor has the criterion, whose values are not of one kind.
+    differ in all that is sampled; nor has the criterion, whose values are not of one kind, nor have lives the
+    frequency ratio, on which the length of a load cycle depends.
     """
     values = measured(dataset)
+    others = {"criterion"} | ({"frequency_ratio"} if is_life(values.attrs) else set())
     first = layout_of(dataset).x if "figure" in dataset.attrs else "phase"
     found = []
     for name in map(str, values.dims):
-        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name == "criterion":
+        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in {*AXES} - others:
             continue
         table = extrema(dataset.assign(measured=values), name, "measured")
         ratio = table.ratio.where(np.isfinite(table.ratio))

@@ -314,6 +314,9 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
     """
     if (most := max(map(as_number, grid.values("friction")))) > MOST_FRICTION:
         yield f"friction {most:g}: metals have some 0.1 to 1.5"
+    if grid.has_lives and HARMONIC in grid.values("load") and len({*grid.values("frequency_ratio")}) > 1:
+        words = "a load cycle at frequency_ratio p/q has p tangential and q normal oscillations"
+        yield f"{words}: cycles at several ratios are not of one length"
     measured = [str(load) for load in grid.loops if load.mean_normal is not None]
     for amplitude in rules.AMPLITUDES:
         name, share = grid.control.given_for(amplitude), float(grid.numbers[amplitude].max())
