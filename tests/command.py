@@ -1,7 +1,5 @@
 """The command in this process, and what it says of archives."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What tests of several rooms ask of studies and archives as a user does: by calls, files and commands."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

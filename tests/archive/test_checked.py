@@ -1,7 +1,5 @@
 """All that is said of an archive that no run has written, in whole messages."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable

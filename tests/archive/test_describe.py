@@ -1,7 +1,5 @@
 """All that swtstudy info says of an archive, word for word, and what a repr says of changed results."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from functools import partial

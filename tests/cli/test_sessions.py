@@ -1,7 +1,5 @@
 """Commands one after the other, and all that they print, as in data/sessions.txt."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import warnings

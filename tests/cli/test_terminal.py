@@ -1,7 +1,5 @@
 """What the commands print: aligned on a terminal, parted by tabs elsewhere, in lines that are not broken."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path

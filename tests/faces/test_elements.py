@@ -1,7 +1,5 @@
 """Stress histories of finite elements: the round trip of a contact's own stress, lives and files."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

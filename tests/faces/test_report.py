@@ -1,7 +1,5 @@
 """Pages about archives: what they say, that they are whole, and that nothing in an archive can break them."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -1,7 +1,5 @@
 """Pages, contacts and histories say what is kept of them, from the first word to the last."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -1,7 +1,5 @@
 """Figures look as what is kept of them: each line, word, colour and scale."""
 
-from __future__ import annotations
-
 import sys
 from io import BytesIO
 from pathlib import Path

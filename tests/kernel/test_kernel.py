@@ -1,7 +1,5 @@
 """The compiled kernel: values in closed form, recorded values, and the same values without a compiler."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Loads of the compiled kernel: what they are at each instant, and what follows from them."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

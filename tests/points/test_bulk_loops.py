@@ -1,7 +1,5 @@
 """Loops with a bulk stress as their third column."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

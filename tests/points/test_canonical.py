@@ -1,7 +1,5 @@
 """What a point is computed as: what does not matter is left out, and what is equal is computed once."""
 
-from __future__ import annotations
-
 import warnings
 
 import numpy as np

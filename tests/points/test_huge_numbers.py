@@ -1,7 +1,5 @@
 """Numbers that are no numbers of a computer, masked ones, and texts nested without end."""
 
-from __future__ import annotations
-
 import json
 import time
 from pathlib import Path

@@ -1,7 +1,5 @@
 """All that is said of points outside of the model's limits, word by word, of results that are made up."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Whole messages of wrong parameters, and of what cannot be combined."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

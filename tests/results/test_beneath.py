@@ -1,7 +1,5 @@
 """The stress beneath the surface through `stress_field`: closed forms, the surface as a limit, and strips."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

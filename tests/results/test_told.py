@@ -1,7 +1,5 @@
 """Datasets hold and say what is kept of them: variables, dimensions, words, units; so do messages."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Stress, springs and quantities of a contact against closed forms and oracles, as the package tells them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -1,7 +1,5 @@
 """Criteria of shear: closed forms, brute force over places and planes, and what goes with which criterion."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Loops and tables that users define: what they hold, what follows, and what is said of wrong ones."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

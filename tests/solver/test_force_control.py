@@ -1,7 +1,5 @@
 """Prescribed forces: values against closed forms, one another and springs marched one by one."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

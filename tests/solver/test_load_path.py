@@ -1,7 +1,5 @@
 """Loops that a user defines: from their vertices to results."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path

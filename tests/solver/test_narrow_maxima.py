@@ -4,8 +4,6 @@ The values are those of an independent solver (a compiled march of the springs w
 searched densely), to 1e-8.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

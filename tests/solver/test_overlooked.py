@@ -5,8 +5,6 @@ planes; some of the last ones are up to 2e-5 higher, by both ways through the so
 stress.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from body import dense_maximum

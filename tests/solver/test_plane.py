@@ -1,7 +1,5 @@
 """Plane contacts: kernels, stress on the surface and s, against closed forms, elements and a dense look."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

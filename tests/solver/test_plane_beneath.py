@@ -1,7 +1,5 @@
 """The field beneath plane contacts: line loads, and swt in the section."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from body import DOWN, body_maximum, opened, swt_at

@@ -1,7 +1,5 @@
 """Quantities of plane contacts, and what results say of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

@@ -1,7 +1,5 @@
 """The power law against the closed forms of Galin and Sneddon; its tip."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from oracles.point_loads import sum_of_point_loads

@@ -3,8 +3,6 @@
 No warning (pytest turns them into errors), no NaN, no exception for valid input.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scenes import each_profile, points, take

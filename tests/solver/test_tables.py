@@ -1,7 +1,5 @@
 """Profiles that are tables: their integrals against quadrature, s against that of closed forms."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from hypothesis import given as sampled

@@ -1,7 +1,5 @@
 """Values of s: known ones, closed forms, convergence, and the textbook method as an independent route."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Quantities on request: their values and errors."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np

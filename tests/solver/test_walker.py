@@ -1,7 +1,5 @@
 """Walker's mean-stress exponent: closed forms, brute force, and the way back to swt at γ = 1/2."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

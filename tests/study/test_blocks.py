@@ -1,7 +1,5 @@
 """Blocks of loads: Miner's sum, held against the same by hand."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

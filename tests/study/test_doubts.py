@@ -1,7 +1,5 @@
 """What is said of studies that are sound, and in which a unit is probably another one."""
 
-from __future__ import annotations
-
 import logging
 import warnings
 

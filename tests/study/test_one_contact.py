@@ -1,7 +1,5 @@
 """One contact and those that sequences span are of one kind: the same keywords, results and words."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """One point of a study: what is left of its axes, samples and blocks when values are chosen."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

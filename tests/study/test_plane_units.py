@@ -1,7 +1,5 @@
 """Plane contacts in newtons and millimetres: line loads, or forces of a contact of some length."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

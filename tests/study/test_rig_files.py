@@ -1,7 +1,5 @@
 """Files as rigs write them: other encodings, units, settings above the header, workbooks."""
 
-from __future__ import annotations
-
 import re
 import sys
 import warnings

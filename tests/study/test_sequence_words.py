@@ -1,7 +1,5 @@
 """What is said of a sequence of blocks: how often it is repeated, and which load does the damage."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Measured signals: from the file of a rig to a loop and a study."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from pathlib import Path

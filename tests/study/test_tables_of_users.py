@@ -1,7 +1,5 @@
 """Files that users made by hand or by a rig: what is in doubt in them is refused, with the line."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

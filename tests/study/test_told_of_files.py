@@ -4,8 +4,6 @@ In the file of the texts ==== parts the cases, and --- the keys of a table, the 
 is said of it. What is said begins with ! or », and may go on in lines that are set in.
 """
 
-from __future__ import annotations
-
 import re
 import warnings
 from pathlib import Path

@@ -1,7 +1,5 @@
 """All that is said of recorded signals, word by word, and the sizes of their cycles."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Traces of profilometers: two sides become one profile."""
 
-from __future__ import annotations
-
 import re
 import warnings
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """A study with several mistakes is refused once, with all of them."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

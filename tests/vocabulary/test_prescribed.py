@@ -1,7 +1,5 @@
 """Forces instead of displacements, from the names of parameters to results."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from solved import REGIMES

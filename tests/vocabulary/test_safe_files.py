@@ -1,7 +1,5 @@
 """Files and folders that are not the package's own are left as they are; its own are whole or absent."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from tempfile import TemporaryDirectory

@@ -1,7 +1,5 @@
 """Words of the vocabulary, whole: numbers, values, mistakes, and what a variable lacks."""
 
-from __future__ import annotations
-
 import math
 import pickle
 from collections.abc import Callable
