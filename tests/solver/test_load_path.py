@@ -365,8 +365,7 @@ def test_one_message_for_each_mistake_with_a_load(given: dict[str, object], word
 
 @pytest.mark.parametrize("name", ["", "harmonic", None])
 def test_a_loop_needs_a_name_of_its_own(name: object) -> None:
-    with pytest.raises(StudyError, match="name: found"):
-        LoadPath(name, SQUARE)  # type: ignore[arg-type]
+    refused("name: found", LoadPath, name, SQUARE)
 
 
 def test_too_many_vertices_are_refused_but_not_those_that_do_not_matter() -> None:
@@ -401,8 +400,7 @@ def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("vertices", ["ab", ["a", 1], [[0, 1], 2], [[0, 1], [0, "x"]], {0: 1}, None])
 def test_vertices_that_are_no_numbers_are_a_mistake(vertices: object) -> None:
-    with pytest.raises(StudyError, match=r"vertices of mine: found .*; allowed: a list of pairs of numbers"):
-        LoadPath("mine", vertices)  # type: ignore[arg-type]
+    refused(r"vertices of mine: found .*; allowed: a list of pairs of numbers", LoadPath, "mine", vertices)
 
 
 @pytest.mark.parametrize("profile", [{}, {"profile": "rounded_punch", "flat_radius": 0.5}])
