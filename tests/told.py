@@ -1,5 +1,6 @@
 """What tests of several rooms ask of studies and archives as a user does: by calls, files and commands."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -25,3 +26,24 @@ def written(study: Study, folder: Path) -> Study:
     """The study that an archive of it keeps when it is merged."""
     run(study, folder / "kept.nc", workers=1, solver=stand_in.smooth)
     return Study.from_text(merged(folder / "kept.nc").attrs["study"])
+
+
+def sayings(text: str) -> list[tuple[str, list[str]]]:
+    """Expressions of Python, and what each gives, by lines.
+
+    It stands behind a », in the line of the expression or below it; lines that are set in go on. Lines that
+    begin with # are words of their own.
+    """
+    found: list[tuple[str, list[str]]] = []
+    for line in re.sub(r"\n    ", " ", text).strip("\n").splitlines():
+        if line.startswith("» "):
+            found[-1][1].append(line.removeprefix("» "))
+        elif not line.startswith("#"):
+            expression, *said = line.split(" » ")
+            found.append((expression, said))
+    return found
+
+
+def lines_of(found: object) -> list[str]:
+    """A text by lines, and other values as Python shows them."""
+    return found.split("\n") if isinstance(found, str) and found else [repr(found)]
