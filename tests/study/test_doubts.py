@@ -1,10 +1,10 @@
 """What is said of studies that are sound, and in which a unit is probably another one."""
 
 import logging
-import warnings
 
 import pytest
 import real
+from told import warned
 
 from swtstudy import Study
 
@@ -29,10 +29,7 @@ SPHERE = CONTACT.replace("radius = 50", "radius = 0.02")
 
 
 def told(text: str) -> list[str]:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        Study.from_text(f'title = "t"\n{text}', "s")
-    return [str(each.message) for each in caught]
+    return warned(Study.from_text, f'title = "t"\n{text}', "s")[1]
 
 
 def cap(factor: float, power: float, depth: float) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import real
 from command import call
-from told import refused
+from told import refused, warned
 
 import swtstudy
 from swtstudy import Study, StudyError, read_signal
@@ -32,13 +32,11 @@ def table(header: str, separator: str = ",", decimal: str = ".", rows: list = RO
 
 def loop_of(text: str, folder: Path) -> tuple[np.ndarray, list[str]]:
     """The loads of a study's loop, and what is told of them."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        study = Study.from_text(text, "s", folder)
+    study, told = warned(Study.from_text, text, "s", folder)
     (loop,) = study.grid.values("load")
     loads = np.array(loop.vertices)
     loads[:, 0] += loop.mean_normal
-    return loads, [str(each.message) for each in told]
+    return loads, told
 
 
 #: A file, keys for it, and what is told of it.
@@ -158,11 +156,9 @@ def test_samples_are_named_by_the_lines_of_the_file(tmp_path: Path) -> None:
     (tmp_path / "rig.csv").write_text("\n".join(["Rig 7", "", "t,normal,tangential", "s,N,N", *rows]))
     line = (tmp_path / "rig.csv").read_text().splitlines().index("20,200,300.0000") + 1
     assert line == 27
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        read_signal(tmp_path / "rig.csv", time="t")
+    _, told = warned(read_signal, tmp_path / "rig.csv", time="t")
     words = f"rig: tangential 300 in cycle 1, line {line} of the file, where"
-    assert any(str(each.message).startswith(words) for each in told)
+    assert any(each.startswith(words) for each in told)
 
 
 def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:

@@ -2,13 +2,12 @@ import math
 import re
 import subprocess
 import sys
-import warnings
 from fractions import Fraction
 
 import pytest
 import stand_in
 from command import call, merged
-from told import refused
+from told import refused, warned
 
 from swtstudy import Study, run
 
@@ -340,10 +339,8 @@ def test_a_study_in_a_notebook_is_a_table_of_its_parameters():
     ],
 )
 def test_axes_without_effect_are_warned_of(fixed: str, axes: str, idle: list[str]) -> None:
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        Study.from_text(f'title = "t"\n[fixed]\n{fixed}\n[axes]\n{axes}\n')
-    assert [str(each.message).split()[1] for each in caught] == [f"axes.{name}" for name in idle]
+    _, told = warned(Study.from_text, f'title = "t"\n[fixed]\n{fixed}\n[axes]\n{axes}\n')
+    assert [each.split()[1] for each in told] == [f"axes.{name}" for name in idle]
 
 
 LOOP = 'title = "t"\nfixed.load = "mine"\n[loads.mine]\n'

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from folders import DATA
-from told import RIG, refused
+from told import RIG, refused, warned
 
 import swtstudy
 from swtstudy import read_trace
@@ -159,10 +159,7 @@ def pad() -> tuple[np.ndarray, np.ndarray]:
 def read(folder: Path, x: np.ndarray, z: np.ndarray) -> tuple[swtstudy.TabulatedProfile, list[str]]:
     """The profile of a trace, and what is told of it."""
     write(folder / "pad.csv", x.round(9), z.round(9))
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        profile = read_trace(folder / "pad.csv")
-    return profile, [str(each.message) for each in told]
+    return warned(read_trace, folder / "pad.csv")
 
 
 def swt(profile: swtstudy.TabulatedProfile) -> float:
