@@ -2,14 +2,11 @@
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import swtstudy
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
-
-Array = NDArray[np.float64]
 
 
 def test_one_point_in_curves_and_in_a_figure() -> None:

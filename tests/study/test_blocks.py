@@ -1,13 +1,11 @@
 """Blocks of loads: Miner's sum, held against the same by hand."""
 
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stand_in
 import told
-import xarray as xr
 from real import ALLOY, ALUMINIUM
 from told import refused
 
@@ -38,12 +36,6 @@ LOADS = [
 
 def block(load: str, rounds: object) -> str:
     return f'[[blocks]]\nload = "{load}"\nrounds = {rounds}\n'
-
-
-def repeated(found: xr.Dataset, by: str = "") -> float:
-    """How often a sequence is repeated to a crack, as results say."""
-    (times,) = {*re.findall(f"repeated (\\S+) times to a crack{by}; running does", repr(found.swt))}
-    return float(times)
 
 
 @pytest.mark.slow
