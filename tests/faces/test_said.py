@@ -5,7 +5,6 @@ import gzip
 import json
 import re
 import sys
-from collections.abc import Callable
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ import xarray as xr
 from kept import Kept, told
 from made_up import SALTELLI, made_up
 from matplotlib.figure import Figure
+from told import sayings
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, evaluate_history, physical, read_history, run
@@ -250,53 +250,46 @@ def test_histories_of_elements(kept: Kept, tmp_path: Path) -> None:
         assert again.SWT.attrs == {"units": "MPa"}
 
 
+#: What is asked of contacts, by a name.
+ASKED = sayings(r"""
+poisson » one().with_parameters(poisson_ratio=0.2)
+several » several.with_parameters(friction=0.2)
+with » one().with_parameters(frictoin=0.2)
+constants » one().cycles((STEEL, 3), 0.1)
+criterion » in_plane.swt(0.1)
+body » one().swt(s, 1)
+label » one().swt(s.assign_coords(body=[1, 3]))
+which » several.swt(0.1)
+which life » one().cycles((STEEL, real.ALUMINIUM), 0.1)
+negative » one().swt(-0.1)
+third » one().swt(0.1, 3)
+asked » one(rtol=1e-3, constants=STEEL, quantities=["von_mises"])
+pairs » one(yield_strength=-1, findley_limit=[1, "x"], shear_constants=STEEL, bulk_stress_body=3)
+solve » one().solve(2.0, quantities=["x"], critical_distance=-1, constants=3, yield_strength=0)
+blocks » one().solve(blocks={"harmonic": 3})
+no life » physical(**REAL | CONTACTS["plain"], criterion="findley",
+    normal_sensitivity=0.3).solve(constants=STEEL)
+minimise » one().optimise({"friction": (0.5, 0.6)}, "cycles")
+over » one().optimise({"friction": (0.6, 0.5), "profile": (1, 2)}, "SWTs", rtol=1, seed=-1)
+distances » one().optimise({"friction": (0.5, 0.6)}, "SWT_volume", critical_distance=[0.1, 0.2])
+optimise » several.optimise({"friction": (0.5, 0.6)})
+field » one().stress_field("a", np.inf, 0.0)
+no body » one().parameters("pad")
+named » several.parameters("pod")
+lost » physical(**REAL, normal_force=10.0, tangential_force_amplitude=9.0).inspect_point()
+units » swtstudy.solve(rtol=1e-2).swt.contact()
+unknown » one().depths
+""")
+
+
 def test_messages_of_contacts(kept: Kept) -> None:
-    one, several = (
-        (lambda **more: physical(**REAL | CONTACTS["plain"] | more)),
-        physical(**REAL | CONTACTS["several"]),
-    )
-    plane = physical(**REAL | CONTACTS["in_plane"])
-    s = xr.DataArray([0.1, 0.2], {"body": [1, 2]}, "body")
-    asked: dict[str, Callable[[], object]] = {
-        "poisson": lambda: one().with_parameters(poisson_ratio=0.2),
-        "several": lambda: several.with_parameters(friction=0.2),
-        "with": lambda: one().with_parameters(frictoin=0.2),
-        "constants": lambda: one().cycles((STEEL, 3), 0.1),
-        "criterion": lambda: plane.swt(0.1),
-        "body": lambda: one().swt(s, 1),
-        "label": lambda: one().swt(s.assign_coords(body=[1, 3])),
-        "which": lambda: several.swt(0.1),
-        "which life": lambda: one().cycles((STEEL, real.ALUMINIUM), 0.1),
-        "negative": lambda: one().swt(-0.1),
-        "third": lambda: one().swt(0.1, 3),
-        "asked": lambda: one(rtol=1e-3, constants=STEEL, quantities=["von_mises"]),
-        "pairs": lambda: one(
-            yield_strength=-1, findley_limit=[1, "x"], shear_constants=STEEL, bulk_stress_body=3
-        ),
-        "solve": lambda: one().solve(
-            2.0, quantities=["x"], critical_distance=-1, constants=3, yield_strength=0
-        ),
-        "blocks": lambda: one().solve(blocks={"harmonic": 3}),
-        "no life": lambda: physical(
-            **REAL | CONTACTS["plain"], criterion="findley", normal_sensitivity=0.3
-        ).solve(constants=STEEL),
-        "minimise": lambda: one().optimise({"friction": (0.5, 0.6)}, "cycles"),
-        "over": lambda: one().optimise({"friction": (0.6, 0.5), "profile": (1, 2)}, "SWTs", rtol=1, seed=-1),
-        "distances": lambda: one().optimise(
-            {"friction": (0.5, 0.6)}, "SWT_volume", critical_distance=[0.1, 0.2]
-        ),
-        "optimise": lambda: several.optimise({"friction": (0.5, 0.6)}),
-        "field": lambda: one().stress_field("a", np.inf, 0.0),
-        "no body": lambda: one().parameters("pad"),
-        "named": lambda: several.parameters("pod"),
-        "lost": lambda: physical(**REAL, normal_force=10.0, tangential_force_amplitude=9.0).inspect_point(),
-        "units": lambda: swtstudy.solve(rtol=1e-2).swt.contact(),
-        "unknown": lambda: one().depths,
-    }
+    contacts: dict[str, Any] = {name: physical(**REAL | CONTACTS[name]) for name in ("several", "in_plane")}
+    contacts["one"] = lambda **more: physical(**REAL | CONTACTS["plain"] | more)
+    contacts["s"] = xr.DataArray([0.1, 0.2], {"body": [1, 2]}, "body")
     said = {}
-    for name, ask in asked.items():
+    for name, (call,) in ASKED:
         with pytest.raises((StudyError, AttributeError)) as caught:
-            ask()
+            eval(call, globals() | contacts)
         said[name] = [str(each) for each in getattr(caught.value, "mistakes", [caught.value])]
     kept("messages_of_contacts", said)
 
@@ -323,9 +316,7 @@ def test_messages_of_histories(kept: Kept, tmp_path: Path, monkeypatch: pytest.M
     tell("twice", [*rows[:2], rows[1], *rows[2:-1]])
     tell("one point", ["step,xx,yy,zz,yz,xz,xy", *["0,1,2,3,4,5,6"] * 2])
     tell("unknown", rows, scale={"S11": 2.0, "stress": 1.0})
-    tell(
-        "scales", [rows[0], ",-,-,-,-,Pa,Pa,Pa,Pa,Pa,Pa".lstrip(",") if False else rows[1], *rows[2:]], body=3
-    )
+    tell("scales", rows, body=3)
     tell("no units", rows, RIG.replace("[units]", "[limits]"))
     tell("values", rows, RIG.replace("2e5", "'stiff'").replace("poisson_ratio = 0.3\n", ""))
     tell("axis", rows, RIG.replace("young_modulus = 2e5\n", "") + "[axes]\nyoung_modulus = [1, 2]\n")

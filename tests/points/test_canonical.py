@@ -11,9 +11,7 @@ from swtstudy.points.canonical import alike, canonical_points, describe_point, g
 from swtstudy.points.grid import Grid
 from swtstudy.points.labelled import turned
 
-TABLE_1 = "normal_amplitude=0.75, tangential_amplitude=0.833333"
 BODIES = "friction=0.3, poisson_ratio=0.3"
-PLAIN = "profile=paraboloid, frequency_ratio=1/1"
 WAVY = (
     '{profile = "wavy_paraboloid", waviness_amplitude = 0.001, wavelength = 5, normal_force_amplitude = 0.3, '
 )
