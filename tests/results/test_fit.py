@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 from click.testing import CliRunner
 from kept import told
-from real import ALLOY, ALUMINIUM
+from real import ALLOY, ALUMINIUM, SPHERE
 from told import refused
 
 import swtstudy
@@ -22,11 +22,7 @@ LOOP = [[0, 1], [0, -1], [0, 0.9], [0, -0.9]]
 STUDY = f"""
 title = "Tests of a rig"
 {ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
+{SPHERE}normal_force = 200
 load = "two"
 [loads.two]
 vertices = {LOOP}

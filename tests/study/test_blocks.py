@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import stand_in
 import told
-from real import ALLOY, ALUMINIUM
+from real import ALLOY, ALUMINIUM, SPHERE
 from told import refused
 
 import swtstudy
@@ -16,11 +16,7 @@ RIG = f"""
 title = "Blocks"
 rtol = 1e-3
 {ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-body = 1
+{SPHERE}body = 1
 """
 #: With means, each of which has a life.
 WITH_MEANS = RIG + "critical_distance = 0.05\n"

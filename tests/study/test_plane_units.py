@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from real import UNITS
 
 import swtstudy
 from swtstudy import Study, TabulatedProfile, run
@@ -20,14 +21,10 @@ GIVEN: dict[str, Any] = {
 }
 MODULUS = E / (2.0 * (1.0 - NU**2))
 
-RIG = """
+RIG = f"""
 title = "A cylinder on a flat"
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-
+{UNITS}
 [fixed]
 profile = "cylinder"
 young_modulus = 205e3

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from solved import REGIMES
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
@@ -99,9 +100,8 @@ def test_waves_are_refused_at_the_depth_that_a_force_reaches() -> None:
 
 
 def test_a_real_contact_takes_forces() -> None:
-    bodies = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
     contact = swtstudy.physical(
-        **bodies, normal_force=200.0, normal_force_amplitude=80.0, tangential_force_amplitude=30.0
+        **RIG, normal_force=200.0, normal_force_amplitude=80.0, tangential_force_amplitude=30.0
     )
     own = contact.parameters()
     assert own["normal_force_amplitude"] == pytest.approx(0.4)
@@ -122,4 +122,4 @@ def test_a_real_contact_takes_forces() -> None:
     ):
         given = {"normal_force_amplitude": 80.0, "tangential_force_amplitude": 30.0, **wrong}
         with pytest.raises(StudyError, match=words):
-            swtstudy.physical(**bodies, normal_force=200.0, **given)
+            swtstudy.physical(**RIG, normal_force=200.0, **given)
