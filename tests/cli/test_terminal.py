@@ -193,10 +193,6 @@ def results() -> xr.Dataset:
     return swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2)
 
 
-def test_a_part_of_results_says_so(results: xr.Dataset) -> None:
-    assert repr(results.drop_vars("s").swt) == "<no results of swtstudy, or a part of them>"
-
-
 def test_an_archive_says_what_info_prints(results: xr.Dataset) -> None:
     archive = f"{RESULTS}/loops.nc"
     assert repr(swtstudy.open_results(archive).swt).splitlines() == lines_of("info", archive)

@@ -269,18 +269,6 @@ def test_gross_slip_is_where_the_slip_lines_cross_and_lift_off_where_the_depth_i
     np.testing.assert_array_equal(lifted, [False, False, True, True])
 
 
-@pytest.mark.parametrize("name", [*INDENTERS, "power_law"])
-@pytest.mark.parametrize("y", [0.0, 0.4])
-def test_the_field_ends_continuously_at_the_surface(name: str, y: float) -> None:
-    shape = {"exponent": 3.0} if name == "power_law" else INDENTERS[name].shape
-    given = {"profile": name, **shape, "phase": 0.8, "friction": 0.6, "bulk_stress_mean": 0.05}
-    x = np.array([-1.5, -1.21, -0.9, -0.3, 0.4, 0.77, 1.05, 1.4])
-    surface = at(x, y, 0.0, [0.3, 2.0, 4.5], **given)
-    for depth in (1e-3, 1e-5):
-        change = np.abs(at(x, y, depth, [0.3, 2.0, 4.5], **given) - surface).max()
-        assert change < 6.0 * np.sqrt(depth) + 2e-3
-
-
 def test_equilibrium_and_compatibility() -> None:
     """div σ = 0 and (1 + ν) ∇²σ + grad grad tr σ = 0 (Beltrami–Michell) by differences of sixth order."""
     h, ν = 0.02, 0.3

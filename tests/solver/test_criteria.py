@@ -193,28 +193,6 @@ def test_a_criterion_is_a_dimension() -> None:
     assert "beneath the surface" in alone.s.attrs["comment"]
 
 
-FINDLEY = {"criterion": "findley", "normal_sensitivity": 0.3}
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"criterion": "findley"}, "normal_sensitivity: found nothing"),
-        ({"normal_sensitivity": 0.3}, "normal_sensitivity: found a value with the criterion swt"),
-        (FINDLEY | {"walker_exponent": 0.4}, "walker_exponent: found"),
-        (
-            FINDLEY
-            | {"criterion": ["swt", "findley"], "profile": "truncated_paraboloid", "flat_radius": 0.3},
-            "profile: found truncated_paraboloid with the criterion findley",
-        ),
-        ({"criterion": "tresca"}, "criterion: found 'tresca'"),
-    ],
-)
-def test_what_goes_with_no_criterion(given: dict, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        swtstudy.solve(**given)
-
-
 def test_wrong_histories() -> None:
     with pytest.raises(ValueError, match=r"criterion: found 'findly'; allowed: .*findley") as error:
         swtstudy.criterion_of_history(np.full((2, 6), np.nan), "findly", -1.0)

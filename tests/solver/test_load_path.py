@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from command import call
-from made_up import save
 from solved import REGIMES
 from told import refused
 
@@ -48,26 +47,6 @@ def test_the_amplitudes_scale_the_columns_of_what_is_prescribed(force: str) -> N
     assert s_of(CONE, **given) == s_of(scaled, **dict.fromkeys(given, 1.0))
     if not force:
         assert s_of(scaled) == s_of(scaled, normal_amplitude=1.0, tangential_amplitude=1.0)
-
-
-def test_a_mirrored_loop_has_its_critical_point_on_the_other_side_and_a_backward_one_another_s() -> None:
-    loops = [LoadPath("there", CONE), LoadPath("mirrored", np.array(CONE) * [1.0, -1.0])]
-    loops.append(LoadPath("back", CONE[::-1]))
-    found = swtstudy.solve(load=loops, rtol=1e-6)
-    there, mirrored, back = found.s.values
-    assert mirrored == pytest.approx(there, rel=1e-6)
-    assert found.critical_x[1].item() == pytest.approx(-found.critical_x[0].item(), rel=1e-5)
-    assert abs(back / there - 1.0) > 1e-2
-
-
-def test_the_cycle_of_the_paper_as_a_polygon_converges_to_it() -> None:
-    """Within the envelope 12 k⁻² (relative) of the sampling."""
-    smooth = swtstudy.solve(normal_amplitude=0.75, phase=2.3, rtol=1e-6).s.item()
-    for count in (16, 64, 256):
-        t = 2.0 * np.pi * np.arange(count) / count
-        loop = np.stack([np.sin(t + 2.3), np.sin(t)], axis=1)
-        found = s_of(loop, normal_amplitude=0.75, tangential_amplitude=5 / 6, rtol=1e-6)
-        assert abs(found / smooth - 1.0) < 12.0 / count**2
 
 
 @pytest.mark.parametrize(
@@ -186,34 +165,11 @@ def test_a_normal_load_that_almost_stops_while_all_sticks(rtol: float) -> None:
     assert found.s.item() == pytest.approx(0.161137934, rel=3e-5)
 
 
-def test_a_function_with_corners_is_no_harmonic_sum() -> None:
-    with pytest.raises(StudyError, match="harmonics beyond the order 64"):
-        LoadPath.sampled("mine", lambda t: (np.sin(t), np.abs(np.sin(t))))
-    with pytest.raises(StudyError, match=r"beyond the order 64, of up to 0\.01"):
-        LoadPath.sampled("mine", lambda t: (np.sin(t), np.sin(64 * t) + 0.01 * np.sin(65 * t)))
-    for wrong in (lambda t: t, lambda t: (t[:5], t), lambda t: (np.nan * t, t)):
-        refused("course of mine: found", LoadPath.sampled, "mine", wrong)
-
-
 def merged_with_itself(path: Path) -> xr.Dataset:
     """An archive that `swtstudy merge` writes anew."""
     target = path.with_name("merged.nc")
     assert call("merge", path, "-o", target).exit_code == 0
     return open_results(target)
-
-
-def test_a_harmonic_sum_comes_back_from_an_archive(tmp_path: Path) -> None:
-    text = STUDY + "normal = [[1, 0.5, 0.4]]\ntangential = [[1, 0.5, 0.0], [2, 0.1, 0.3]]"
-    path = tmp_path / "loops.nc"
-    dataset = run(Study.from_text(text), path, workers=1)
-    merged = merged_with_itself(path)
-    xr.testing.assert_equal(merged.drop_vars("run"), dataset.drop_vars("run"))
-    assert Study.from_text(merged.attrs["study"]).grid == Study.from_text(text).grid
-
-
-def test_the_shapes_that_rigs_run() -> None:
-    assert LoadPath.trapezoid("a", normal=(0.0, 0.5), tangential=(-0.5, 0.5)).code == code(SQUARE[::-1])
-    assert LoadPath.triangle("b", normal=0.2, tangential=0.5).code == code([[0.2, 0.5], [-0.2, -0.5]])
 
 
 STUDY = """title = "Loops"
@@ -336,38 +292,6 @@ def test_one_message_for_each_mistake_in_a_loop(tmp_path: Path, table: str, word
     assert len(found) == 1, found
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"load": "square"}, r"load: .*; your own: \[loads.square\] in a study, swtstudy.LoadPath in Python"),
-        ({"load": [[0.0, 0.5], [0.5, 0.5]]}, "load: found .*; allowed: a single value or a one-dimensional"),
-        (
-            {"load": np.sin},
-            r"load: found .* .not a name.; .*; your own: \[loads.NAME\] in a study, swtstudy.Load",
-        ),
-        ({"load": 3.0}, "load: found 3.0 .not a name."),
-        (
-            {"load": [LoadPath("a", SQUARE), LoadPath("a", CONE)]},
-            r"load\[1\]: found <LoadPath a>, another load with the name of load\[0\]; allowed: a name of",
-        ),
-        (
-            {"load": ["harmonic", LoadPath("a", SQUARE)], "tangential_amplitude": 1.0},
-            "normal_amplitude: found",
-        ),
-    ],
-)
-def test_one_message_for_each_mistake_with_a_load(given: dict[str, object], words: str) -> None:
-    with pytest.raises(StudyError) as caught:
-        swtstudy.solve(**given)
-    assert len(caught.value.mistakes) == 1
-    assert re.match(words, str(caught.value)), str(caught.value)
-
-
-@pytest.mark.parametrize("name", ["", "harmonic", None])
-def test_a_loop_needs_a_name_of_its_own(name: object) -> None:
-    refused("name: found", LoadPath, name, SQUARE)
-
-
 def test_too_many_vertices_are_refused_but_not_those_that_do_not_matter() -> None:
     t = 2.0 * np.pi * np.arange(2001) / 2001
     with pytest.raises(StudyError, match=r"2001 vertices .*; allowed: at most 2000"):
@@ -375,16 +299,6 @@ def test_too_many_vertices_are_refused_but_not_those_that_do_not_matter() -> Non
     line = np.linspace(-1.0, 1.0, 5001)
     to_and_fro = np.concatenate([line, line[::-1]])
     assert len(LoadPath("line", np.stack([0.0 * to_and_fro, to_and_fro], axis=1)).vertices) == 2
-
-
-@pytest.mark.parametrize("definitions", ["[3]", '[{"parameter": "load", "name": "mine"}]', "{"])
-def test_a_mangled_definition_is_refused(tmp_path: Path, definitions: str) -> None:
-
-    path = tmp_path / "loops.nc"
-    run(Study.from_text(STUDY + f"vertices = {SQUARE}"), path, workers=1)
-    save(open_results(path).assign_attrs(definitions=definitions), path)
-    with pytest.raises(ValueError, match="attribute definitions: found"):
-        open_results(path)
 
 
 @pytest.mark.slow
@@ -396,11 +310,6 @@ def test_an_audit_knows_loops_by_their_content(tmp_path: Path) -> None:
     assert found["load"].values.tolist() == ["mine"]
     again = swtstudy.audit_study(study, tmp_path / "audit.nc", points=1, workers=1)
     xr.testing.assert_identical(again.drop_attrs(), found.drop_attrs())
-
-
-@pytest.mark.parametrize("vertices", ["ab", ["a", 1], [[0, 1], 2], [[0, 1], [0, "x"]], {0: 1}, None])
-def test_vertices_that_are_no_numbers_are_a_mistake(vertices: object) -> None:
-    refused(r"vertices of mine: found .*; allowed: a list of pairs of numbers", LoadPath, "mine", vertices)
 
 
 @pytest.mark.parametrize("profile", [{}, {"profile": "rounded_punch", "flat_radius": 0.5}])

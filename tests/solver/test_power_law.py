@@ -33,14 +33,6 @@ def test_radius_force_and_pressure_of_a_real_contact(n: float) -> None:
     assert again.depth == pytest.approx(depth, rel=1e-12)
 
 
-def test_the_square_is_the_paraboloid() -> None:
-    given = {"phase": [0.0, 1.0, 2.5], "friction": [0.3, 0.9]}
-    square = swtstudy.solve(profile="power_law", exponent=2.0, **given)
-    paraboloid = swtstudy.solve(**given)
-    for name in ("s", "s_error", "critical_x", "critical_angle", "s_surface"):
-        np.testing.assert_array_equal(square[name], paraboloid[name])
-
-
 @pytest.mark.parametrize("n", [1.5, 4.0])
 def test_stress_beneath_is_a_sum_of_point_loads(n: float) -> None:
     """At a constant force, while the whole contact slides in +x."""
