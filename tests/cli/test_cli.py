@@ -303,18 +303,6 @@ def test_the_studies_of_the_paper_are_valid(path):
     assert "valid" in result.output
 
 
-@pytest.mark.parametrize("command", ["run", "validate"])
-def test_each_mistake_in_a_study_is_a_line(tmp_path, monkeypatch, command):
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "bad.toml"
-    path.write_text('title = "t"\n[fixed]\nfriction = -1\npoisson_ratio = 0.7')
-    result = call(command, path)
-    assert result.exit_code == 2
-    assert len(result.stderr.splitlines()) == 2
-    assert all(line.startswith(f"Error: {path}: ") for line in result.stderr.splitlines())
-    assert [entry.name for entry in tmp_path.iterdir()] == ["bad.toml"]
-
-
 def test_a_syntax_error_shows_the_line_beneath_it(tmp_path):
     (tmp_path / "bad.toml").write_text("title = ")
     result = call("validate", tmp_path / "bad.toml")

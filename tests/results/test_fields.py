@@ -102,20 +102,6 @@ def test_memory_does_not_grow_with_the_square_of_the_instants():
 
 
 @pytest.mark.parametrize(
-    ("place", "words"),
-    [
-        ({"time": []}, "time"),
-        ({"x": np.ma.array([0.0, 1.0], mask=[0, 1])}, "x: found no or not finite values"),
-        ({"time": np.ma.array([0.0, 1.0], mask=[0, 1])}, "time"),
-        ({"friction": [0.1, 0.2]}, "friction"),
-    ],
-)
-def test_bad_input_is_named(place, words):
-    with pytest.raises(ValueError, match=words):
-        swtstudy.stress_field(**{"x": 0, "y": 0, "z": 0, **place})
-
-
-@pytest.mark.parametrize(
     "parameters",
     [
         {},

@@ -2,13 +2,10 @@
 
 import itertools
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from body import body_maximum, history_at, swt_at
-from command import call
-from drawn import draw
 from numpy.typing import NDArray
 from oracles.circle import hemisphere
 from scenes import plane_points, points, random_points, take
@@ -193,12 +190,6 @@ def test_a_criterion_is_a_dimension() -> None:
     assert "beneath the surface" in alone.s.attrs["comment"]
 
 
-def test_wrong_histories() -> None:
-    with pytest.raises(ValueError, match=r"criterion: found 'findly'; allowed: .*findley") as error:
-        swtstudy.criterion_of_history(np.full((2, 6), np.nan), "findly", -1.0)
-    assert len(str(error.value).splitlines()) == 3
-
-
 def solution(batch: Points, name: str) -> Solution:
     return solve_points(of_criterion(batch, name, 0.4), 1e-4)
 
@@ -349,67 +340,6 @@ def test_means_of_shear_with_units() -> None:
             life = swtstudy.ShearConstants.estimated(constants, 0.3).cycles(found.FS_volume.values)
             np.testing.assert_allclose(found.FS_cycles_volume, life, rtol=1e-6)
             assert (found.FS_cycles_volume > found.FS_cycles).all()
-
-
-SHEAR_STUDY = """
-title = "Shear in units"
-
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-
-[material]
-yield_strength = 400
-
-[fixed]
-young_modulus = 210e3
-poisson_ratio = 0.3
-radius = 50
-friction = 0.5
-normal_force = 200
-normal_sensitivity = 0.3
-
-[axes]
-criterion = ["fatemi_socie", "findley"]
-tangential_force_amplitude = [30, 60]
-
-[figure]
-x = "tangential_force_amplitude"
-y = ["FS", "findley_stress"]
-hue = "criterion"
-"""
-
-
-@pytest.mark.slow
-def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Study file, archive, info, figure and page, in units."""
-    (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")
-
-    def told(*words: object) -> str:
-        done = call(*words)
-        assert done.exit_code == 0, done.output
-        return done.output
-
-    told("run", tmp_path / "shear.toml", "--results", tmp_path, "--workers", "1")
-    archive = tmp_path / "shear.nc"
-    found = swtstudy.open_results(archive)
-    for criterion, name, unit in (("fatemi_socie", "FS", "1"), ("findley", "findley_stress", "MPa")):
-        own = {"criterion": criterion, "normal_sensitivity": 0.3, "yield_strength": 400.0}
-        alone = swtstudy.physical(**STEEL, **own, tangential_force_amplitude=60.0).solve()
-        value = found[name].sel(criterion=criterion, tangential_force_amplitude=60)
-        assert float(value.squeeze()) == pytest.approx(float(alone[name].values.ravel()[0]), rel=1e-6)
-        assert found[name].attrs.get("units", "1") == unit
-    assert "findley" in told("info", archive)
-    (upper, lower) = draw(found).axes
-    assert upper.get_ylabel() == r"$\mathrm{FS}$"
-    assert lower.get_ylabel() == "$f$ (MPa)"
-    for axes in (upper, lower):  # one criterion has each
-        assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
-    # Pictures of points take seconds.
-    monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
-    told("report", archive, "-o", tmp_path / "shear.html")
-    assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 
 
 def test_where_slip_reverses_at_a_sharp_edge_the_shear_has_no_bound() -> None:

@@ -8,7 +8,6 @@ import pytest
 from scenes import PROFILE_NAMES, points, random_points, take
 from solved import Points, solve_points
 from test_values import ALIGNED
-from told import refused
 
 import swtstudy
 from studies.accuracy_speed.textbook import textbook_s
@@ -100,10 +99,3 @@ def test_fields_and_means_have_the_exponent() -> None:
     assert float(own.swt) == pytest.approx(float(solved.s), rel=2e-5)
     shown = swtstudy.inspect_point(**parameters)
     assert float(shown.s_local.max()) == pytest.approx(float(solved.s), rel=1e-2)
-
-
-@pytest.mark.parametrize("exponent", [0.0, 0.95, -1.0, "many"])
-def test_exponents_that_are_none(exponent: object) -> None:
-    allowed = r"walker_exponent: found .*; allowed: a number in \(0, 0.9\]"
-    refused(allowed, swtstudy.solve, walker_exponent=exponent)
-    refused(allowed, swtstudy.swt_of_history, np.ones((3, 6)), 0.3, walker_exponent=exponent)

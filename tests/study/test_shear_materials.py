@@ -157,7 +157,7 @@ FIGURE = """
 tangential_force_amplitude = [30, 60]
 [figure]
 x = "tangential_force_amplitude"
-y = ["FS_cycles", "findley_usage"]
+y = ["FS_cycles", "findley_usage", "FS", "findley_stress"]
 hue = "criterion"
 """
 
@@ -186,9 +186,12 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     assert "Findley limit" in info
     assert "150 MPa" in info
     assert "shear_modulus 80769.2, strength 530" in info
-    upper, lower = draw(found).axes
-    assert upper.get_ylabel() == r"load cycles to a crack, $N_\mathrm{FS}$"
-    assert lower.get_ylabel() == r"Findley stress over its limit, $f/f_\mathrm{lim}$"
+    assert [axes.get_ylabel() for axes in draw(found).axes] == [
+        r"load cycles to a crack, $N_\mathrm{FS}$",
+        r"Findley stress over its limit, $f/f_\mathrm{lim}$",
+        r"$\mathrm{FS}$",
+        "$f$ (MPa)",
+    ]
     told("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
     page = (tmp_path / "t.html").read_text(encoding="utf-8")
     assert "Strain-life constants in torsion" in page
