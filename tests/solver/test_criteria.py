@@ -8,6 +8,7 @@ import pytest
 from body import body_maximum, history_at, swt_at
 from numpy.typing import NDArray
 from oracles.circle import hemisphere
+from oracles.hertz import at_the_edge
 from scenes import plane_points, points, random_points, take
 from scipy.optimize import minimize
 from solved import Points, Solution, solve_points
@@ -57,10 +58,8 @@ def test_sphere_under_constant_load(name: str) -> None:
     FS does not know pressure: where the stick zone ends, ±μp on the x-normal may be more.
     """
     ν, μ, u = 0.3, 0.3, np.array([0.2, 0.5, 0.7])
-    θ = np.arcsin(np.sqrt(1.0 - u))
-    i = (np.pi / 2 - θ) / 2 + np.sin(2 * θ) / 4
-    j = (np.pi / 2 - θ) / 8 + np.sin(4 * θ) / 32
-    swing, mean = 2 / np.pi * 2 * μ * (i + ν * j), 2 / np.pi * (1 - 2 * ν) / 3
+    spread, pull, _ = at_the_edge(ν, μ, u)
+    swing, mean = 2 / np.pi * pull, 2 / np.pi * spread
     batch = points(poisson_ratio=ν, friction=μ, normal_amplitude=0.0, tangential_amplitude=u)
     found = solve_points(of_criterion(batch, name, 0.3), 1e-6)
     inside = μ * 2 / np.pi * np.sqrt(u) if name == "fatemi_socie" else 0.0
