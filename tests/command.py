@@ -17,6 +17,13 @@ def call(*arguments: object, **options: object) -> Result:
     return CliRunner().invoke(main, list(map(str, arguments)), **options)  # type: ignore[arg-type]
 
 
+def succeeded(*arguments: object, **options: object) -> Result:
+    """The same of a command that has to succeed."""
+    done = call(*arguments, **options)
+    assert done.exit_code == 0, done.output
+    return done
+
+
 def ends(*arguments: object) -> int:
     """The exit code of the command in the streams that are there."""
     with pytest.raises(SystemExit) as ended:

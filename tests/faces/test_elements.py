@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command import call
+from command import call, succeeded
 from told import refused
 
 import swtstudy
@@ -67,8 +67,7 @@ def test_the_stress_of_a_contact_gives_s(tmp_path: Path) -> None:
         np.testing.assert_allclose(found.findley_stress, findley, rtol=1e-9)
         shear, _ = swtstudy.criterion_of_history(stress, "fatemi_socie", 0.3 / (young * 1e-2))
         np.testing.assert_allclose(found.FS, shear * 2.0 * (1.0 + NU) / young, rtol=1e-9)
-    done = call("history", rig, tmp_path / "theirs.csv", "-o", tmp_path / "lives.csv")
-    assert done.exit_code == 0, done.output
+    done = succeeded("history", rig, tmp_path / "theirs.csv", "-o", tmp_path / "lives.csv")
     assert f"largest SWT = {solved.s.item():.4g} MPa at id = P0, x = 0, y = 0, z = 0.5" in done.stdout
     header, first, _ = (tmp_path / "lives.csv").read_text().splitlines()
     assert dict(zip(header.split(","), first.split(","), strict=True))["SWT_normal_y"] in ("0.0", "-0.0")
@@ -104,8 +103,7 @@ def test_paraview_reads_the_points(tmp_path: Path) -> None:
     meshio = pytest.importorskip("meshio")
     stress = np.zeros((3, 2, 6))
     stress[:, 1, 0] = [100, 200, 300]
-    done = call("history", study(tmp_path), _written(tmp_path, stress), "-o", tmp_path / "lives.vtu")
-    assert done.exit_code == 0, done.output
+    succeeded("history", study(tmp_path), _written(tmp_path, stress), "-o", tmp_path / "lives.vtu")
     mesh = meshio.read(tmp_path / "lives.vtu")
     np.testing.assert_array_equal(mesh.points[:, 0], [0, 1, 2])
     np.testing.assert_allclose(mesh.point_data["SWT"], np.array([100, 200, 300]) ** 2 / 4e5, rtol=1e-6)

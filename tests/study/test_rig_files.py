@@ -121,9 +121,8 @@ def test_other_files_are_refused_with_the_way_out(
     if content.startswith(b"PK\x03\x04 xl/"):
         pytest.importorskip("openpyxl")
     (tmp_path / "rig.csv").write_bytes(content)
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(RIG + keys, "s", tmp_path)
-    (line,) = map(str, caught.value.mistakes)
+    error = refused("", Study.from_text, RIG + keys, "s", tmp_path)
+    (line,) = map(str, error.mistakes)
     assert re.match(f"s: loads.rig.{words}", line), line
 
 
@@ -251,13 +250,12 @@ def test_all_mistakes_in_a_table_are_told_at_once(tmp_path: Path) -> None:
         ("", "file: found bytes in line 1"),
         ('encoding = "cp9"', "encoding: found 'cp9'"),
     ):
-        with pytest.raises(StudyError) as caught:
-            Study.from_text(RIG + keys + encoding, "s", tmp_path)
-        told = str(caught.value)
+        error = refused("", Study.from_text, RIG + keys + encoding, "s", tmp_path)
+        told = str(error)
         for words in (first, "scale.norml: found 'norml'; allowed: did you mean normal?", "in kN as normal"):
             assert words in told
         assert "found 'x' (" in told
-        assert len(caught.value.mistakes) == 4
+        assert len(error.mistakes) == 4
 
 
 def test_a_notice_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
