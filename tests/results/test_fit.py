@@ -9,7 +9,7 @@ import xarray as xr
 from click.testing import CliRunner
 from kept import told
 from real import ALLOY, ALUMINIUM, SPHERE
-from told import refused
+from told import refused, sayings
 
 import swtstudy
 from swtstudy import LoadPath, Study, StudyError, physical
@@ -308,45 +308,29 @@ def test_run_outs_are_lower_bounds_of_life(rig, monkeypatch, tmp_path):
     assert float(again.critical_distance) == float(found.critical_distance)
 
 
-@pytest.mark.parametrize(
-    ("tests", "words"),
-    [
-        (
-            {"tangential_force_amplitude": [30, 60], "life": [">1e7", 1e6]},
-            "found 1 test with a crack; allowed: 2",
-        ),
-        (
-            {"tangential_force_amplitude": [30, 60], "life": ["", 1e6]},
-            "life '' of test 1; allowed: .* as >1e7",
-        ),
-        (
-            {
-                "tangential_force_amplitude": [30, 60, 70],
-                "life": [1e5, 1e6, 1e7],
-                "runout": [0, 1, "perhaps"],
-            },
-            "tests: found runout 'perhaps' of test 3; allowed: 1 or 0, true or false",
-        ),
-        ({"tangential_force_amplitude": [30.0, 60.0]}, "tests: found the columns tangential_"),
-        ({"tangential_force_amplitude": [30.0], "life": [1e5]}, "tests: found 1 test; allowed: 2 at least"),
-        ({"life": [1e5, 1e6]}, "tests: found the column life alone"),
-        ({"tangential_force_amplitude": [30, 60], "life": [1e5, -1]}, "life -1.0 of test 2; allowed"),
-        ({"tangential_force_amplitude": [30, 60], "life": [1e5, "no"]}, "life 'no' of test 2"),
-        ({"tangential_force_amp": [30, 60], "life": [1e5, 1e6]}, "unknown parameter"),
-        ("nowhere.csv", r"nowhere.csv: found no such file in the folder"),
-        (3, r"tests: found 3 \(.*\); allowed: a CSV file"),
-        (
-            {"tangential_force_amplitude": [30, 60, 70], "life": [1e5, 1e6]},
-            "^tests: found .*same length.*; allowed: a CSV file, or columns by name, with a value for each",
-        ),
-        (
-            {"tangential_force_amplitude": ["", 60, 70], "life": [1e5, 1e6, 1e7]},
-            r"^tests.tangential_force_amplitude: found '' .not a number, .*. at \[0\]; allowed: a force",
-        ),
-    ],
-)
+WRONG = sayings(r"""
+dict(tangential_force_amplitude=[30, 60], life=[">1e7", 1e6]) » found 1 test with a crack; allowed: 2
+dict(tangential_force_amplitude=[30, 60], life=["", 1e6]) » life '' of test 1; allowed: .* as >1e7
+dict(tangential_force_amplitude=[30, 60, 70], life=[1e5, 1e6, 1e7], runout=[0, 1, "perhaps"])
+» tests: found runout 'perhaps' of test 3; allowed: 1 or 0, true or false
+dict(tangential_force_amplitude=[30.0, 60.0]) » tests: found the columns tangential_
+dict(tangential_force_amplitude=[30.0], life=[1e5]) » tests: found 1 test; allowed: 2 at least
+dict(life=[1e5, 1e6]) » tests: found the column life alone
+dict(tangential_force_amplitude=[30, 60], life=[1e5, -1]) » life -1.0 of test 2; allowed
+dict(tangential_force_amplitude=[30, 60], life=[1e5, "no"]) » life 'no' of test 2
+dict(tangential_force_amp=[30, 60], life=[1e5, 1e6]) » unknown parameter
+"nowhere.csv" » nowhere.csv: found no such file in the folder
+3 » tests: found 3 \(.*\); allowed: a CSV file
+dict(tangential_force_amplitude=[30, 60, 70], life=[1e5, 1e6])
+» ^tests: found .*same length.*; allowed: a CSV file, or columns by name, with a value for each
+dict(tangential_force_amplitude=["", 60, 70], life=[1e5, 1e6, 1e7])
+» ^tests.tangential_force_amplitude: found '' .not a number, .*. at \[0\]; allowed: a force
+""")
+
+
+@pytest.mark.parametrize(("tests", "words"), WRONG)
 def test_wrong_tables_are_named(rig, tests, words):
-    refused(words, swtstudy.fit, rig[0], tests)
+    refused(words[0], swtstudy.fit, rig[0], eval(tests))
 
 
 def test_a_table_of_pandas_is_one_of_tests(rig, monkeypatch):
