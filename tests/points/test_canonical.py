@@ -1,10 +1,8 @@
 """What a point is computed as: what does not matter is left out, and what is equal is computed once."""
 
-import warnings
-
 import numpy as np
 import pytest
-from told import sayings
+from told import sayings, warned
 
 from swtstudy import Study
 from swtstudy.points.canonical import alike, canonical_points, describe_point, group_rows, rounded
@@ -22,9 +20,8 @@ CAP = "[profiles.cap]\nradius = [0, 1, 2, 3, 4, 5, 6, 7]\nheight = [0, 1, 4, 9, 
 
 
 def grid_of(text: str) -> Grid:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of axes without effect
-        return Study.from_text(f'title = "t"\n{text}\n').grid
+    study, _ = warned(Study.from_text, f'title = "t"\n{text}\n')  # of axes without effect
+    return study.grid
 
 
 #: A study of one point; what it is in words; and its control and strain share, as far as there are some.

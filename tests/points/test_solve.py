@@ -1,7 +1,6 @@
 import inspect
 import pickle
 import re
-import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -12,7 +11,7 @@ import pytest
 import stand_in
 import xarray as xr
 from real import ALUMINIUM
-from told import RIG, refused
+from told import RIG, refused, warned
 
 import swtstudy
 from swtstudy import solve
@@ -176,10 +175,9 @@ def test_a_table_smoothed_by_much_of_its_rise_is_warned_of(geometry):
         UserWarning, match=r"^profile pad: its smoothing is 0.011 of its rise within the contact"
     ):
         swtstudy.solve(profile=rough, **forces, rtol=1e-2)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        fine = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0045, geometry)
-        swtstudy.solve(profile=fine, **forces, rtol=1e-2)
+    fine = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0045, geometry)
+    _, told = warned(swtstudy.solve, profile=fine, **forces, rtol=1e-2)
+    assert told == []
 
 
 def test_arrays_of_dask_are_sequences_of_contacts():
