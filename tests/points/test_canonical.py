@@ -5,6 +5,7 @@ import pytest
 from told import sayings, warned
 
 from swtstudy import Study
+from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.points.canonical import alike, canonical_points, describe_point, group_rows, rounded
 from swtstudy.points.grid import Grid
 from swtstudy.points.labelled import turned
@@ -138,6 +139,19 @@ def test_phases_of_one_motion_are_one_point() -> None:
     for phase in phases[4:]:
         rows, mirrored = canonical_points(grid_of(f"fixed.phase = {phase}"), np.arange(1))
         assert (rows["phase"][0], mirrored[0]) == (0.0, False)
+
+
+def test_phases_are_folded_into_a_period_of_s() -> None:
+    """ψ of odd and even q, and ψ_B beside it: of a point that ψ mirrors or not, and without a motion."""
+    phase, p, q = [0.0, 4.0, 7.0, -1.0], [1, 1, 2, 1], [1, 1, 1, 2]
+    folded, mirrored = fold_phase(np.array(phase), np.array(p), np.array(q))
+    np.testing.assert_allclose(folded, [0.0, 4.0 - np.pi, 7.0 - 2.0 * np.pi, 2.0 * np.pi - 1.0])
+    assert mirrored.tolist() == [False, True, False, False]
+    moves, by_load = np.array([1, 1, 1, 0, 1], bool), np.array([0, 0, 1, 1, 1], bool)
+    both_ways = np.array([1, 1, 0, 1, 1], bool)
+    folded, mirrored = fold_bulk_phase(np.array([0.0, 4.0, 4.0, 1.0, 1.0]), moves, by_load, both_ways)
+    np.testing.assert_allclose(folded, [0.0, 4.0 - np.pi, 4.0 - np.pi, 0.0, 1.0])
+    assert mirrored.tolist() == [False, True, True, True, False]
 
 
 def test_equal_numbers_are_equal_to_twelve_digits_and_zero_has_no_sign() -> None:
