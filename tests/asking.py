@@ -1,7 +1,5 @@
 """What the tests of quantities ask for."""
 
-from __future__ import annotations
-
 from swtstudy import Study
 
 EVERY = (

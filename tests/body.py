@@ -1,7 +1,5 @@
 """swt at places of the body of one point, as batches that `scenes` draws."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 from typing import Any
 

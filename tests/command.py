@@ -1,7 +1,5 @@
 """The command in this process, and what it says of archives."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path
@@ -17,6 +15,13 @@ from swtstudy.cli import main as main
 def call(*arguments: object, **options: object) -> Result:
     """What the command does with arguments; options are those of click's ``invoke``, such as color."""
     return CliRunner().invoke(main, list(map(str, arguments)), **options)  # type: ignore[arg-type]
+
+
+def succeeded(*arguments: object, **options: object) -> Result:
+    """The same of a command that has to succeed."""
+    done = call(*arguments, **options)
+    assert done.exit_code == 0, done.output
+    return done
 
 
 def ends(*arguments: object) -> int:

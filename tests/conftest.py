@@ -46,7 +46,7 @@ READING = (
     *("runner", "archive", "archive_check", "archive_check_sums", "archive_names", "cf", "figures", "drawn"),
     *("legend", "drawn_profile", "quantities", "show_load", "jumps", "contour_labels", "hostile_names"),
     *("marked_validity", "loop_legend", "optimise", "statements", "safe_files", "audit"),
-    *("study", "schema", "rig_files", "expression", "mistakes_report", "scripts", "check", "formalisms"),
+    *("study", "schema", "rig_files", "expression", "scripts", "check", "formalisms"),
     *("resume", "sensitivity", "told_of_files", "told_of_signals", "parts", "client", "messages", "mistakes"),
     *("limits", "definitions", "radii", "doubts", "writing", "calls"),
 )

@@ -1,7 +1,5 @@
 """Figures of results through the accessor, by the keys of a study's ``[figure]``, and what they draw."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Made-up results and a study for the tests."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Studies with a few changes that somebody could make by mistake or on purpose, by a seed."""
 
-from __future__ import annotations
-
 import random
 import re
 from collections.abc import Iterator

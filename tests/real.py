@@ -16,26 +16,25 @@ ductility = 0.409
 ductility_exponent = -0.713
 """
 ALLOY = f"{UNITS}[material]\n{CONSTANTS}"
-#: A contact with the load of a rig, whose table is to follow.
-RIG = f"""
-title = "A rig"
-{UNITS}[fixed]
+#: A sphere on a flat.
+SPHERE = """\
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 radius = 50
 friction = 0.5
-load = "rig"
+"""
+#: A contact with the load of a rig, whose table is to follow.
+RIG = f"""
+title = "A rig"
+{UNITS}[fixed]
+{SPHERE}load = "rig"
 """
 STUDY = f"""
 title = "A sphere on a flat"
 rtol = 1e-2
 quantities = ["dissipation", "stick_radius", "contact_radius"]
 {ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_amplitude = 2e-3
+{SPHERE}normal_amplitude = 2e-3
 critical_distance = 0.05
 [axes]
 normal_force = [150, 200]
@@ -53,11 +52,7 @@ title = "A contact"
 rtol = 1e-3
 {ALLOY}yield_strength = 350
 [fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-"""
+{SPHERE}"""
 #: It with two forces, by all criteria.
 CRITERIA = f"""{CONTACT}normal_force = 200
 tangential_force_amplitude = 60

@@ -1,7 +1,5 @@
 """Batches of points for the tests: Table 1 unless said otherwise, or drawn at random."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from math import gcd

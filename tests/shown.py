@@ -1,7 +1,5 @@
 """What the pages show: blocks of code and commands, found in Markdown, and how each kind is run."""
 
-from __future__ import annotations
-
 import os
 import re
 import shlex

@@ -1,7 +1,5 @@
 """Points one by one, and their values as the package tells them: what `scenes` draws, solved as a study."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple, Self

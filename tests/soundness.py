@@ -1,7 +1,5 @@
 """What must hold for every result of the solver, and helpers for the tests of its stability."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike
 from solved import REGIMES, Points, Solution, results_of, solve_points

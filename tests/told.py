@@ -1,7 +1,7 @@
 """What tests of several rooms ask of studies and archives as a user does: by calls, files and commands."""
 
-from __future__ import annotations
-
+import re
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -27,3 +27,33 @@ def written(study: Study, folder: Path) -> Study:
     """The study that an archive of it keeps when it is merged."""
     run(study, folder / "kept.nc", workers=1, solver=stand_in.smooth)
     return Study.from_text(merged(folder / "kept.nc").attrs["study"])
+
+
+def warned(function: Callable[..., Any], *arguments: Any, **given: Any) -> tuple[Any, list[str]]:
+    """The value of a call, and its warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        found = function(*arguments, **given)
+    return found, [str(each.message) for each in caught]
+
+
+def sayings(text: str) -> list[tuple[str, list[str]]]:
+    """Expressions of Python, and what each gives, by lines.
+
+    It stands behind a », in the line of the expression or below it; lines that are set in go on. Lines that
+    begin with # say what the expressions below are there for.
+    """
+    found: list[tuple[str, list[str]]] = []
+    for line in re.sub(r"\n    ", " ", text).strip("\n").splitlines():
+        if line.startswith("#"):
+            continue
+        expression, *said = f" {line}".split(" » ")
+        if expression:
+            found.append((expression.strip(), []))
+        found[-1][1].extend(said)
+    return found
+
+
+def lines_of(found: object) -> list[str]:
+    """A text by lines, and other values as Python shows them."""
+    return found.split("\n") if isinstance(found, str) and found else [repr(found)]

@@ -1,7 +1,5 @@
 """Names and numbers as the package says them: in the schema of studies, and in the words of results."""
 
-from __future__ import annotations
-
 import json
 import re
 

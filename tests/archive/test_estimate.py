@@ -1,7 +1,5 @@
 """The time of a run, foreseen by a clock that goes on while points are solved."""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
 

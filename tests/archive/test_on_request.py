@@ -1,7 +1,5 @@
 """Quantities on request: computed, stored and continued like s."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

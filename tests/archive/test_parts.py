@@ -1,7 +1,5 @@
 """Parts of an unfinished archive are read as they were written, or left out with the reason."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

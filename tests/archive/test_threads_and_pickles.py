@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import stand_in
 import xarray as xr
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, open_results, run
@@ -58,15 +59,8 @@ def test_numpy_may_raise_what_it_likes(tmp_path):
         solved = swtstudy.solve(**amplitudes, flat_radius=0.5, profile="rounded_punch", rtol=1e-2)
         forces = {"normal_force_amplitude": [0, 0.5], "tangential_force_amplitude": [0, 0.5, 1.2]}
         pulled = swtstudy.solve(**forces, profile="cylinder", bulk_stress_amplitude=[0, 0.1], rtol=1e-2)
-        contact = swtstudy.physical(
-            young_modulus=73.1e3,
-            poisson_ratio=0.33,
-            radius=50.0,
-            normal_force=[200.0],
-            friction=0.5,
-            normal_force_amplitude=20.0,
-            tangential_force_amplitude=[0.0, 60.0],
-        )
+        loads = {"normal_force_amplitude": 20.0, "tangential_force_amplitude": [0.0, 60.0]}
+        contact = swtstudy.physical(**RIG, normal_force=[200.0], **loads)
         real = contact.solve(yield_strength=325.0, rtol=1e-2)
     assert np.isfinite(dataset.s).all()
     assert np.isfinite(solved.s).all()

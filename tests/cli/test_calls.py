@@ -1,7 +1,5 @@
 """What commands hand on to functions in Python, which are stand-ins here, and what they print and write."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

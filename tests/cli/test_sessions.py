@@ -1,7 +1,5 @@
 """Commands one after the other, and all that they print, as in data/sessions.txt."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import warnings
@@ -9,6 +7,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+import real
 import stand_in
 from command import call
 from folders import sections
@@ -45,12 +44,8 @@ x = "phase"
 panels = "friction"
 hue = "normal_amplitude"
 """
-UNITS = """title = "With units"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
+UNITS = f"""title = "With units"
+{real.UNITS}[fixed]
 young_modulus = 115e3
 poisson_ratio = 0.32
 radius = 0.025

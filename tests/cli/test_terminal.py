@@ -1,7 +1,5 @@
 """What the commands print: aligned on a terminal, parted by tabs elsewhere, in lines that are not broken."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path
@@ -193,10 +191,6 @@ def test_a_list_fits_80_columns_and_cuts_no_title() -> None:
 @pytest.fixture(scope="module")
 def results() -> xr.Dataset:
     return swtstudy.solve(normal_amplitude=[0.25, 1.5], rtol=1e-2)
-
-
-def test_a_part_of_results_says_so(results: xr.Dataset) -> None:
-    assert repr(results.drop_vars("s").swt) == "<no results of swtstudy, or a part of them>"
 
 
 def test_an_archive_says_what_info_prints(results: xr.Dataset) -> None:

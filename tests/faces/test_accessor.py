@@ -64,22 +64,6 @@ def test_values_are_told_apart_at_any_scale(dataset):
         dataset.assign_coords(phase=[1e-7, 1.0]).swt.slice(phase=0)
 
 
-@pytest.mark.parametrize(
-    ("places", "words"),
-    [
-        ({"phase": "pi/2"}, r"phase: found 'pi/2', which is not in these results; allowed: 0, π$"),
-        ({"phase": 3.1}, "not in these results"),
-        ({"profile": "paraboloid"}, "allowed: rounded_punch"),
-        ({"profile": "cone"}, "no such profile"),
-        ({"s": 0}, "not a parameter"),
-        ({"flat_radius": [0, 3]}, "found 3"),
-    ],
-)
-def test_what_is_not_there_is_named(dataset, places, words):
-    with pytest.raises(ValueError, match=words):
-        dataset.swt.slice(**places)
-
-
 def test_normalised_is_s_over_s_there(dataset):
     ratio = dataset.swt.normalised("b=0")
     np.testing.assert_array_equal(ratio, dataset.s / dataset.s.isel(flat_radius=0).drop_vars("flat_radius"))

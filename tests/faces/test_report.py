@@ -1,7 +1,5 @@
 """Pages about archives: what they say, that they are whole, and that nothing in an archive can break them."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json
@@ -22,7 +20,7 @@ import xarray as xr
 from command import call
 from folders import RESULTS
 from matplotlib.figure import Figure
-from real import ALLOY, CRITERIA
+from real import ALLOY, CRITERIA, SPHERE
 
 import swtstudy
 from swtstudy import Study
@@ -198,7 +196,7 @@ def test_of_real_contacts_with_lives_the_sentence_is_about_these(without_points:
 
 
 def test_limits_of_the_stress_are_said_beside_the_constants(tmp_path: Path, without_points: None) -> None:
-    text = RECORD.format(alloy=ALLOY).replace("yield_strength = 100", "yield_strength = [350, 420]")
+    text = RECORD.replace("yield_strength = 100", "yield_strength = [350, 420]")
     found = swtstudy.run(Study.from_text(text), tmp_path / "rig.nc")
     body = said_in(found, "settings").partition("Limits of the stress")[2]
     assert re.findall(">([^<]*)</td>", body) == ["yield strength", "350 MPa", "yield strength", "420 MPa"]
@@ -451,26 +449,22 @@ def test_the_headline_is_about_the_quantity_of_the_figure(small: xr.Dataset) -> 
     assert first.endswith("ψ changes W by a factor of 2 at δA/δ0 = 0.25: best at 0, worst at 0.637π.")
 
 
-RECORD = """title = "A record"
+RECORD = f"""title = "A record"
 rtol = 1e-2
-{alloy}yield_strength = 100
+{ALLOY}yield_strength = 100
 [loads.rig]
 vertices = [[-10, -60], [10, 60]]
 mean_normal = 250
 [fixed]
 load = "rig"
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-"""
+{SPHERE}"""
 
 
 @pytest.mark.usefixtures("unwrapped")
 def test_the_page_of_a_record_has_its_loads_and_all_columns(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    found = swtstudy.run(Study.from_text(RECORD.format(alloy=ALLOY)), tmp_path / "rig.nc")
+    found = swtstudy.run(Study.from_text(RECORD), tmp_path / "rig.nc")
     drawn = []
     keep = lambda figure, *_, **__: drawn.append(figure) or Picture("data:,", 1, 1)  # noqa: E731
     monkeypatch.setattr("swtstudy.faces.page.embedded", keep)

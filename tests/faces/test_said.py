@@ -1,13 +1,10 @@
 """Pages, contacts and histories say what is kept of them, from the first word to the last."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json
 import re
 import sys
-from collections.abc import Callable
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -21,6 +18,7 @@ import xarray as xr
 from kept import Kept, told
 from made_up import SALTELLI, made_up
 from matplotlib.figure import Figure
+from told import RIG, sayings
 
 import swtstudy
 from swtstudy import FatigueConstants, Study, StudyError, evaluate_history, physical, read_history, run
@@ -139,7 +137,6 @@ def test_pages(name: str, kept: Kept, tmp_path: Path, monkeypatch: pytest.Monkey
     kept(f"entry_of_{name}", [*entry[:3], entry.picture is not None])
 
 
-REAL: dict[str, Any] = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "friction": 0.5, "radius": 50.0}
 STEEL = FatigueConstants(2e5, 1000.0, -0.1, 0.5, -0.6)
 CONTACTS: dict[str, dict[str, Any]] = {
     "plain": {"normal_force": 200.0, "tangential_amplitude": 0.002},
@@ -175,7 +172,7 @@ CONTACTS: dict[str, dict[str, Any]] = {
 @pytest.mark.filterwarnings("ignore:Dundurs")
 @pytest.mark.parametrize("name", CONTACTS)
 def test_contacts(name: str, kept: Kept) -> None:
-    contact = physical(**REAL | CONTACTS[name])
+    contact = physical(**RIG | CONTACTS[name])
     said: dict[str, Any] = {"repr": repr(contact).splitlines(), "table": contact._repr_html_()}
     names = {*dir(contact)} - {*dir(object)} & {*contact.grid.rows}
     for attribute in sorted(names):
@@ -190,7 +187,7 @@ def test_contacts(name: str, kept: Kept) -> None:
 
 
 def test_fields_of_contacts(kept: Kept) -> None:
-    one, plane = (physical(**REAL | CONTACTS[name]) for name in ("plain", "in_plane"))
+    one, plane = (physical(**RIG | CONTACTS[name]) for name in ("plain", "in_plane"))
     for name, each in {
         "stress": one.stress_field([0.0, 0.2], 0.0, 0.1, body=2, time=[0.0, 1.0]),
         "swt": one.swt_field([0.0, 0.2], 0.0, 0.1),
@@ -201,7 +198,7 @@ def test_fields_of_contacts(kept: Kept) -> None:
 
 
 def test_lives_of_contacts(kept: Kept) -> None:
-    contact = physical(**REAL | CONTACTS["plain"])
+    contact = physical(**RIG | CONTACTS["plain"])
     s = xr.DataArray([0.1, 0.2], {"body": [1, 2]}, "body")
     kept("contact_swt_of_s", told(contact.swt(s).to_dataset(name="SWT")))
     lives = contact.cycles((real.ALUMINIUM, STEEL), s)
@@ -211,12 +208,8 @@ def test_lives_of_contacts(kept: Kept) -> None:
     np.testing.assert_allclose(contact.swt([0.1, 0.2]), contact.swt(s))
 
 
-RIG = """
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
+ELEMENTS = f"""
+{real.UNITS}[material]
 strength = 1000
 strength_exponent = -0.1
 ductility = 0.5
@@ -235,7 +228,7 @@ def of_elements(folder: Path, head: str = "id,x,y,z,step,xx,yy,zz,yz,xz,xy") -> 
     rows = [[f"P{p}", 0.5 * p, 0.0, 0.5, step, *stress[p, step]] for p in range(3) for step in range(5)]
     text = "\n".join([head, *(",".join(map(str, row)) for row in rows)])
     (folder / "own.csv").write_text(text)
-    (folder / "rig.toml").write_text(RIG)
+    (folder / "rig.toml").write_text(ELEMENTS)
     return folder / "own.csv"
 
 
@@ -253,53 +246,46 @@ def test_histories_of_elements(kept: Kept, tmp_path: Path) -> None:
         assert again.SWT.attrs == {"units": "MPa"}
 
 
+#: What is asked of contacts, by a name.
+ASKED = sayings(r"""
+poisson » one().with_parameters(poisson_ratio=0.2)
+several » several.with_parameters(friction=0.2)
+with » one().with_parameters(frictoin=0.2)
+constants » one().cycles((STEEL, 3), 0.1)
+criterion » in_plane.swt(0.1)
+body » one().swt(s, 1)
+label » one().swt(s.assign_coords(body=[1, 3]))
+which » several.swt(0.1)
+which life » one().cycles((STEEL, real.ALUMINIUM), 0.1)
+negative » one().swt(-0.1)
+third » one().swt(0.1, 3)
+asked » one(rtol=1e-3, constants=STEEL, quantities=["von_mises"])
+pairs » one(yield_strength=-1, findley_limit=[1, "x"], shear_constants=STEEL, bulk_stress_body=3)
+solve » one().solve(2.0, quantities=["x"], critical_distance=-1, constants=3, yield_strength=0)
+blocks » one().solve(blocks={"harmonic": 3})
+no life » physical(**RIG | CONTACTS["plain"], criterion="findley",
+    normal_sensitivity=0.3).solve(constants=STEEL)
+minimise » one().optimise({"friction": (0.5, 0.6)}, "cycles")
+over » one().optimise({"friction": (0.6, 0.5), "profile": (1, 2)}, "SWTs", rtol=1, seed=-1)
+distances » one().optimise({"friction": (0.5, 0.6)}, "SWT_volume", critical_distance=[0.1, 0.2])
+optimise » several.optimise({"friction": (0.5, 0.6)})
+field » one().stress_field("a", np.inf, 0.0)
+no body » one().parameters("pad")
+named » several.parameters("pod")
+lost » physical(**RIG, normal_force=10.0, tangential_force_amplitude=9.0).inspect_point()
+units » swtstudy.solve(rtol=1e-2).swt.contact()
+unknown » one().depths
+""")
+
+
 def test_messages_of_contacts(kept: Kept) -> None:
-    one, several = (
-        (lambda **more: physical(**REAL | CONTACTS["plain"] | more)),
-        physical(**REAL | CONTACTS["several"]),
-    )
-    plane = physical(**REAL | CONTACTS["in_plane"])
-    s = xr.DataArray([0.1, 0.2], {"body": [1, 2]}, "body")
-    asked: dict[str, Callable[[], object]] = {
-        "poisson": lambda: one().with_parameters(poisson_ratio=0.2),
-        "several": lambda: several.with_parameters(friction=0.2),
-        "with": lambda: one().with_parameters(frictoin=0.2),
-        "constants": lambda: one().cycles((STEEL, 3), 0.1),
-        "criterion": lambda: plane.swt(0.1),
-        "body": lambda: one().swt(s, 1),
-        "label": lambda: one().swt(s.assign_coords(body=[1, 3])),
-        "which": lambda: several.swt(0.1),
-        "which life": lambda: one().cycles((STEEL, real.ALUMINIUM), 0.1),
-        "negative": lambda: one().swt(-0.1),
-        "third": lambda: one().swt(0.1, 3),
-        "asked": lambda: one(rtol=1e-3, constants=STEEL, quantities=["von_mises"]),
-        "pairs": lambda: one(
-            yield_strength=-1, findley_limit=[1, "x"], shear_constants=STEEL, bulk_stress_body=3
-        ),
-        "solve": lambda: one().solve(
-            2.0, quantities=["x"], critical_distance=-1, constants=3, yield_strength=0
-        ),
-        "blocks": lambda: one().solve(blocks={"harmonic": 3}),
-        "no life": lambda: physical(
-            **REAL | CONTACTS["plain"], criterion="findley", normal_sensitivity=0.3
-        ).solve(constants=STEEL),
-        "minimise": lambda: one().optimise({"friction": (0.5, 0.6)}, "cycles"),
-        "over": lambda: one().optimise({"friction": (0.6, 0.5), "profile": (1, 2)}, "SWTs", rtol=1, seed=-1),
-        "distances": lambda: one().optimise(
-            {"friction": (0.5, 0.6)}, "SWT_volume", critical_distance=[0.1, 0.2]
-        ),
-        "optimise": lambda: several.optimise({"friction": (0.5, 0.6)}),
-        "field": lambda: one().stress_field("a", np.inf, 0.0),
-        "no body": lambda: one().parameters("pad"),
-        "named": lambda: several.parameters("pod"),
-        "lost": lambda: physical(**REAL, normal_force=10.0, tangential_force_amplitude=9.0).inspect_point(),
-        "units": lambda: swtstudy.solve(rtol=1e-2).swt.contact(),
-        "unknown": lambda: one().depths,
-    }
+    contacts: dict[str, Any] = {name: physical(**RIG | CONTACTS[name]) for name in ("several", "in_plane")}
+    contacts["one"] = lambda **more: physical(**RIG | CONTACTS["plain"] | more)
+    contacts["s"] = xr.DataArray([0.1, 0.2], {"body": [1, 2]}, "body")
     said = {}
-    for name, ask in asked.items():
+    for name, (call,) in ASKED:
         with pytest.raises((StudyError, AttributeError)) as caught:
-            ask()
+            eval(call, globals() | contacts)
         said[name] = [str(each) for each in getattr(caught.value, "mistakes", [caught.value])]
     kept("messages_of_contacts", said)
 
@@ -310,7 +296,7 @@ def test_messages_of_histories(kept: Kept, tmp_path: Path, monkeypatch: pytest.M
     rows = own.read_text().splitlines()
     said: dict[str, list[str]] = {}
 
-    def tell(name: str, lines: list[str], study: str = RIG, **form: Any) -> None:
+    def tell(name: str, lines: list[str], study: str = ELEMENTS, **form: Any) -> None:
         Path("a.csv").write_text("\n".join(lines))
         Path("rig.toml").write_text(study)
         body = form.pop("body", 1)
@@ -326,12 +312,10 @@ def test_messages_of_histories(kept: Kept, tmp_path: Path, monkeypatch: pytest.M
     tell("twice", [*rows[:2], rows[1], *rows[2:-1]])
     tell("one point", ["step,xx,yy,zz,yz,xz,xy", *["0,1,2,3,4,5,6"] * 2])
     tell("unknown", rows, scale={"S11": 2.0, "stress": 1.0})
-    tell(
-        "scales", [rows[0], ",-,-,-,-,Pa,Pa,Pa,Pa,Pa,Pa".lstrip(",") if False else rows[1], *rows[2:]], body=3
-    )
-    tell("no units", rows, RIG.replace("[units]", "[limits]"))
-    tell("values", rows, RIG.replace("2e5", "'stiff'").replace("poisson_ratio = 0.3\n", ""))
-    tell("axis", rows, RIG.replace("young_modulus = 2e5\n", "") + "[axes]\nyoung_modulus = [1, 2]\n")
+    tell("scales", rows, body=3)
+    tell("no units", rows, ELEMENTS.replace("[units]", "[limits]"))
+    tell("values", rows, ELEMENTS.replace("2e5", "'stiff'").replace("poisson_ratio = 0.3\n", ""))
+    tell("axis", rows, ELEMENTS.replace("young_modulus = 2e5\n", "") + "[axes]\nyoung_modulus = [1, 2]\n")
     kept("messages_of_histories", said)
 
 
@@ -412,7 +396,7 @@ def test_what_a_page_cannot_draw_or_tell_is_said(tmp_path: Path, monkeypatch: py
 
 def test_other_parameters_of_the_same_bodies(kept: Kept) -> None:
     """Lengths follow from what they are measured in; loads of a pair replace one another."""
-    one = physical(**REAL | CONTACTS["plain"])
+    one = physical(**RIG | CONTACTS["plain"])
     r = np.linspace(0.0, 2.0, 30)
     table = swtstudy.TabulatedProfile("pad", r, 0.5 * r * r, 0.0)
     said = {}
@@ -431,7 +415,7 @@ def test_other_parameters_of_the_same_bodies(kept: Kept) -> None:
 
 
 def test_a_mistake_of_a_place_is_told_as_it_is() -> None:
-    contact = physical(**REAL | CONTACTS["plain"])
+    contact = physical(**RIG | CONTACTS["plain"])
     x = xr.DataArray([0.0, 0.1], dims="time")
     with pytest.raises(StudyError, match=r"^x, y, z: found a dimension named time; allowed: other names"):
         contact.stress_field(x, 0.0, 0.0)
@@ -439,7 +423,7 @@ def test_a_mistake_of_a_place_is_told_as_it_is() -> None:
 
 def test_a_table_may_lack_what_is_not_asked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     history = read_history(of_elements(tmp_path))
-    (tmp_path / "rig.toml").write_text(RIG.replace("normal_sensitivity = 0.3\n", ""))
+    (tmp_path / "rig.toml").write_text(ELEMENTS.replace("normal_sensitivity = 0.3\n", ""))
     found = evaluate_history(history, tmp_path / "rig.toml", 2)
     assert [*found.data_vars] == ["SWT", "SWT_normal", "cycles"]
     monkeypatch.setitem(sys.modules, "meshio", None)
@@ -514,9 +498,9 @@ def test_what_an_optimum_is_searched_over(kept: Kept, monkeypatch: pytest.Monkey
     """What is given in the place of a range is left out; both bodies and their materials stay."""
     searched: list[Any] = []
     monkeypatch.setattr("swtstudy.results.optimise.optimum_in", lambda *given: searched.append(given))
-    one = physical(**REAL | CONTACTS["plain"])
+    one = physical(**RIG | CONTACTS["plain"])
     two = physical(
-        **REAL | {"young_modulus": [210e3, 150e3], "normal_force": 100.0, "tangential_amplitude": 0.002}
+        **RIG | {"young_modulus": [210e3, 150e3], "normal_force": 100.0, "tangential_amplitude": 0.002}
     )
     one.optimise({"depth": (0.005, "0.01")})
     one.optimise(

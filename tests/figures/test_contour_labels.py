@@ -1,7 +1,5 @@
 """Labels of contours are whole, on their level, and cover neither one another nor other lines."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import pytest

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from command import call
 from matplotlib.figure import Figure
+from real import UNITS
 
 import swtstudy
 from swtstudy import draw_profile
@@ -49,13 +50,9 @@ def test_a_profile_of_a_real_contact_has_its_lengths():
     assert pressures.get_ylim() == springs.get_ylim()
 
 
-STUDY = """
+STUDY = f"""
 title = "A worn tip"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[fixed]
+{UNITS}[fixed]
 young_modulus = 73.1e3
 poisson_ratio = 0.33
 friction = 0.5

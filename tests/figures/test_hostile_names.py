@@ -1,7 +1,5 @@
 """Names and units are a user's own: an archive gives them back, and figures write them as they are."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,7 +1,5 @@
 """Curves of places break where another maximum takes over; maps can be read on dark cells, ratios about 1."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 

@@ -1,7 +1,5 @@
 """Figures look as what is kept of them: each line, word, colour and scale."""
 
-from __future__ import annotations
-
 import sys
 from io import BytesIO
 from pathlib import Path
@@ -20,6 +18,7 @@ from matplotlib.colors import LogNorm, Normalize
 from matplotlib.transforms import IdentityTransform
 from PIL import Image
 from solved import REGIMES
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, StudyError, draw_load, draw_profile
@@ -173,9 +172,6 @@ def test_figures_of_points(name: str, kept: Kept) -> None:
     kept(name, drawn(swtstudy.inspect(**SCENES[name])))
 
 
-REAL: dict[str, Any] = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "friction": 0.5, "radius": 50.0}
-
-
 @pytest.mark.parametrize(
     ("name", "given"),
     [
@@ -190,7 +186,7 @@ REAL: dict[str, Any] = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "frictio
     ],
 )  # fmt: skip
 def test_figures_of_real_contacts(name: str, given: dict[str, Any], kept: Kept) -> None:
-    contact = swtstudy.physical(**REAL, **given)
+    contact = swtstudy.physical(**RIG, **given)
     kept(name, drawn(contact.inspect()))
     kept(f"{name}_profile", drawn(contact.draw_profile()))
 

@@ -1,7 +1,5 @@
 """The picture of a load of a study, and what the command says of its record."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

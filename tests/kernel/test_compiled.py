@@ -1,7 +1,5 @@
 """Compiled code: where it is kept, that it is compiled once, and what is said of it."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

@@ -1,7 +1,5 @@
 """Strain cycles that the kernel counts, against a library and by hand."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 import rainflow

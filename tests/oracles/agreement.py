@@ -5,8 +5,6 @@ folder, takes some seconds of a core for each record. results/oracles.csv keeps 
 goes on where it was, and results/oracles.md says by kind how far records and oracles are apart.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import sys

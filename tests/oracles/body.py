@@ -6,8 +6,6 @@ contact the sum over the springs, which `oracles.line` tells, as it does the loa
 `oracles.circle`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

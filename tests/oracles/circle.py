@@ -5,8 +5,6 @@ the line tell them on the circle. They come from `oracles.line`; angles, planes 
 and finer ones about the highest.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

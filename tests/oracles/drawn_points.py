@@ -8,8 +8,6 @@ record is a lower bound. ``--solver solver-22``, in an environment with that ver
 without the dense evaluation, at a hundredth of the time: values of `solve` at rtol 1e-7, as lower bounds.
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import gzip

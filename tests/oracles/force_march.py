@@ -5,8 +5,6 @@ are over δ0, tangential displacements over μ E* δ0/G*, forces over the spring
 tangential one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

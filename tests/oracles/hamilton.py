@@ -1,7 +1,5 @@
 """Hamilton's stress fields under a Hertzian contact, at the surface, from ContactMechanics."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

@@ -1,7 +1,5 @@
 """The stress beneath a contact as a sum of point loads."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 Lengths in a_H, depths in δ0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

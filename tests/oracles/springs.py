@@ -5,8 +5,6 @@ which δ, u − δ and u + δ are monotone the bounds at its end are the only on
 recursion over such stretches is exact. A spring that touches down starts with o = u at that instant.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

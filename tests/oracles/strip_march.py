@@ -7,8 +7,6 @@ a_H, heights in δ0, tractions in E* δ0/a_H, loads in E* δ0; similar bodies, s
 bulk stress of one body strains its surface by half its value: u = σ x/(2 E*).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -3,8 +3,6 @@
 Half-widths in a_H, heights in δ0, line loads in E* δ0: the mean one is π/4. f″ is 0 up to the half-width b.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial

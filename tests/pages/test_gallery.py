@@ -1,7 +1,5 @@
 """The gallery of the pages leads to the reports that are made."""
 
-from __future__ import annotations
-
 import re
 from types import SimpleNamespace
 

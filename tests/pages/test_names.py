@@ -1,7 +1,5 @@
 """Comments, docstrings and pages name what exists."""
 
-from __future__ import annotations
-
 import importlib
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The rooms of the code: imports go one way, from a room to those above it, and never in a circle."""
 
-from __future__ import annotations
-
 from graphlib import TopologicalSorter
 from importlib import import_module
 

@@ -1,7 +1,5 @@
 """What is measured of each statement of the paper, and audits and tables, word by word."""
 
-from __future__ import annotations
-
 import re
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
@@ -147,7 +145,7 @@ def test_an_audit_is_saved_as_it_goes_on(tmp_path: Path, monkeypatch: pytest.Mon
         def add(self, count: int) -> None:
             shown.append(count)
 
-        def __enter__(self) -> Shown:
+        def __enter__(self) -> object:
             return self
 
         def __exit__(self, *_: object) -> None:

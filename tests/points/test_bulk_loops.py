@@ -1,7 +1,5 @@
 """Loops with a bulk stress as their third column."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -11,7 +9,7 @@ import pytest
 import xarray as xr
 from command import merged
 from numpy.typing import NDArray
-from told import RIG, refused
+from told import RIG
 
 import swtstudy
 from swtstudy import LoadPath, Study, open_results, run, swt_of_history
@@ -230,14 +228,6 @@ def test_the_shift_of_the_stick_zone_is_that_of_half_its_range() -> None:
     assert np.isnan(found).tolist() == [False, False, True]
 
 
-def test_the_shapes_that_rigs_run() -> None:
-    trapezoid = LoadPath.trapezoid("a", normal=(0.0, 0.5), tangential=(-0.5, 0.4), bulk=(-0.1, 0.3))
-    corners = [[0, -0.5, -0.1], [0.5, -0.5, -0.1], [0.5, 0.4, 0.3], [0, 0.4, 0.3]]
-    assert trapezoid.code == LoadPath("a", corners).code
-    triangle = LoadPath.triangle("b", normal=0.2, tangential=0.5, bulk=0.1)
-    assert triangle.code == LoadPath("b", [[0.2, 0.5, 0.1], [-0.2, -0.5, -0.1]]).code
-
-
 STUDY = """title = "Loops"
 rtol = 1e-3
 [fixed]
@@ -270,10 +260,6 @@ def test_a_study_has_it_in_its_text_or_in_files(tmp_path: Path) -> None:
     again = run(study, path, workers=1)
     assert Study.from_text(open_results(path).attrs["study"]).grid == study.grid
     np.testing.assert_allclose(again.s, swtstudy.solve(load=loop, bulk_stress_mean=[0.0, 0.05], rtol=1e-3).s)
-
-
-def test_a_course_has_two_columns_or_three() -> None:
-    refused("course of mine: found .*4 columns", LoadPath.sampled, "mine", lambda t: (t, t, t, t))
 
 
 def test_of_a_real_contact_its_column_is_one_of_stresses() -> None:

@@ -1,7 +1,5 @@
 """The stick zone that a bulk stress moves: where it does, by how much, and what results say of it."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 from pathlib import Path

@@ -1,19 +1,15 @@
 """What a point is computed as: what does not matter is left out, and what is equal is computed once."""
 
-from __future__ import annotations
-
-import warnings
-
 import numpy as np
 import pytest
+from told import sayings, warned
 
 from swtstudy import Study
+from swtstudy.kernel.loops import fold_bulk_phase, fold_phase
 from swtstudy.points.grid import Grid, alike, canonical_points, describe_point, group_rows, rounded
 from swtstudy.points.labelled import turned
 
-TABLE_1 = "normal_amplitude=0.75, tangential_amplitude=0.833333"
 BODIES = "friction=0.3, poisson_ratio=0.3"
-PLAIN = "profile=paraboloid, frequency_ratio=1/1"
 WAVY = (
     '{profile = "wavy_paraboloid", waviness_amplitude = 0.001, wavelength = 5, normal_force_amplitude = 0.3, '
 )
@@ -24,153 +20,103 @@ CAP = "[profiles.cap]\nradius = [0, 1, 2, 3, 4, 5, 6, 7]\nheight = [0, 1, 4, 9, 
 
 
 def grid_of(text: str) -> Grid:
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of axes without effect
-        return Study.from_text(f'title = "t"\n{text}\n').grid
+    study, _ = warned(Study.from_text, f'title = "t"\n{text}\n')  # of axes without effect
+    return study.grid
 
 
 #: A study of one point; what it is in words; and its control and strain share, as far as there are some.
-POINTS = [
-    ("", f"{PLAIN}, {TABLE_1}, phase=0, {BODIES}", 0, 0.0),
-    # A normal load at rest has neither phase nor frequency.
-    (
-        'fixed = {normal_force_amplitude = 0, tangential_force_amplitude = 0.5, phase = 1, '
-        'frequency_ratio = "3/2"}',
-        f"{PLAIN}, normal_force_amplitude=0, tangential_force_amplitude=0.5, "
-        f"phase=0, {BODIES}",
-        3,
-        0.0,
-    ),
-    # It is prescribed as the tangential load is, a tangential one as the normal load.
-    (
-        "fixed = {normal_force_amplitude = 0, tangential_amplitude = 0.5}",
-        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0.5, phase=0, "
-        f"{BODIES}",
-        0,
-        0.0,
-    ),
-    (
-        "fixed = {normal_force_amplitude = 0.5, tangential_amplitude = 0}",
-        f"{PLAIN}, normal_force_amplitude=0.5, tangential_force_amplitude=0, "
-        f"phase=0, {BODIES}",
-        3,
-        0.0,
-    ),
-    (
-        "fixed = {normal_force_amplitude = 0, tangential_force_amplitude = 0}",
-        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0, phase=0, {BODIES}",
-        0,
-        0.0,
-    ),
-    (
-        "fixed = {normal_force_amplitude = 0.2, tangential_amplitude = 0.5}",
-        f"{PLAIN}, normal_force_amplitude=0.2, tangential_amplitude=0.5, "
-        f"phase=0, {BODIES}",
-        1,
-        0.0,
-    ),
-    (
-        f"fixed = {WAVY}",
-        "profile=wavy_paraboloid, waviness_amplitude=0.001, wavelength=5, frequency_ratio=2/3, "
-        f"normal_force_amplitude=0.3, tangential_force_amplitude=0.25, phase=0.858407, {BODIES}, "
-        "bulk_stress_amplitude=0.1, bulk_stress_mean=0.05, bulk_stress_phase=1",
-        3,
-        0.0,
-    ),
-    # A plain shape is that of the plain profile; a sensitivity is that of criteria of shear.
-    (
-        'fixed = {criterion = "findley", normal_sensitivity = 0.3, profile = "rounded_punch", '
-        "flat_radius = 0}",
-        f"{PLAIN}, criterion=findley, {TABLE_1}, phase=0, {BODIES}, "
-        "normal_sensitivity=0.3",
-        0,
-        0.0,
-    ),
-    (
-        'fixed = {profile = "power_law", exponent = 2, walker_exponent = 0.4}',
-        f"{PLAIN}, {TABLE_1}, phase=0, {BODIES}, walker_exponent=0.4",
-        0,
-        0.0,
-    ),
-    (
-        'fixed = {profile = "rounded_flat", flat_half_width = 0, normal_force_amplitude = 0.1, '
-        "tangential_force_amplitude = 0.2}",
-        "profile=cylinder, frequency_ratio=1/1, normal_force_amplitude=0.1, tangential_force_amplitude=0.2, "
-        f"phase=0, {BODIES}",
-        3,
-        0.0,
-    ),
-    (
-        f'fixed.profile = "cap"\n{CAP}',
-        f"profile=cap, frequency_ratio=1/1, {TABLE_1}, phase=0, {BODIES}",
-        0,
-        0.0,
-    ),
-    # The bulk stress moves the stick zone where it is known by how much: then its share matters.
-    (
-        f"fixed = {{{PULL}}}",
-        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0.5, phase=0, "
-        f"{BODIES}, bulk_stress_amplitude=0.1",
-        0,
-        1.0,
-    ),
-    (
-        f"fixed = {{{PULL}, bulk_strain_share = 0.8, poisson_ratio = 0.25}}",
-        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0.5, phase=0, "
-        "friction=0.3, poisson_ratio=0.25, bulk_stress_amplitude=0.1, bulk_strain_share=0.8",
-        0,
-        0.8,
-    ),
-    *(
-        (
-            f"fixed = {{{PULL.replace(*change)}, {more}}}",
-            f"profile={profile}frequency_ratio=1/1, normal_amplitude={normal}, tangential_amplitude=0.5, "
-            f"phase=0, friction={friction}, poisson_ratio=0.3{bulk}",
-            0,
-            0.0,
-        )
-        for change, more, profile, normal, friction, bulk in (
-            (("", ""), 'stick_zone_shift = "none"', "paraboloid, ", 0, 0.3, ", bulk_stress_amplitude=0.1"),
-            (("", ""), "friction = 0", "paraboloid, ", 0, 0, ", bulk_stress_amplitude=0.1"),
-            (("normal_amplitude = 0", "normal_amplitude = 0.1"), "friction = 0.2", "paraboloid, ", 0.1, 0.2,
-             ", bulk_stress_amplitude=0.1"),
-            (("= 0.1", "= 0"), "bulk_stress_phase = 1", "paraboloid, ", 0, 0.3, ""),
-            (("", ""), 'profile = "rounded_punch", flat_radius = 0.5', "rounded_punch, flat_radius=0.5, ", 0,
-             0.3, ", bulk_stress_amplitude=0.1"),
-        )
-    ),
-    # The bulk stress reaches the other body by the stick zone alone.
-    (
-        f"fixed = {{{PULL}, bulk_strain_share = -0.8, bulk_stress_mean = 0.5}}",
-        f"{PLAIN}, normal_amplitude=0, tangential_amplitude=0.5, phase=0, {BODIES}, "
-        "bulk_stress_amplitude=0.1, bulk_strain_share=-0.8",
-        0,
-        -0.8,
-    ),
-    (
-        "fixed = {bulk_stress_amplitude = 0.2, bulk_stress_phase = 1, bulk_strain_share = -0.8}",
-        f"{PLAIN}, {TABLE_1}, phase=0, {BODIES}",
-        0,
-        0.0,
-    ),
-    # A loop has a course of its own: an amplitude that does not scale it does not matter.
-    (
-        'fixed = {load = "mine", normal_amplitude = 0.5, bulk_stress_amplitude = 0.4, phase = 3}\n'
-        "loads.mine.vertices = [[0, 1, 1], [0.5, -1, -1]]",
-        f"profile=paraboloid, load=mine, normal_amplitude=0.5, tangential_amplitude=1, {BODIES}, "
-        "bulk_stress_amplitude=0.4",
-        0,
-        1.0,
-    ),
-]  # fmt: skip
+POINTS = sayings(r"""
+""
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0.75, tangential_amplitude=0.833333, phase=0,
+    friction=0.3, poisson_ratio=0.3
+# A normal load at rest has neither phase nor frequency.
+'fixed = {normal_force_amplitude = 0, tangential_force_amplitude = 0.5, phase = 1, frequency_ratio = "3/2"}'
+» profile=paraboloid, frequency_ratio=1/1, normal_force_amplitude=0, tangential_force_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3
+» control 3
+# It is prescribed as the tangential load is, a tangential one as the normal load.
+"fixed = {normal_force_amplitude = 0, tangential_amplitude = 0.5}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3
+"fixed = {normal_force_amplitude = 0.5, tangential_amplitude = 0}"
+» profile=paraboloid, frequency_ratio=1/1, normal_force_amplitude=0.5, tangential_force_amplitude=0, phase=0,
+    friction=0.3, poisson_ratio=0.3
+» control 3
+"fixed = {normal_force_amplitude = 0, tangential_force_amplitude = 0}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0, phase=0, friction=0.3,
+    poisson_ratio=0.3
+"fixed = {normal_force_amplitude = 0.2, tangential_amplitude = 0.5}"
+» profile=paraboloid, frequency_ratio=1/1, normal_force_amplitude=0.2, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3
+» control 1
+f"fixed = {WAVY}"
+» profile=wavy_paraboloid, waviness_amplitude=0.001, wavelength=5, frequency_ratio=2/3,
+    normal_force_amplitude=0.3, tangential_force_amplitude=0.25, phase=0.858407, friction=0.3,
+    poisson_ratio=0.3, bulk_stress_amplitude=0.1, bulk_stress_mean=0.05, bulk_stress_phase=1
+» control 3
+# A plain shape is that of the plain profile; a sensitivity is that of criteria of shear.
+'fixed = {criterion = "findley", normal_sensitivity = 0.3, profile = "rounded_punch", flat_radius = 0}'
+» profile=paraboloid, frequency_ratio=1/1, criterion=findley, normal_amplitude=0.75,
+    tangential_amplitude=0.833333, phase=0, friction=0.3, poisson_ratio=0.3, normal_sensitivity=0.3
+'fixed = {profile = "power_law", exponent = 2, walker_exponent = 0.4}'
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0.75, tangential_amplitude=0.833333, phase=0,
+    friction=0.3, poisson_ratio=0.3, walker_exponent=0.4
+'fixed = {profile = "rounded_flat", flat_half_width = 0, normal_force_amplitude = 0.1,
+    tangential_force_amplitude = 0.2}'
+» profile=cylinder, frequency_ratio=1/1, normal_force_amplitude=0.1, tangential_force_amplitude=0.2, phase=0,
+    friction=0.3, poisson_ratio=0.3
+» control 3
+f'fixed.profile = "cap"\n{CAP}'
+» profile=cap, frequency_ratio=1/1, normal_amplitude=0.75, tangential_amplitude=0.833333, phase=0,
+    friction=0.3, poisson_ratio=0.3
+# The bulk stress moves the stick zone where it is known by how much: then its share matters.
+f"fixed = {{{PULL}}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3, bulk_stress_amplitude=0.1
+» share 1.0
+f"fixed = {{{PULL}, bulk_strain_share = 0.8, poisson_ratio = 0.25}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.25, bulk_stress_amplitude=0.1, bulk_strain_share=0.8
+» share 0.8
+f'fixed = {{{PULL}, stick_zone_shift = "none"}}'
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3, bulk_stress_amplitude=0.1
+f"fixed = {{{PULL}, friction = 0}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0, friction=0,
+    poisson_ratio=0.3, bulk_stress_amplitude=0.1
+f"fixed = {{{PULL.replace('normal_amplitude = 0', 'normal_amplitude = 0.1')}, friction = 0.2}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0.1, tangential_amplitude=0.5, phase=0,
+    friction=0.2, poisson_ratio=0.3, bulk_stress_amplitude=0.1
+f"fixed = {{{PULL.replace('= 0.1', '= 0')}, bulk_stress_phase = 1}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3
+f'fixed = {{{PULL}, profile = "rounded_punch", flat_radius = 0.5}}'
+» profile=rounded_punch, flat_radius=0.5, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5,
+    phase=0, friction=0.3, poisson_ratio=0.3, bulk_stress_amplitude=0.1
+# The bulk stress reaches the other body by the stick zone alone.
+f"fixed = {{{PULL}, bulk_strain_share = -0.8, bulk_stress_mean = 0.5}}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0, tangential_amplitude=0.5, phase=0,
+    friction=0.3, poisson_ratio=0.3, bulk_stress_amplitude=0.1, bulk_strain_share=-0.8
+» share -0.8
+"fixed = {bulk_stress_amplitude = 0.2, bulk_stress_phase = 1, bulk_strain_share = -0.8}"
+» profile=paraboloid, frequency_ratio=1/1, normal_amplitude=0.75, tangential_amplitude=0.833333, phase=0,
+    friction=0.3, poisson_ratio=0.3
+# A loop has a course of its own: an amplitude that does not scale it does not matter.
+'fixed = {load = "mine", normal_amplitude = 0.5, bulk_stress_amplitude = 0.4, phase = 3}\nloads.mine.vertices
+    = [[0, 1, 1], [0.5, -1, -1]]'
+» profile=paraboloid, load=mine, normal_amplitude=0.5, tangential_amplitude=1, friction=0.3,
+    poisson_ratio=0.3, bulk_stress_amplitude=0.4
+» share 1.0
+""")
 
 
-@pytest.mark.parametrize(("text", "words", "control", "share"), POINTS)
-def test_what_a_point_is_computed_as(text: str, words: str, control: int, share: float) -> None:
-    grid = grid_of(text)
+@pytest.mark.parametrize(("text", "said"), POINTS)
+def test_what_a_point_is_computed_as(text: str, said: list[str]) -> None:
+    grid = grid_of(eval(text))
     rows, mirrored = canonical_points(grid, np.arange(1))
-    assert describe_point(rows[0], grid.definitions) == words
-    assert (rows["control"][0], rows["bulk_strain_share"][0]) == (control, share)
+    control, share = rows["control"][0], rows["bulk_strain_share"][0]
+    numbers = [f"control {control}"] * bool(control) + [f"share {share}"] * bool(share)
+    assert [describe_point(rows[0], grid.definitions), *numbers] == said
     assert mirrored.tolist() == [False]
 
 
@@ -192,6 +138,19 @@ def test_phases_of_one_motion_are_one_point() -> None:
     for phase in phases[4:]:
         rows, mirrored = canonical_points(grid_of(f"fixed.phase = {phase}"), np.arange(1))
         assert (rows["phase"][0], mirrored[0]) == (0.0, False)
+
+
+def test_phases_are_folded_into_a_period_of_s() -> None:
+    """ψ of odd and even q, and ψ_B beside it: of a point that ψ mirrors or not, and without a motion."""
+    phase, p, q = [0.0, 4.0, 7.0, -1.0], [1, 1, 2, 1], [1, 1, 1, 2]
+    folded, mirrored = fold_phase(np.array(phase), np.array(p), np.array(q))
+    np.testing.assert_allclose(folded, [0.0, 4.0 - np.pi, 7.0 - 2.0 * np.pi, 2.0 * np.pi - 1.0])
+    assert mirrored.tolist() == [False, True, False, False]
+    moves, by_load = np.array([1, 1, 1, 0, 1], bool), np.array([0, 0, 1, 1, 1], bool)
+    both_ways = np.array([1, 1, 0, 1, 1], bool)
+    folded, mirrored = fold_bulk_phase(np.array([0.0, 4.0, 4.0, 1.0, 1.0]), moves, by_load, both_ways)
+    np.testing.assert_allclose(folded, [0.0, 4.0 - np.pi, 4.0 - np.pi, 0.0, 1.0])
+    assert mirrored.tolist() == [False, True, True, True, False]
 
 
 def test_equal_numbers_are_equal_to_twelve_digits_and_zero_has_no_sign() -> None:

@@ -1,7 +1,5 @@
 """Values of points as arrays: cut into chunks, put together, found again, and of runs that can be used."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

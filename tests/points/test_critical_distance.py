@@ -1,7 +1,5 @@
 """Quantities with a dimension of their own: the critical distance."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,5 @@
 """All attributes of coordinates and of s, and which coordinates results have."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

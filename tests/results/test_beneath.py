@@ -1,7 +1,5 @@
 """The stress beneath the surface through `stress_field`: closed forms, the surface as a limit, and strips."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -42,47 +40,7 @@ def at_points(x: Any, y: Any, z: Any, time: Any, **parameters: Any) -> Array:
     return np.stack([field[name].values for name in COMPONENTS], axis=-1)
 
 
-def strip_shear(x: Array, z: Array, a: float) -> tuple[Array, Array, Array]:
-    """σ_xx, σ_zz, σ_xz over q0 under the shear q0 √(1 - x²/a²) in +x on a strip (McEwen)."""
-    s = a * a - x * x + z * z
-    root = np.sqrt(s * s + 4.0 * x * x * z * z)
-    m = np.sqrt(0.5 * (root + s))
-    n = np.sign(x) * np.sqrt(np.maximum(0.5 * (root - s), 0.0))
-    share = (z * z + n * n) / (m * m + n * n)
-    return (
-        (n * (2.0 - (z * z - m * m) / (m * m + n * n)) - 2.0 * x) / a,
-        -n * (m * m - z * z) / (m * m + n * n) / a,
-        -(m * (1.0 + share) - 2.0 * z) / a,
-    )
-
-
-def test_a_strip_in_partial_slip_is_a_sum_of_mcewens_fields() -> None:
-    rng = np.random.default_rng(3)
-    x, z = rng.uniform(-2.0, 2.0, 200), 10.0 ** rng.uniform(-3.0, 0.5, 200)
-    nu, mu, force = 0.3, 0.4, 0.6
-    found = at_points(
-        *(x, 0.0, z),
-        time=[0.5 * np.pi, 1.5 * np.pi],
-        profile="cylinder",
-        normal_force_amplitude=0.0,
-        tangential_force_amplitude=force,
-        poisson_ratio=nu,
-        friction=mu,
-    )
-    stick, p0 = np.sqrt(1.0 - force), 0.5
-    full, inner = (np.stack(strip_shear(x, z, a)) for a in (1.0, stick))
-    drag = mu * p0 * (full - stick * inner)
-    pressed = 0.5 * (found[0] + found[1])
-    for component, expected in zip((0, 2, 4), drag, strict=True):
-        np.testing.assert_allclose(0.5 * (found[0] - found[1])[:, component], expected, atol=1e-12)
-    # The shear's σ_zz is the pressure's σ_xz, its σ_xz the pressure's σ_xx.
-    np.testing.assert_allclose(pressed[:, 0], p0 * full[2], atol=1e-12)
-    np.testing.assert_allclose(pressed[:, 4], p0 * full[1], atol=1e-12)
-    np.testing.assert_allclose(found[..., 1], nu * (found[..., 0] + found[..., 2]), atol=1e-15)
-    np.testing.assert_array_equal(found[..., [3, 5]], 0.0)
-
-
-@pytest.mark.parametrize("depth", [1e-9, 1e-6])
+@pytest.mark.parametrize("depth", [1e-12, 1e-6])
 @pytest.mark.parametrize("scene", SCENES)
 def test_the_surface_is_the_limit(scene: str, depth: float) -> None:
     """On the line and off it, inside and outside: the stress moves by a root of the depth at most."""

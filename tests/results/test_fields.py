@@ -7,9 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 import xarray as xr
-from oracles import hertz
 from scenes import PROFILE_NAMES, each_profile, random_points
-from scipy.integrate import simpson
 from told import refused
 
 import swtstudy
@@ -101,52 +99,6 @@ def test_memory_does_not_grow_with_the_square_of_the_instants():
     assert many - few < 3000 * 500
     line = np.linspace(0.1, 1.2, 6)
     assert largest_memory(lambda: swtstudy.swt_field(line, 0.0, 0.1, frequency_ratio="7/8")) < 60e6
-
-
-def test_stress_field_of_a_pressed_paraboloid_is_hamiltons():
-    x, y, z = np.meshgrid([-1.2, 0.4], [0.3, 0.9], [0.1, 0.7], indexing="ij")
-    field = swtstudy.stress_field(
-        [-1.2, 0.4], [0.3, 0.9], [0.1, 0.7], time=1.0, normal_amplitude=0, tangential_amplitude=0
-    )
-    expected = np.array(hertz.pressed(x, y, z, 0.3)) * 2 / np.pi
-    for name, component in zip(("xx", "yy", "zz", "yz", "xz", "xy"), expected, strict=True):
-        np.testing.assert_allclose(field[f"sigma_{name}"], component, atol=1e-13)
-    assert float(field.contact_radius) == pytest.approx(1.0)
-
-
-ALL_PROFILES = [
-    {"profile": "paraboloid"},
-    {"profile": "rounded_punch", "flat_radius": 0.5},
-    {"profile": "truncated_paraboloid", "flat_radius": 0.5},
-    {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5},
-]
-
-
-@pytest.mark.parametrize("profile", ALL_PROFILES)
-def test_field_is_continuous_towards_the_surface(profile):
-    """On the axis, where a spring lifts off, and in between; without a floor as z → 0."""
-    parameters = {"phase": 0.6, **profile}
-    radius = float(swtstudy.stress_field(0.0, 0.0, 1.0, time=2.0, **parameters).contact_radius)
-    depth = np.concatenate([[0.0], 10.0 ** -np.arange(12, 0, -1)])
-    field = swtstudy.stress_field([0.0, 0.7 * radius, radius], 0.1, depth, time=2.0, **parameters)
-    for component in field.data_vars.values():
-        if "z" in component.dims:
-            change = abs(component - component.isel(z=0)).max("x").values
-            assert (change <= 4 * np.sqrt(depth)).all()
-
-
-@pytest.mark.parametrize(
-    ("place", "words"),
-    [
-        ({"time": []}, "time"),
-        ({"x": np.ma.array([0.0, 1.0], mask=[0, 1])}, "x: found no or not finite values"),
-        ({"time": np.ma.array([0.0, 1.0], mask=[0, 1])}, "time"),
-        ({"friction": [0.1, 0.2]}, "friction"),
-    ],
-)
-def test_bad_input_is_named(place, words):
-    with pytest.raises(ValueError, match=words):
-        swtstudy.stress_field(**{"x": 0, "y": 0, "z": 0, **place})
 
 
 @pytest.mark.parametrize(
@@ -279,78 +231,12 @@ def test_nonlocal_values_tend_to_s():
             swtstudy.solve(critical_distance=wrong)
 
 
-CURVED = [
-    {"profile": "paraboloid", "phase": 2.0},
-    {"profile": "rounded_punch", "flat_radius": 0.5, "phase": 2.0},
-    {"profile": "truncated_paraboloid", "flat_radius": 0.4, "phase": 2.0},
-    {"profile": "wavy_paraboloid", "waviness_amplitude": 0.05, "wavelength": 5, "phase": 2.0},
-]
-
-
-def swt_at(x, y, z, parameters):
-    """swt at points, of the shape of the coordinates."""
-    points = np.broadcast_arrays(x, y, z)
-    places = (xr.DataArray(values.ravel(), dims="point") for values in points)
-    return swtstudy.swt_field(*places, **parameters).s_local.values.reshape(points[0].shape)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("parameters", CURVED, ids=lambda parameters: parameters["profile"])
-def test_nonlocal_values_are_means_of_the_field(parameters):
-    """Of swt_field, by quadratures of the test's own."""
-    distance = 0.15
-    found = swtstudy.solve(critical_distance=distance, **parameters)
-    angle = np.radians(float(found.critical_angle))
-    assert abs(angle) > 0.05
-    # Simpson's rule in the root of the distance, in which swt is smooth.
-    share = np.linspace(0.0, 1.0, 9)
-    for name, right, down in (("depth", 0.0, 1.0), ("critical_plane", -np.sin(angle), np.cos(angle))):
-        values = found.sel(direction=name)
-        # About the critical point, or another local maximum whose plane is next to parallel.
-        x = float(values.point_x)
-        point = swt_at(x + 0.5 * distance * right, 0.0, 0.5 * distance * down, parameters)
-        assert float(values.s_point) == pytest.approx(float(point), rel=0.015)
-        away, x = 2.0 * distance * share**2, float(values.line_x)
-        line = swt_at(x + away * right, 0.0, away * down, parameters)
-        assert float(values.s_line) == pytest.approx(simpson(2.0 * share * line, x=share), rel=0.015)
-    # Gauss's rule in the three coordinates of the whole half sphere, y < 0 included.
-    node, weight = (values / 2 for values in np.polynomial.legendre.leggauss(4))
-    ρ, c, φ = np.meshgrid(node + 0.5, node + 0.5, 2 * np.pi * (np.arange(5) + 0.3) / 5, indexing="ij")
-    across, s, x = distance * ρ, np.sqrt(1.0 - c**2), float(found.volume_x)
-    swt = swt_at(x + across * s * np.cos(φ), across * s * np.sin(φ), across * c, parameters).mean(axis=2)
-    expected = 3.0 * np.einsum("rc,r,r,c", swt, (node + 0.5) ** 2, weight, weight)
-    assert float(found.s_volume) == pytest.approx(expected, rel=0.015)
-
-
-MINDLIN = {"normal_amplitude": 0.0, "tangential_amplitude": 0.6, "friction": 0.4}
-#: On the way to +x and back: ω1 t, and the sense of the motion.
-MINDLIN_INSTANTS = {0.7: 1, 2.5: -1, 4.0: -1, 5.5: 1}
-
-
-def mindlin(instant, sense):
-    """Stick radius and the traction q/μ as (factor, radius) of full-slip fields (Mindlin and Deresiewicz)."""
-    largest, u = 0.6, 0.6 * np.sin(instant)
-    stick, least = np.sqrt(1.0 - 0.5 * (largest + sense * u)), np.sqrt(1.0 - largest)
-    return stick, [(sense, 1.0), (-2 * sense, stick), (sense, least)]
-
-
-@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
-def test_oscillating_sphere_is_hamiltons(instant, sense):
-    """All six components of stress_field, tangential load included, as sums of full-slip Hertzian fields."""
-    x, y, z = np.meshgrid([-1.2, 0.4, 0.9], [-0.7, 0.3], [0.1, 0.7], indexing="ij")
-    field = swtstudy.stress_field(x[:, 0, 0], y[0, :, 0], z[0, 0], time=instant, **MINDLIN)
-    expected = np.array(hertz.pressed(x, y, z, 0.3))
-    for factor, a in mindlin(instant, sense)[1]:
-        sliding = np.array(hertz.dragged(x / a, y / a, z / a, 0.3))
-        expected = expected + 0.4 * factor * a * sliding
-    for name, component in zip(("xx", "yy", "zz", "yz", "xz", "xy"), expected * 2 / np.pi, strict=True):
-        np.testing.assert_allclose(field[f"sigma_{name}"], component, atol=1e-10)
-
-
-@pytest.mark.parametrize(("instant", "sense"), MINDLIN_INSTANTS.items())
+@pytest.mark.parametrize(("instant", "sense"), {0.7: 1, 2.5: -1, 4.0: -1, 5.5: 1}.items())
 def test_slip_of_an_oscillating_sphere_is_mindlins(instant, sense):
-    stick, _ = mindlin(instant, sense)
-    states = swtstudy.slip_map([0.0, stick - 1e-6, stick + 1e-6, 1 - 1e-6, 1 + 1e-6], time=instant, **MINDLIN)
+    """On the way to +x and back: ω1 t, and the sense of the motion (Mindlin and Deresiewicz)."""
+    own = {"normal_amplitude": 0.0, "tangential_amplitude": 0.6, "friction": 0.4}
+    stick = np.sqrt(1.0 - 0.5 * (0.6 + sense * 0.6 * np.sin(instant)))
+    states = swtstudy.slip_map([0.0, stick - 1e-6, stick + 1e-6, 1 - 1e-6, 1 + 1e-6], time=instant, **own)
     assert float(states.slip_radius) == pytest.approx(stick, abs=1e-9)
     assert float(states.contact_radius) == pytest.approx(1.0)
     slip = 2 if sense > 0 else 3

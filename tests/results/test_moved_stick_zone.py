@@ -1,7 +1,5 @@
 """What is drawn and asked of a point whose stick zone a bulk stress moves: fields, cycle, means, lives."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from body import von_mises

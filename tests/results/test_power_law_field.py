@@ -1,7 +1,5 @@
 """The stress field of power laws, whose density is steep: its pressure is known in closed form."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -137,13 +137,12 @@ def test_points_without_a_number_are_refused_by_name(results):
     broken.s[9, 1] = np.nan
     broken.regime[7, 1] = REGIMES.index("not_finite")
     friction = float(broken.friction[7])
-    with pytest.raises(StudyError) as error:
-        sensitivity(broken, ["critical_x", "s"])
+    error = refused("", sensitivity, broken, ["critical_x", "s"])
     assert f"s: found no number at 2 of {results.s.size} points, such as friction={friction:.4g}, " in str(
-        error.value
+        error
     )
-    assert "normal_amplitude=0.5 (not finite)" in str(error.value)
-    assert len(error.value.mistakes) == 1
+    assert "normal_amplitude=0.5 (not finite)" in str(error)
+    assert len(error.mistakes) == 1
     assert sensitivity(broken, "critical_x").first_order.notnull().all()
 
 

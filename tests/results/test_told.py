@@ -1,7 +1,5 @@
 """Datasets hold and say what is kept of them: variables, dimensions, words, units; so do messages."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +10,7 @@ import xarray as xr
 from kept import Kept, told
 from made_up import SALTELLI, made_up
 from solved import REGIMES
+from told import sayings
 
 import swtstudy
 from swtstudy import StudyError
@@ -107,71 +106,55 @@ def test_histories(criterion: str, kept: Kept) -> None:
     kept(f"told_history_of_{criterion}", told(found))
 
 
-def refusal(ask: Callable[[], object]) -> list[str]:
+def refusal(call: str) -> list[str]:
     with pytest.raises(ValueError) as caught:  # noqa: PT011
-        ask()
+        eval(call)
     return [str(each) for each in getattr(caught.value, "mistakes", ())] or [str(caught.value)]
 
 
 #: Slides on and on, and bodies that never touch.
 LOST = {"normal_force_amplitude": 0.9, "tangential_force_amplitude": 0.9}
-REFUSED: dict[str, Callable[[], object]] = {
-    "no forces": lambda: swtstudy.inspect_point(**LOST),
-    "one force": lambda: swtstudy.inspect_point(tangential_force_amplitude=1.5),
-    "pulls": lambda: swtstudy.stress_field(0, 0, 0, normal_force_amplitude=1.5),
-    "never": lambda: swtstudy.inspect_point(
-        normal_amplitude=0.5, load=swtstudy.LoadPath("up", [[-9, 0], [-8, 1]])
-    ),
-    "place": lambda: swtstudy.swt_field("a", np.inf, []),
-    "places": lambda: swtstudy.swt_field(np.zeros((2, 2)), 0, -1.5),
-    "height": lambda: swtstudy.swt_field(0, 0, [0.5, -1.5]),
-    "many": lambda: swtstudy.swt_field(np.zeros(10_001), 0, np.zeros(1000)),
-    "apart": lambda: swtstudy.swt_field(
-        xr.DataArray([0, 1], {"k": [0, 1]}, "k"), xr.DataArray([0, 1], {"k": [1, 2]}, "k"), 0
-    ),
-    "time": lambda: swtstudy.stress_field(
-        xr.DataArray([0.0], dims="time"), xr.DataArray([0.0], dims="instant"), 0
-    ),
-    "instant": lambda: swtstudy.stress_field(0, 0, 0, time=[np.nan]),
-    "instants": lambda: swtstudy.slip_map(0, time=[[0.0]]),
-    "radius": lambda: swtstudy.slip_map([]),
-    "parameters": lambda: swtstudy.slip_map(0, frictoin=1, phase="x"),
-    "history": lambda: swtstudy.swt_of_history(np.zeros((3, 5)), 0.7, -1, 1.0),
-    "gap": lambda: swtstudy.swt_of_history([[np.nan] * 6], 0.3, np.inf, 0.0),
-    "criterion": lambda: swtstudy.criterion_of_history(np.zeros((0, 6)), "swt", -0.1),
-    "endless": lambda: swtstudy.criterion_of_history(np.zeros((2, 6)), "findly", np.inf),
-    "y": lambda: some().swt.extrema("phase", "S"),
-    "flags": lambda: some().swt.extrema("phase", "regime"),
-    "dim": lambda: some().swt.extrema("fase"),
-    "ratio": lambda: some().swt.normalised("b"),
-    "name": lambda: some().swt.words("s"),
-    "slice": lambda: some().swt.slice(fase=0, phase=[], profile="cone", friction=1),
-    "word": lambda: some().swt.slice(phase="2*", profile="wavy"),
-    "over": lambda: swtstudy.optimise(
-        over={"phase": 1, "fase": (0, 1), "friction": (0.1, 0.2)}, minimise="S", rtol=2
-    ),
-    "order": lambda: swtstudy.optimise(over={"phase": (1, 0), "friction": (0.3, 0.2)}, seed=-1),
-    "nothing": lambda: swtstudy.optimise(over=3),
-    "results": lambda: swtstudy.sensitivity(3),
-    "level": lambda: swtstudy.sensitivity(some(), confidence=1.0),
-    "seed": lambda: swtstudy.sensitivity(some(), seed=-1),
-    "design": lambda: swtstudy.sensitivity(some()),
-    "whole": lambda: swtstudy.sensitivity(
-        xr.Dataset(
-            coords={
-                "sample": (
-                    "sample",
-                    [0, 1],
-                    {"design": "saltelli", "parameters": "phase friction", "size": 1},
-                )
-            }
-        )
-    ),
-}
+REFUSED = sayings(r"""
+no forces » swtstudy.inspect_point(**LOST)
+one force » swtstudy.inspect_point(tangential_force_amplitude=1.5)
+pulls » swtstudy.stress_field(0, 0, 0, normal_force_amplitude=1.5)
+never » swtstudy.inspect_point(normal_amplitude=0.5, load=swtstudy.LoadPath("up", [[-9, 0], [-8, 1]]))
+place » swtstudy.swt_field("a", np.inf, [])
+places » swtstudy.swt_field(np.zeros((2, 2)), 0, -1.5)
+height » swtstudy.swt_field(0, 0, [0.5, -1.5])
+many » swtstudy.swt_field(np.zeros(10_001), 0, np.zeros(1000))
+apart » swtstudy.swt_field(xr.DataArray([0, 1], {"k": [0, 1]}, "k"), xr.DataArray([0, 1], {"k": [1, 2]}, "k"),
+    0)
+time » swtstudy.stress_field(xr.DataArray([0.0], dims="time"), xr.DataArray([0.0], dims="instant"), 0)
+instant » swtstudy.stress_field(0, 0, 0, time=[np.nan])
+instants » swtstudy.slip_map(0, time=[[0.0]])
+radius » swtstudy.slip_map([])
+parameters » swtstudy.slip_map(0, frictoin=1, phase="x")
+history » swtstudy.swt_of_history(np.zeros((3, 5)), 0.7, -1, 1.0)
+gap » swtstudy.swt_of_history([[np.nan] * 6], 0.3, np.inf, 0.0)
+criterion » swtstudy.criterion_of_history(np.zeros((0, 6)), "swt", -0.1)
+endless » swtstudy.criterion_of_history(np.zeros((2, 6)), "findly", np.inf)
+y » some().swt.extrema("phase", "S")
+flags » some().swt.extrema("phase", "regime")
+dim » some().swt.extrema("fase")
+ratio » some().swt.normalised("b")
+name » some().swt.words("s")
+slice » some().swt.slice(fase=0, phase=[], profile="cone", friction=1)
+word » some().swt.slice(phase="2*", profile="wavy")
+over » swtstudy.optimise(over={"phase": 1, "fase": (0, 1), "friction": (0.1, 0.2)}, minimise="S", rtol=2)
+order » swtstudy.optimise(over={"phase": (1, 0), "friction": (0.3, 0.2)}, seed=-1)
+nothing » swtstudy.optimise(over=3)
+results » swtstudy.sensitivity(3)
+level » swtstudy.sensitivity(some(), confidence=1.0)
+seed » swtstudy.sensitivity(some(), seed=-1)
+design » swtstudy.sensitivity(some())
+whole » swtstudy.sensitivity(xr.Dataset(coords={"sample": ("sample", [0, 1], {"design": "saltelli",
+    "parameters": "phase friction", "size": 1})}))
+""")
 
 
 def test_messages(kept: Kept) -> None:
-    said = {name: refusal(ask) for name, ask in REFUSED.items()}
+    said = {name: refusal(call) for name, (call,) in REFUSED}
     said["apart"] = [words.partition(" (cannot")[0] for words in said["apart"]]  # xarray's own words
     kept("messages_of_results", said)
 

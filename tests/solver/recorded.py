@@ -1,7 +1,5 @@
 """Points and what is known of them, one a line: parameters by their symbols, a colon, and values."""
 
-from __future__ import annotations
-
 from typing import Any
 
 SYMBOLS = {

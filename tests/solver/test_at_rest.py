@@ -1,7 +1,5 @@
 """Contacts at rest: radius, depth, force and pressure of every profile by quadrature; compactness."""
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

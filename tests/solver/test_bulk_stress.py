@@ -1,7 +1,5 @@
 """Bulk stress: closed forms, superposition, symmetries, the far field, and brute force."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

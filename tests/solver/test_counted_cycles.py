@@ -1,7 +1,5 @@
 """The strain cycles of a round, and the rounds that a place lives through."""
 
-from __future__ import annotations
-
 import shutil
 
 import numpy as np

@@ -1,18 +1,14 @@
 """Criteria of shear: closed forms, brute force over places and planes, and what goes with which criterion."""
 
-from __future__ import annotations
-
 import itertools
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from body import body_maximum, history_at, swt_at
-from command import call
-from drawn import draw
 from numpy.typing import NDArray
 from oracles.circle import hemisphere
+from oracles.hertz import at_the_edge
 from scenes import plane_points, points, random_points, take
 from scipy.optimize import minimize
 from solved import Points, Solution, solve_points
@@ -62,10 +58,8 @@ def test_sphere_under_constant_load(name: str) -> None:
     FS does not know pressure: where the stick zone ends, ±μp on the x-normal may be more.
     """
     ν, μ, u = 0.3, 0.3, np.array([0.2, 0.5, 0.7])
-    θ = np.arcsin(np.sqrt(1.0 - u))
-    i = (np.pi / 2 - θ) / 2 + np.sin(2 * θ) / 4
-    j = (np.pi / 2 - θ) / 8 + np.sin(4 * θ) / 32
-    swing, mean = 2 / np.pi * 2 * μ * (i + ν * j), 2 / np.pi * (1 - 2 * ν) / 3
+    spread, pull, _ = at_the_edge(ν, μ, u)
+    swing, mean = 2 / np.pi * pull, 2 / np.pi * spread
     batch = points(poisson_ratio=ν, friction=μ, normal_amplitude=0.0, tangential_amplitude=u)
     found = solve_points(of_criterion(batch, name, 0.3), 1e-6)
     inside = μ * 2 / np.pi * np.sqrt(u) if name == "fatemi_socie" else 0.0
@@ -193,34 +187,6 @@ def test_a_criterion_is_a_dimension() -> None:
         np.testing.assert_array_equal(found.s.sel(criterion=name), alone.s)
     assert "criterion" not in swtstudy.solve().coords
     assert "beneath the surface" in alone.s.attrs["comment"]
-
-
-FINDLEY = {"criterion": "findley", "normal_sensitivity": 0.3}
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"criterion": "findley"}, "normal_sensitivity: found nothing"),
-        ({"normal_sensitivity": 0.3}, "normal_sensitivity: found a value with the criterion swt"),
-        (FINDLEY | {"walker_exponent": 0.4}, "walker_exponent: found"),
-        (
-            FINDLEY
-            | {"criterion": ["swt", "findley"], "profile": "truncated_paraboloid", "flat_radius": 0.3},
-            "profile: found truncated_paraboloid with the criterion findley",
-        ),
-        ({"criterion": "tresca"}, "criterion: found 'tresca'"),
-    ],
-)
-def test_what_goes_with_no_criterion(given: dict, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        swtstudy.solve(**given)
-
-
-def test_wrong_histories() -> None:
-    with pytest.raises(ValueError, match=r"criterion: found 'findly'; allowed: .*findley") as error:
-        swtstudy.criterion_of_history(np.full((2, 6), np.nan), "findly", -1.0)
-    assert len(str(error.value).splitlines()) == 3
 
 
 def solution(batch: Points, name: str) -> Solution:
@@ -373,67 +339,6 @@ def test_means_of_shear_with_units() -> None:
             life = swtstudy.ShearConstants.estimated(constants, 0.3).cycles(found.FS_volume.values)
             np.testing.assert_allclose(found.FS_cycles_volume, life, rtol=1e-6)
             assert (found.FS_cycles_volume > found.FS_cycles).all()
-
-
-SHEAR_STUDY = """
-title = "Shear in units"
-
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-
-[material]
-yield_strength = 400
-
-[fixed]
-young_modulus = 210e3
-poisson_ratio = 0.3
-radius = 50
-friction = 0.5
-normal_force = 200
-normal_sensitivity = 0.3
-
-[axes]
-criterion = ["fatemi_socie", "findley"]
-tangential_force_amplitude = [30, 60]
-
-[figure]
-x = "tangential_force_amplitude"
-y = ["FS", "findley_stress"]
-hue = "criterion"
-"""
-
-
-@pytest.mark.slow
-def test_from_a_study_of_shear_to_its_figure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Study file, archive, info, figure and page, in units."""
-    (tmp_path / "shear.toml").write_text(SHEAR_STUDY, encoding="utf-8")
-
-    def told(*words: object) -> str:
-        done = call(*words)
-        assert done.exit_code == 0, done.output
-        return done.output
-
-    told("run", tmp_path / "shear.toml", "--results", tmp_path, "--workers", "1")
-    archive = tmp_path / "shear.nc"
-    found = swtstudy.open_results(archive)
-    for criterion, name, unit in (("fatemi_socie", "FS", "1"), ("findley", "findley_stress", "MPa")):
-        own = {"criterion": criterion, "normal_sensitivity": 0.3, "yield_strength": 400.0}
-        alone = swtstudy.physical(**STEEL, **own, tangential_force_amplitude=60.0).solve()
-        value = found[name].sel(criterion=criterion, tangential_force_amplitude=60)
-        assert float(value.squeeze()) == pytest.approx(float(alone[name].values.ravel()[0]), rel=1e-6)
-        assert found[name].attrs.get("units", "1") == unit
-    assert "findley" in told("info", archive)
-    (upper, lower) = draw(found).axes
-    assert upper.get_ylabel() == r"$\mathrm{FS}$"
-    assert lower.get_ylabel() == "$f$ (MPa)"
-    for axes in (upper, lower):  # one criterion has each
-        assert sum(bool(np.isfinite(line.get_ydata()).any()) for line in axes.lines) == 1
-    # Pictures of points take seconds.
-    monkeypatch.setattr("swtstudy.faces.page.points_of", lambda *_: [])
-    told("report", archive, "-o", tmp_path / "shear.html")
-    assert "Findley" in (tmp_path / "shear.html").read_text(encoding="utf-8")
 
 
 def test_where_slip_reverses_at_a_sharp_edge_the_shear_has_no_bound() -> None:

@@ -1,7 +1,5 @@
 """The truncated paraboloid at r = b⁺, where p and q are A ln(1/ε): where s is finite, and where it lies."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Prescribed forces: values against closed forms, one another and springs marched one by one."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -10,7 +8,6 @@ import xarray as xr
 from numpy.typing import NDArray
 from oracles import profiles as oracle
 from oracles.force_march import ForceMarch, second_round
-from told import refused
 
 import swtstudy
 
@@ -134,15 +131,3 @@ def test_what_cannot_be_carried_is_told() -> None:
             assert is_lost(0.6, share * limit, phase=psi) == lost
     # A depth that lifts off.
     assert is_lost(1.1, 0.1, (False, True), phase=0.3)
-
-
-@pytest.mark.parametrize("forces", [(True, False), (False, True)])
-def test_a_loop_in_mixed_control_needs_a_constant_normal_load(forces: tuple[bool, bool]) -> None:
-    loop = swtstudy.LoadPath("loop", [[0.0, 1.0], [0.2, -1.0], [0.0, 0.3]])
-    names = [
-        f"{way}_{'force_' * is_force}amplitude"
-        for way, is_force in zip(("normal", "tangential"), forces, strict=True)
-    ]
-    given = {"poisson_ratio": 0.3, "friction": 0.5, **dict(zip(names, (0.3, 0.4), strict=True))}
-    words = r"two displacements or two forces; or a normal load at rest \(.* = 0, or scale = "
-    refused(words, swtstudy.solve, **given, load=loop)

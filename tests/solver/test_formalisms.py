@@ -4,8 +4,6 @@ They follow random two-dimensional oblique load paths, with loss of contact and 
 memory diagram, made for the harmonic protocol, is compared with all of them on that.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray

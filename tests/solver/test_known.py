@@ -1,7 +1,5 @@
 """Quantities, means, errors and places of some points, as in data/known.txt: a change is to be meant."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

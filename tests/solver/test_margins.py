@@ -1,7 +1,5 @@
 """Margins of points: in closed form, and from samples of the loads as from their pieces."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

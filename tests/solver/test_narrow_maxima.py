@@ -4,8 +4,6 @@ The values are those of an independent solver (a compiled march of the springs w
 searched densely), to 1e-8.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -120,6 +118,11 @@ wavy_paraboloid ν=0.038002 μ=0.060607 δ=0.850945 u=0.91391 ψ=0.912985 ω=3/2
 # cusp. The value is the largest of all planes 0.001° apart at 600 steps to a stretch, at seven positions.
 rounded_punch ν=0.22177930939779883 μ=0.3959710877076259 δ=0.336867339199554 u=0.3044249521787499
     ψ=4.382105344563407 ω=3/2 b=0.7273683233397951 : 0.1 1e-7 0.09683958515
+# Maxima within half a wave of the tangential load, where it turns as the contact grows.
+ν=0.303093 μ=0.551323 δ=0.159597 u=0.00695342 ψ=1.38303 ω=7/2 : 1 6e-5 0.016958
+ν=0.473292027 μ=0.786048526 δ=0.0711952675 u=0.00765546352 ψ=5.34499867 ω=7/3 : 1 3e-5 0.0110759416
+ν=0.474451158 μ=0.562014958 δ=0.314495667 u=0.00179822349 ψ=0.720519484 ω=5 : 1 3e-5 0.00124041143
+ν=0.480959063 μ=0.652829181 δ=0.492215259 u=0.0912375257 ψ=1.98295504 ω=7/3 : 1 3e-5 0.0801615816
 """)
 
 

@@ -1,7 +1,5 @@
 """Where nothing is in tension, or nothing moves, s is 0 and no point critical; where there is hardly any."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from made_up import STATEMENTS

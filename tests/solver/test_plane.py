@@ -1,7 +1,5 @@
 """Plane contacts: kernels, stress on the surface and s, against closed forms, elements and a dense look."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -196,43 +194,10 @@ def test_far_from_the_contact_the_bulk_stress_is_plane_strain() -> None:
     np.testing.assert_allclose(pulled.sigma_xx - bare.sigma_xx, mean, rtol=1e-9)
 
 
-def test_shift_of_the_stick_zone() -> None:
-    amplitude = np.array([0.05, 0.2])
-    given = {"poisson_ratio": 0.3, "friction": 0.8, "tangential_force_amplitude": 0.5}
-    found = solved(**given, bulk_stress_amplitude=amplitude)
-    np.testing.assert_allclose(found.bulk_shift, amplitude / (2.0 * 0.8), rtol=1e-9)
-    width = 1.0 - np.sqrt(0.5)
-    np.testing.assert_allclose(found.bulk_shift_ratio, found.bulk_shift / width, rtol=1e-9)
-    flat = solved(profile="rounded_flat", flat_half_width=0.5, **given, bulk_stress_amplitude=0.05)
-    assert np.isnan(flat.bulk_shift)
-
-
 @pytest.mark.parametrize("strip", STRIPS, ids=str)
 def test_without_friction_nothing_pulls(strip: Strip) -> None:
     given = {"friction": 0.0, "normal_force_amplitude": 0.5, "tangential_force_amplitude": 0.0}
     assert float(solved(profile=strip.profile, **strip.shape, **given).s) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("given", "key", "found", "allowed"),
-    [
-        ({}, "normal_force_amplitude, tangential_force_amplitude", "nothing", "and tangential_force_a"),
-        ({"normal_amplitude": 0.1, "tangential_force_amplitude": 1}, "normal_amplitude", "a dis", "normal"),
-        ({"normal_force_amplitude": 0, "tangential_amplitude": 1}, "tangential_amplitude", "a d", "tial_f"),
-        ({"tangential_force_amplitude": 0.1}, "normal_force_amplitude", "nothing", "force_amplitude: d"),
-    ],
-)  # fmt: skip
-def test_displacements_are_refused_in_one_line(
-    given: dict[str, Any], key: str, found: str, allowed: str
-) -> None:
-    for profile in ("cylinder", ["paraboloid", "cylinder"]):
-        with pytest.raises(StudyError) as error:
-            swtstudy.solve(profile=profile, **given)
-        (line,) = str(error.value).splitlines()
-        assert line.startswith(f"{key}: found {found}")
-        assert allowed in line
-        assert "plane contact" in line
-        assert "with the profile cylinder" in line
 
 
 def test_a_loop_with_a_constant_normal_load_needs_no_normal_force_amplitude() -> None:

@@ -1,11 +1,8 @@
 """The field beneath plane contacts: line loads, and swt in the section."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from body import DOWN, body_maximum, opened, swt_at
-from numpy.typing import NDArray
 from scenes import PLANE_NAMES, plane_points, random_plane_points, take
 from solved import solve_points
 
@@ -13,7 +10,6 @@ from swtstudy.kernel.field import mean_about
 from swtstudy.kernel.mean import LINE, POINT, SPHERE
 from swtstudy.kernel.punch import FUNCTIONS, components, strip
 
-Array = NDArray[np.float64]
 NU = 0.3
 
 

@@ -1,17 +1,12 @@
 """Quantities of plane contacts, and what results say of them."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import swtstudy
 
 #: The tests look at what is drawn, not at its layout.
 pytestmark = pytest.mark.usefixtures("unwrapped")
-
-Array = NDArray[np.float64]
 
 
 def test_one_point_in_curves_and_in_a_figure() -> None:

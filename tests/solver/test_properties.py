@@ -1,7 +1,5 @@
 """Properties of s that hold all over the parameter box, on a few draws each."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import gcd
 

@@ -1,7 +1,5 @@
 """Profiles at rest by themselves: radii, depths and forces against each other; what is said of shapes."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

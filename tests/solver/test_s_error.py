@@ -1,7 +1,5 @@
 """s_error: an upper bound of the error of s that is not far above it."""
 
-from __future__ import annotations
-
 import csv
 from functools import lru_cache
 

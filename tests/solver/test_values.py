@@ -1,11 +1,10 @@
 """Values of s: known ones, closed forms, convergence, and the textbook method as an independent route."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
 import pytest
+from oracles.hertz import s_at_the_edge
 from scenes import each_profile, points, random_points, take
 from solved import solve_points
 
@@ -43,22 +42,12 @@ def test_table_1_is_critical_at_the_largest_contact_radius_on_the_x_normal() -> 
     assert abs(solution.critical_angle[0]) < 1e-6
 
 
-def constant_depth_s(nu: np.ndarray, mu: np.ndarray, amplitude: np.ndarray) -> np.ndarray:
-    """s at the contact edge for δA = 0: Cattaneo–Mindlin's cycle, the tractions at both turning points."""
-    theta = np.arcsin(np.sqrt(1.0 - amplitude))
-    i = 0.5 * (0.5 * np.pi - theta) + 0.25 * np.sin(2.0 * theta)
-    j = (0.5 * np.pi - theta) / 8.0 + np.sin(4.0 * theta) / 32.0
-    tau_x, tau_y = 2.0 * mu * (i + nu * j), 2.0 * nu * mu * (i - j)
-    spread = (1.0 - 2.0 * nu) / 3.0
-    return (4.0 / np.pi**2) * (spread + tau_x) * (tau_x - nu * tau_y) / (1.0 - nu**2)
-
-
 def test_constant_depth_has_a_closed_form() -> None:
     # Weak friction is left to the stability tests: the edge is critical wherever the trailing edge is.
     grid = np.meshgrid([0.0, 0.25, 0.5], [0.2, 0.5, 1.0], [0.1, 0.5, 0.9, 0.999], indexing="ij")
     nu, mu, amplitude = (v.ravel() for v in grid)
     solution = solve_points(points("paraboloid", nu, mu, 0.0, amplitude), 1e-6)
-    np.testing.assert_allclose(solution.s, constant_depth_s(nu, mu, amplitude), rtol=1e-6)
+    np.testing.assert_allclose(solution.s, s_at_the_edge(nu, mu, amplitude), rtol=1e-6)
     np.testing.assert_allclose(np.abs(solution.critical_x), 1.0, rtol=1e-9)
 
 

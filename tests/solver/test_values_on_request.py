@@ -1,7 +1,5 @@
 """Quantities on request: their values and errors."""
 
-from __future__ import annotations
-
 from fractions import Fraction
 
 import numpy as np
@@ -11,30 +9,9 @@ from asking import EVERY, VARIABLES
 import swtstudy
 
 
-def test_under_a_constant_normal_load_they_are_those_of_cattaneo_and_mindlin() -> None:
-    u = np.array([0.1, 0.4, 0.9, 1.4])
-    found = swtstudy.solve(normal_amplitude=0, tangential_amplitude=u, quantities=EVERY, rtol=1e-2)
-    stick = np.maximum(1.0 - u, 0.0)
-    expected = np.where(
-        u <= 1.0, 4.0 * u * (1.0 + stick**1.5) - 3.2 * (1.0 - stick**2.5), 0.8 + 4.0 * (u - 1.0)
-    )
-    np.testing.assert_allclose(found.dissipation, expected, rtol=1e-9)
-    assert (np.abs(found.dissipation - expected) <= found.dissipation_error).all()
-    np.testing.assert_allclose(found.stick_radius, np.where(u < 1.0, np.sqrt(stick), np.nan), rtol=1e-12)
-    np.testing.assert_allclose(found.contact_radius, 1.0)
-    np.testing.assert_allclose(found.force_ratio, 1.0 - stick**1.5, rtol=1e-9)
-    assert found.dissipation.attrs["ancillary_variables"] == "dissipation_error"
-
-
-def test_under_a_prescribed_force_they_are_those_of_the_displacement_that_belongs_to_it() -> None:
-    u = np.array([0.2, 0.6])
-    force = 1.0 - (1.0 - u) ** 1.5
-    own = swtstudy.solve(normal_amplitude=0, tangential_amplitude=u, quantities=EVERY, rtol=1e-2)
-    asked = {"quantities": EVERY, "rtol": 1e-2, "normal_force_amplitude": 0}
-    found = swtstudy.solve(tangential_force_amplitude=force, **asked)
-    for name in EVERY:
-        np.testing.assert_allclose(found[name], own[name], rtol=1e-6)
-    lost = swtstudy.solve(tangential_force_amplitude=1.1, **asked)
+def test_without_equilibrium_there_are_none() -> None:
+    forces = {"normal_force_amplitude": 0, "tangential_force_amplitude": 1.1}
+    lost = swtstudy.solve(**forces, quantities=EVERY, rtol=1e-2)
     assert lost.regime.attrs["flag_meanings"].split()[int(lost.regime)] == "no_equilibrium"
     for name in VARIABLES:
         assert np.isnan(lost[name])

@@ -1,7 +1,5 @@
 """Values over critical distances are the largest over places of the surface line."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path

@@ -1,16 +1,12 @@
 """Blocks of loads: Miner's sum, held against the same by hand."""
 
-from __future__ import annotations
-
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 import stand_in
 import told
-import xarray as xr
-from real import ALLOY, ALUMINIUM
+from real import ALLOY, ALUMINIUM, SPHERE
 from told import refused
 
 import swtstudy
@@ -20,11 +16,7 @@ RIG = f"""
 title = "Blocks"
 rtol = 1e-3
 {ALLOY}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-body = 1
+{SPHERE}body = 1
 """
 #: With means, each of which has a life.
 WITH_MEANS = RIG + "critical_distance = 0.05\n"
@@ -40,12 +32,6 @@ LOADS = [
 
 def block(load: str, rounds: object) -> str:
     return f'[[blocks]]\nload = "{load}"\nrounds = {rounds}\n'
-
-
-def repeated(found: xr.Dataset, by: str = "") -> float:
-    """How often a sequence is repeated to a crack, as results say."""
-    (times,) = {*re.findall(f"repeated (\\S+) times to a crack{by}; running does", repr(found.swt))}
-    return float(times)
 
 
 @pytest.mark.slow

@@ -1,7 +1,5 @@
 """Any content of a file gives success or a clear message, never another exception, never a damaged file."""
 
-from __future__ import annotations
-
 import functools
 import multiprocessing
 import random

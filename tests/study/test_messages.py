@@ -4,8 +4,6 @@ The file of the texts has studies but for their titles, each with all that is sa
 with », and may go on in lines that are set in.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

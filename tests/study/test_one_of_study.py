@@ -1,7 +1,5 @@
 """One point of a study: what is left of its axes, samples and blocks when values are chosen."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
@@ -86,14 +84,6 @@ def test_the_contact_of_one_load_of_blocks(tmp_path: Path) -> None:
     refused("several values of load; allowed: one of each, such as --load VALUE", one_of_study, both, {})
     contact = PhysicalContact(one_of_study(both, {"load": "rough"}))
     assert str(contact.parameters()["load"]) == "rough"
-
-
-@pytest.mark.parametrize(
-    ("wrong", "words"),
-    [("axes = 3", "axes: found 3"), ("blocks = 3", "blocks: found 3"), ("material = 3", "material: found 3")],
-)
-def test_a_study_that_is_no_study_is_told_as_elsewhere(tmp_path: Path, wrong: str, words: str) -> None:
-    refused(words, one_of_study, file_of(tmp_path, f'title = "t"\n{wrong}\n'), {"criterion": "swt"})
 
 
 def test_with_a_body_the_contact_is_drawn_under_a_load_not_the_load(

@@ -15,7 +15,7 @@ from command import call
 from folders import STUDIES
 from oracles.profiles import INDENTERS
 from scipy.integrate import trapezoid
-from told import refused
+from told import refused, sayings
 
 import swtstudy
 from swtstudy import FatigueConstants, physical
@@ -264,76 +264,46 @@ def test_a_contact_without_friction_does_not_move():
     assert contact.parameters()["tangential_amplitude"] == 0.0
 
 
-@pytest.mark.parametrize(
-    ("changes", "messages"),
-    [
-        (
-            {"profile": "rounded_punch", "flat_radius": -1},
-            ["flat_radius: found -1 (out of range); allowed: a length, ≥ 0"],
-        ),
-        (
-            {"profile": "wavy_paraboloid", "waviness_amplitude": 1e-3, "wavelength": 1e-9},
-            ["wavelength: found 1e-09 at radius = 50, normal_force = 200, waviness_amplitude = 0.001"],
-        ),
-        ({"friction": [[0.5]]}, ["friction: found [[0.5]]; allowed: a single value or a one-dimensional"]),
-        (
-            {"friction": 0},
-            ["tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, friction = 0;"],
-        ),
-        ({"profile": [["paraboloid"]]}, ["profile: found [['paraboloid']]; allowed: a single value or"]),
-        ({"similar": None}, ["similar: found None"]),
-        (
-            {"young_modulus": 5e-324},
-            ["young_modulus: found 5e-324 (out of range); allowed: a positive stress"],
-        ),
-        (
-            {"young_modulus": 1e308},
-            ["young_modulus: found 1e+308 (out of range); allowed: a positive stress"],
-        ),
-        ({"radius": [50.0, -1.0]}, ["radius[1]: found -1.0 (out of range); allowed: a positive length"]),
-        ({"radius": 5e-324}, ["radius: found 5e-324 (out of range); allowed: a positive length"]),
-        ({"normal_force": 1e308}, ["normal_force: found 1e+308 (out of range); allowed: a positive force"]),
-        (
-            {"friction": 5e-324},
-            ["tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, frict"],
-        ),
-        ({"E": 1}, ["E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?"]),
-        ({"psi": 1}, ["psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?"]),
-        (
-            {"youngs_modulus": 1, "young_modulus": None, "radius": None},
-            [
-                "youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod",
-                "radius: found nothing; allowed: a positive length",
-            ],
-        ),
-        (
-            {"profile": "wavy_paraboloid", "waviness_amplitude": 0, "wavelength": 0},
-            [
-                f"{name}: found 0 (out of range); allowed: a positive length"
-                for name in ("waviness_amplitude", "wavelength")
-            ],
-        ),
-        ({"flat_radius": 0.5, "profile": "cone"}, ["profile: found 'cone'"]),
-        (
-            {"flat_radius": 1e77, "profile": "truncated_paraboloid"},
-            ["flat_radius: found 1e+77 at radius = 50, normal_force = 200; allowed: a"],
-        ),
-        (
-            {"flat_radius": 1e-4, "profile": "rounded_punch", "normal_force": 5e-89},
-            ["flat_radius: found 0.0001 at radius = 50, normal_force = 5e-89; allowed"],
-        ),
-        (
-            {"waviness_amplitude": 1.0, "wavelength": 100.0, "profile": "wavy_paraboloid"},
-            ["waviness_amplitude: found 1 at radius = 50, normal_force = 200, wave"],
-        ),
-        (
-            {"radius": 0, "friction": -1, "tangential_amplitude": -1, "phase": None},
-            ["radius: found 0", "friction: found -1", "tangential_amplitude: found -1", "phase: found None"],
-        ),
-    ],
-)
+MISTAKES = sayings(r"""
+dict(profile="rounded_punch", flat_radius=-1) » flat_radius: found -1 (out of range); allowed: a length, ≥ 0
+dict(profile="wavy_paraboloid", waviness_amplitude=1e-3, wavelength=1e-9)
+» wavelength: found 1e-09 at radius = 50, normal_force = 200, waviness_amplitude = 0.001
+dict(friction=[[0.5]]) » friction: found [[0.5]]; allowed: a single value or a one-dimensional
+dict(friction=0) » tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, friction = 0;
+dict(profile=[["paraboloid"]]) » profile: found [['paraboloid']]; allowed: a single value or
+dict(similar=None) » similar: found None
+dict(young_modulus=5e-324) » young_modulus: found 5e-324 (out of range); allowed: a positive stress
+dict(young_modulus=1e308) » young_modulus: found 1e+308 (out of range); allowed: a positive stress
+dict(radius=[50.0, -1.0]) » radius[1]: found -1.0 (out of range); allowed: a positive length
+dict(radius=5e-324) » radius: found 5e-324 (out of range); allowed: a positive length
+dict(normal_force=1e308) » normal_force: found 1e+308 (out of range); allowed: a positive force
+dict(friction=5e-324) » tangential_amplitude: found 0.002 at radius = 50, normal_force = 200, frict
+dict(E=1) » E: found unknown parameter 'E'; allowed: did you mean young_modulus (E)?
+dict(psi=1) » psi: found unknown parameter 'psi'; allowed: did you mean phase (ψ)?
+dict(youngs_modulus=1, young_modulus=None, radius=None)
+» youngs_modulus: found unknown parameter 'youngs_modulus'; allowed: did you mean young_mod
+» radius: found nothing; allowed: a positive length
+dict(profile="wavy_paraboloid", waviness_amplitude=0, wavelength=0)
+» waviness_amplitude: found 0 (out of range); allowed: a positive length
+» wavelength: found 0 (out of range); allowed: a positive length
+dict(flat_radius=0.5, profile="cone") » profile: found 'cone'
+dict(flat_radius=1e77, profile="truncated_paraboloid")
+» flat_radius: found 1e+77 at radius = 50, normal_force = 200; allowed: a
+dict(flat_radius=1e-4, profile="rounded_punch", normal_force=5e-89)
+» flat_radius: found 0.0001 at radius = 50, normal_force = 5e-89; allowed
+dict(waviness_amplitude=1.0, wavelength=100.0, profile="wavy_paraboloid")
+» waviness_amplitude: found 1 at radius = 50, normal_force = 200, wave
+dict(radius=0, friction=-1, tangential_amplitude=-1, phase=None)
+» radius: found 0
+» friction: found -1
+» tangential_amplitude: found -1
+» phase: found None
+""")
+
+
+@pytest.mark.parametrize(("changes", "messages"), MISTAKES)
 def test_every_mistake_is_named_once_with_the_users_own_values(changes, messages):
-    given = ALUMINIUM | {"normal_force": 200.0, "tangential_amplitude": 0.002} | changes
+    given = ALUMINIUM | {"normal_force": 200.0, "tangential_amplitude": 0.002} | eval(changes)
     found = str(refused("", physical, **given)).splitlines()
     assert len(found) == len(messages)
     for line, start in zip(found, messages, strict=True):

@@ -1,12 +1,11 @@
 """Plane contacts in newtons and millimetres: line loads, or forces of a contact of some length."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from real import UNITS
 
 import swtstudy
 from swtstudy import Study, TabulatedProfile, run
@@ -22,14 +21,10 @@ GIVEN: dict[str, Any] = {
 }
 MODULUS = E / (2.0 * (1.0 - NU**2))
 
-RIG = """
+RIG = f"""
 title = "A cylinder on a flat"
 
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-
+{UNITS}
 [fixed]
 profile = "cylinder"
 young_modulus = 205e3

@@ -1,7 +1,5 @@
 """Tables of profiles from study files to archives and back, and in calls from Python."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -3,13 +3,10 @@
 import numpy as np
 import pytest
 import stand_in
-from command import merged
-from real import STUDY, plain
+from real import STUDY
 
 from swtstudy import Study, open_results, run
 
-#: Without what takes time beside s.
-SHORT = plain("critical_distance")
 #: At one phase.
 HALF = STUDY.replace('[0, "pi/2"]', "[0]")
 
@@ -45,15 +42,3 @@ def test_archives_resume_and_extend(tmp_path):
     assert "0 of 4 distinct points computed" in changed.attrs["history"]
     assert (changed.cycles < solved.cycles).all()
     np.testing.assert_array_equal(changed.dissipation, solved.dissipation)
-
-
-@pytest.mark.slow
-def test_archives_are_merged(tmp_path):
-    parts = [SHORT.replace("[150, 200]", "[150]"), SHORT.replace("[150, 200]", "[200]")]
-    for index, text in enumerate(parts):
-        run(Study.from_text(text), tmp_path / f"{index}.nc", workers=1, solver=stand_in.smooth)
-    whole = run(Study.from_text(SHORT), tmp_path / "whole.nc", workers=1, solver=stand_in.smooth)
-    both = merged(tmp_path / "0.nc", tmp_path / "1.nc")
-    for name in ("s", "SWT", "cycles", "contact_radius"):
-        np.testing.assert_allclose(both[name], whole[name], rtol=1e-9)
-    assert Study.from_text(both.attrs["study"]).grid.shape == (2, 2, 2)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from real import ALUMINIUM, STUDY
-from told import RIG, refused
+from told import RIG
 
 from swtstudy import Study, StudyError, physical
 
@@ -32,10 +32,3 @@ def test_constants_that_no_metal_has_are_warned_of() -> None:
     findley = contact.with_parameters(criterion="findley", normal_sensitivity=0.3)
     with pytest.raises(StudyError, match="constants: found constants with the criterion findley alone"):
         findley.solve(1e-2, constants=ALUMINIUM)
-
-
-def test_a_criterion_asks_for_the_stress_that_it_measures_in() -> None:
-    own = RIG | {"normal_force": 200.0, "tangential_force_amplitude": 60.0}
-    own |= {"criterion": "fatemi_socie", "normal_sensitivity": 1.0}
-    words = "yield_strength: found nothing; allowed: a stress: the criterion fatemi_socie measures the normal"
-    refused(words, physical, **own)

@@ -1,7 +1,5 @@
 """Files as rigs write them: other encodings, units, settings above the header, workbooks."""
 
-from __future__ import annotations
-
 import re
 import sys
 import warnings
@@ -11,7 +9,7 @@ import numpy as np
 import pytest
 import real
 from command import call
-from told import refused
+from told import refused, warned
 
 import swtstudy
 from swtstudy import Study, StudyError, read_signal
@@ -34,13 +32,11 @@ def table(header: str, separator: str = ",", decimal: str = ".", rows: list = RO
 
 def loop_of(text: str, folder: Path) -> tuple[np.ndarray, list[str]]:
     """The loads of a study's loop, and what is told of them."""
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        study = Study.from_text(text, "s", folder)
+    study, told = warned(Study.from_text, text, "s", folder)
     (loop,) = study.grid.values("load")
     loads = np.array(loop.vertices)
     loads[:, 0] += loop.mean_normal
-    return loads, [str(each.message) for each in told]
+    return loads, told
 
 
 #: A file, keys for it, and what is told of it.
@@ -125,9 +121,8 @@ def test_other_files_are_refused_with_the_way_out(
     if content.startswith(b"PK\x03\x04 xl/"):
         pytest.importorskip("openpyxl")
     (tmp_path / "rig.csv").write_bytes(content)
-    with pytest.raises(StudyError) as caught:
-        Study.from_text(RIG + keys, "s", tmp_path)
-    (line,) = map(str, caught.value.mistakes)
+    error = refused("", Study.from_text, RIG + keys, "s", tmp_path)
+    (line,) = map(str, error.mistakes)
     assert re.match(f"s: loads.rig.{words}", line), line
 
 
@@ -160,11 +155,9 @@ def test_samples_are_named_by_the_lines_of_the_file(tmp_path: Path) -> None:
     (tmp_path / "rig.csv").write_text("\n".join(["Rig 7", "", "t,normal,tangential", "s,N,N", *rows]))
     line = (tmp_path / "rig.csv").read_text().splitlines().index("20,200,300.0000") + 1
     assert line == 27
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        read_signal(tmp_path / "rig.csv", time="t")
+    _, told = warned(read_signal, tmp_path / "rig.csv", time="t")
     words = f"rig: tangential 300 in cycle 1, line {line} of the file, where"
-    assert any(str(each.message).startswith(words) for each in told)
+    assert any(each.startswith(words) for each in told)
 
 
 def test_a_sheet_of_a_workbook(tmp_path: Path) -> None:
@@ -257,13 +250,12 @@ def test_all_mistakes_in_a_table_are_told_at_once(tmp_path: Path) -> None:
         ("", "file: found bytes in line 1"),
         ('encoding = "cp9"', "encoding: found 'cp9'"),
     ):
-        with pytest.raises(StudyError) as caught:
-            Study.from_text(RIG + keys + encoding, "s", tmp_path)
-        told = str(caught.value)
+        error = refused("", Study.from_text, RIG + keys + encoding, "s", tmp_path)
+        told = str(error)
         for words in (first, "scale.norml: found 'norml'; allowed: did you mean normal?", "in kN as normal"):
             assert words in told
         assert "found 'x' (" in told
-        assert len(caught.value.mistakes) == 4
+        assert len(error.mistakes) == 4
 
 
 def test_a_notice_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,9 +3,9 @@ import pytest
 import stand_in
 from command import call, merged
 from scipy import stats
-from told import refused, written
+from told import refused
 
-from swtstudy import Study, open_results, run
+from swtstudy import Study, run
 
 DESIGNS = ("sobol", "latin_hypercube", "random", "saltelli")
 HEAD = 'title = "t"\n'
@@ -143,20 +143,6 @@ def test_a_doubled_design_computes_only_the_new_half(tmp_path, design):
     assert len(kept) == small.sizes["sample"]
 
 
-def test_a_stopped_run_goes_on(tmp_path):
-    path, study = tmp_path / "a.nc", sampled("sobol", 1024)
-    with pytest.raises(KeyboardInterrupt, match="saved"):
-        run(study, path, workers=1, solver=stand_in.Interrupting(after=900))
-    partial = open_results(path)
-    missing = int((partial.status == 2).sum())
-    assert 0 < missing < 2048
-    counting = stand_in.Counting()
-    found = run(study, path, workers=1, solver=counting)
-    assert counting.points == missing
-    undisturbed = run(study, tmp_path / "b.nc", workers=1, solver=stand_in.smooth)
-    assert np.array_equal(found.s, undisturbed.s)
-
-
 def test_points_from_a_file(tmp_path):
     (tmp_path / "points.csv").write_text(
         "profile, frequency_ratio, phase, flat_radius\n"
@@ -179,11 +165,6 @@ def test_points_from_a_file(tmp_path):
     assert Study.from_text(found.attrs["study"]).grid == study.grid
     again = Study.from_text(merged(tmp_path / "a.nc").attrs["study"])
     assert again.grid.samples == study.grid.samples
-
-
-def test_the_text_of_a_sample_gives_the_same_sample(tmp_path):
-    study = sampled("random", 9)
-    assert written(study, tmp_path).grid == study.grid
 
 
 def test_samples_of_the_same_parameters_are_merged(tmp_path):

@@ -1,12 +1,9 @@
 """What is said of a sequence of blocks: how often it is repeated, and which load does the damage."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
+from told import sayings
 
 from swtstudy.study.units.life import Block
 from swtstudy.study.units.results import sequence_words
@@ -17,58 +14,45 @@ ROUNDS = "10 of start-up, 1000 of running, 5.5 of start-up"
 LOADS = {"load": ["start-up", "running"]}
 #: Shares of two loads at two points.
 SHARES = xr.DataArray([[0.25, 0.75], [0.9, 0.1]], LOADS, ("friction", "load"))
-FS = " by Fatemi and Socie"
 
 
 def at_points(*values: float) -> xr.DataArray:
     return xr.DataArray([*values], dims="friction")
 
 
-@pytest.mark.parametrize(
-    ("variables", "words"),
-    [
-        ({"s": at_points(1.0, 2.0)}, ""),
-        (
-            {"repetitions": at_points(20.0, 100.0), "damage_share": SHARES},
-            f"{ROUNDS}, repeated 20 to 100 times to a crack; running does 75% of the damage",
-        ),
-        (
-            {"repetitions": at_points(100.0, 20.0), "damage_share": SHARES},
-            f"{ROUNDS}, repeated 20 to 100 times to a crack; start-up does 90% of the damage",
-        ),
-        (
-            {"repetitions": at_points(NAN, 20.0), "damage_share": SHARES},
-            f"{ROUNDS}, repeated 20 times to a crack, unknown at 1 of 2 points; start-up does 90% of the "
-            "damage",
-        ),
-        (
-            {"repetitions": at_points(20.0, INF), "damage_share": SHARES[:, 0].drop_vars("load")},
-            f"{ROUNDS}, repeated 20 times to a crack, unknown at 1 of 2 points",
-        ),
-        ({"repetitions": at_points(INF, NAN), "damage_share": SHARES}, f"{ROUNDS}: no crack"),
-        (
-            {
-                "repetitions": at_points(INF, NAN),
-                "damage_share": SHARES,
-                "FS_repetitions": at_points(30.0, 40.0),
-                "FS_damage_share": SHARES,
-            },
-            f"{ROUNDS}: no crack; repeated 30 to 40 times to a crack{FS}; running does 75% of the damage",
-        ),
-        ({"FS_repetitions": at_points(INF, INF), "FS_damage_share": SHARES}, f"{ROUNDS}: no crack{FS}"),
-        (
-            {
-                "repetitions": at_points(20.0, 30.0),
-                "damage_share": SHARES[:, 0].drop_vars("load"),
-                "repetitions_volume": at_points(4e3, INF),
-            },
-            f"{ROUNDS}, repeated 20 to 30 times to a crack (worst point), 4000 (mean over a volume)",
-        ),
-    ],
-)
-def test_words_on_a_sequence(variables: dict[str, Any], words: str) -> None:
-    assert sequence_words(xr.Dataset(variables), BLOCKS) == words
-    assert sequence_words(xr.Dataset(variables), ()) == ""
+WORDS = sayings(r"""
+dict(s=at_points(1.0, 2.0))
+dict(repetitions=at_points(20.0, 100.0), damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 to 100 times to a crack; running does 75% of
+    the damage
+dict(repetitions=at_points(100.0, 20.0), damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 to 100 times to a crack; start-up does 90% of
+    the damage
+dict(repetitions=at_points(NAN, 20.0), damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 times to a crack, unknown at 1 of 2 points;
+    start-up does 90% of the damage
+dict(repetitions=at_points(20.0, INF), damage_share=SHARES[:, 0].drop_vars("load"))
+» 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 times to a crack, unknown at 1 of 2 points
+dict(repetitions=at_points(INF, NAN), damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up: no crack
+dict(repetitions=at_points(INF, NAN), damage_share=SHARES, FS_repetitions=at_points(30.0, 40.0),
+    FS_damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up: no crack; repeated 30 to 40 times to a crack by Fatemi and
+    Socie; running does 75% of the damage
+dict(FS_repetitions=at_points(INF, INF), FS_damage_share=SHARES)
+» 10 of start-up, 1000 of running, 5.5 of start-up: no crack by Fatemi and Socie
+dict(repetitions=at_points(20.0, 30.0), damage_share=SHARES[:, 0].drop_vars("load"),
+    repetitions_volume=at_points(4e3, INF))
+» 10 of start-up, 1000 of running, 5.5 of start-up, repeated 20 to 30 times to a crack (worst point), 4000
+    (mean over a volume)
+""")
+
+
+@pytest.mark.parametrize(("variables", "words"), WORDS)
+def test_words_on_a_sequence(variables: str, words: list[str]) -> None:
+    found = xr.Dataset(eval(variables))
+    assert sequence_words(found, BLOCKS) == "".join(words)
+    assert sequence_words(found, ()) == ""
 
 
 def test_each_criterion_has_its_own_points() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from command import call, merged
+from command import merged, succeeded
 from drawn import draw
 from real import UNITS
 from told import refused
@@ -157,7 +157,7 @@ FIGURE = """
 tangential_force_amplitude = [30, 60]
 [figure]
 x = "tangential_force_amplitude"
-y = ["FS_cycles", "findley_usage"]
+y = ["FS_cycles", "findley_usage", "FS", "findley_stress"]
 hue = "criterion"
 """
 
@@ -173,23 +173,21 @@ def test_from_a_study_to_lives_of_shear_and_usage(tmp_path: Path) -> None:
     )
     (tmp_path / "t.toml").write_text(text, encoding="utf-8")
 
-    def told(*words: object) -> str:
-        done = call(*words)
-        assert done.exit_code == 0, done.output
-        return done.output
-
-    told("run", tmp_path / "t.toml", "--results", tmp_path, "--workers", 1)
+    succeeded("run", tmp_path / "t.toml", "--results", tmp_path, "--workers", 1)
     found = open_results(tmp_path / "t.nc")
     for each in ("FS_cycles", "findley_usage"):
         assert found[each].notnull().sum() == 2
-    info = told("info", tmp_path / "t.nc")
+    info = succeeded("info", tmp_path / "t.nc").output
     assert "Findley limit" in info
     assert "150 MPa" in info
     assert "shear_modulus 80769.2, strength 530" in info
-    upper, lower = draw(found).axes
-    assert upper.get_ylabel() == r"load cycles to a crack, $N_\mathrm{FS}$"
-    assert lower.get_ylabel() == r"Findley stress over its limit, $f/f_\mathrm{lim}$"
-    told("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
+    assert [axes.get_ylabel() for axes in draw(found).axes] == [
+        r"load cycles to a crack, $N_\mathrm{FS}$",
+        r"Findley stress over its limit, $f/f_\mathrm{lim}$",
+        r"$\mathrm{FS}$",
+        "$f$ (MPa)",
+    ]
+    succeeded("report", tmp_path / "t.nc", "-o", tmp_path / "t.html")
     page = (tmp_path / "t.html").read_text(encoding="utf-8")
     assert "Strain-life constants in torsion" in page
     kept = Study.from_text(found.attrs["study"]).grid

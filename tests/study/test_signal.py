@@ -1,9 +1,6 @@
 """Measured signals: from the file of a rig to a loop and a study."""
 
-from __future__ import annotations
-
 import re
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +8,7 @@ import pytest
 import real
 import stand_in
 import told
-from told import refused
+from told import refused, warned
 
 import swtstudy
 from swtstudy import LoadPath, Study, open_results, read_signal, run
@@ -187,10 +184,7 @@ def recorded(path: Path, shares: np.ndarray, seed: int = 1) -> Path:
 
 
 def told_of(path: Path, **given: object) -> list[str]:
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        read_signal(path, **given)
-    return [str(each.message) for each in told]
+    return warned(read_signal, path, **given)[1]
 
 
 def test_kept_cycles_may_have_amplitudes_of_their_own(tmp_path: Path) -> None:

@@ -1,7 +1,5 @@
 """Files that users made by hand or by a rig: what is in doubt in them is refused, with the line."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
@@ -101,13 +99,9 @@ def test_a_study_is_a_regular_file_of_a_bounded_size(tmp_path: Path) -> None:
         assert ("found more than" in str(refused("", Study.from_toml, path))) == (size > largest)
 
 
-MATERIAL = """
+MATERIAL = f"""
 title = "t"
-[units]
-length = "mm"
-force = "N"
-stress = "MPa"
-[material]
+{real.UNITS}[material]
 file = "materials.toml"
 name = "steel"
 [fixed]

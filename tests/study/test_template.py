@@ -1,7 +1,5 @@
 """The studies that `swtstudy new` begins with: every parameter, what it is and what is allowed."""
 
-from __future__ import annotations
-
 import pytest
 from folders import DATA
 

@@ -4,15 +4,13 @@ In the file of the texts ==== parts the cases, and --- the keys of a table, the 
 is said of it. What is said begins with ! or », and may go on in lines that are set in.
 """
 
-from __future__ import annotations
-
 import re
-import warnings
 from pathlib import Path
 
 import pytest
 import real
 from folders import DATA
+from told import warned
 
 from swtstudy import Study, StudyError
 
@@ -31,18 +29,20 @@ HEADS = {
 CASES = (DATA / "told_of_files.txt").read_text(encoding="utf-8").rstrip("\n").split("\n====\n")
 
 
+def mistakes_of(text: str, folder: Path) -> list[str]:
+    try:
+        Study.from_text(text, "s", folder)
+    except StudyError as error:
+        return [str(each).removeprefix("s: ") for each in error.mistakes]
+    return []
+
+
 @pytest.mark.parametrize("case", CASES, ids=range(len(CASES)))
 def test_whole_words_on_files(case: str, tmp_path: Path) -> None:
     keys, content, said = re.split(r"^---\n?", case, flags=re.MULTILINE)
     head, _, keys = keys.partition("\n")
     (tmp_path / "f.csv").write_text(content.removesuffix("\n"), encoding="utf-8")
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        try:
-            Study.from_text(f'{HEADS[head]}file = "f.csv"\n{keys}', "s", tmp_path)
-            mistakes = []
-        except StudyError as error:
-            mistakes = [str(each).removeprefix("s: ") for each in error.mistakes]
-    found = [*(f"! {each.message}" for each in told), *(f"» {each}" for each in mistakes)]
+    mistakes, told = warned(mistakes_of, f'{HEADS[head]}file = "f.csv"\n{keys}', tmp_path)
+    found = [*(f"! {each}" for each in told), *(f"» {each}" for each in mistakes)]
     expected = re.sub(r"\n  ", " ", said).strip().replace("{folder}", str(tmp_path))
     assert "\n".join(found) == expected

@@ -1,9 +1,6 @@
 """Traces of profilometers: two sides become one profile."""
 
-from __future__ import annotations
-
 import re
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from folders import DATA
-from told import RIG, refused
+from told import RIG, refused, warned
 
 import swtstudy
 from swtstudy import read_trace
@@ -40,9 +37,7 @@ def folded(tmp_path: Path) -> Callable[..., tuple[np.ndarray, np.ndarray, float]
     """Radii, heights and noise of a trace: what it is smoothed by unless more is needed."""
 
     def fold(x: np.ndarray, z: np.ndarray, level: bool) -> tuple[np.ndarray, np.ndarray, float]:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            found = read_trace(write(tmp_path / "fold.csv", x, z), level=level)
+        found, _ = warned(read_trace, write(tmp_path / "fold.csv", x, z), level=level)
         return found.radius, found.height, found.smoothing
 
     return fold
@@ -161,10 +156,7 @@ def pad() -> tuple[np.ndarray, np.ndarray]:
 def read(folder: Path, x: np.ndarray, z: np.ndarray) -> tuple[swtstudy.TabulatedProfile, list[str]]:
     """The profile of a trace, and what is told of it."""
     write(folder / "pad.csv", x.round(9), z.round(9))
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        profile = read_trace(folder / "pad.csv")
-    return profile, [str(each.message) for each in told]
+    return warned(read_trace, folder / "pad.csv")
 
 
 def swt(profile: swtstudy.TabulatedProfile) -> float:
@@ -292,9 +284,8 @@ def test_a_flat_face_with_noise_is_the_flat_face(
     z = beyond**2 / (2.0 * radius) + noise * np.random.default_rng(4).normal(size=x.size) + tilt * x
     path = write(tmp_path / "flat.csv", x, z)
     given = GIVEN | {"normal_force": 400.0 * half_width, "normal_force_amplitude": 0.0}
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        worn = read_trace(path, geometry="plane")
+    worn, told = warned(read_trace, path, geometry="plane")
+    assert told == []
     own = {"profile": "rounded_flat", "radius": radius, "flat_half_width": half_width}
     found, exact = (swtstudy.physical(**given | each) for each in ({"profile": worn}, own))
     assert found.contact_radius == pytest.approx(exact.contact_radius, rel=0.003)
@@ -351,9 +342,7 @@ def test_a_trace_that_is_read_again_is_the_same_profile(
     tmp_path: Path, name: str, given: dict[str, Any], expected: list[float]
 ) -> None:
     """Else what an archive has of it would be computed again: the numbers are those of this version."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        found = read_trace(write(tmp_path / "pad.csv", *recorded(name)), **given)
+    found, _ = warned(read_trace, write(tmp_path / "pad.csv", *recorded(name)), **given)
     count, height = len(found.radius), found.height
     told = [count, found.radius[-1], height[count // 8], height[count // 3], height[-1], height.sum()]
     assert [*told, found.smoothing] == pytest.approx(expected, rel=1e-7, abs=1e-11)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import told
 from command import call, merged
-from real import ALUMINIUM, UNITS
+from real import ALUMINIUM, SPHERE, UNITS
 from told import refused, written
 
 import swtstudy
@@ -114,11 +114,7 @@ STUDY = f"""
 title = "A pad on a test piece"
 rtol = 1e-2
 {UNITS}[fixed]
-young_modulus = 73.1e3
-poisson_ratio = 0.33
-radius = 50
-friction = 0.5
-normal_force = 200
+{SPHERE}normal_force = 200
 normal_force_amplitude = 10
 tangential_force_amplitude = 60
 bulk_stress_amplitude = 30

@@ -1,7 +1,5 @@
 """Bodies that differ elastically: what counts is Dundurs' β over the friction."""
 
-from __future__ import annotations
-
 import pytest
 from told import refused
 

@@ -1,7 +1,5 @@
 """A study as the text that archives keep of it: every table, value and sign of it."""
 
-from __future__ import annotations
-
 import pytest
 
 from swtstudy import Study

@@ -1,7 +1,5 @@
 """Names whose numbers stand in tables of points: the kernel has them in the order of the studies."""
 
-from __future__ import annotations
-
 import json
 
 from command import call

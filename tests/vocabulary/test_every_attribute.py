@@ -1,7 +1,5 @@
 """What makes sense of the numbers of results: the attributes of all variables, as in data/attributes.txt."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,6 +1,6 @@
 """Signatures and docstrings that name parameters."""
 
-from __future__ import annotations
+from __future__ import annotations  # as in the package, so that annotations are texts
 
 import inspect
 from typing import Any

@@ -1,45 +1,14 @@
 """Forces instead of displacements, from the names of parameters to results."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from solved import REGIMES
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, StudyError, open_results, run
 
 FORCES = {"normal_force_amplitude": 0.4, "tangential_force_amplitude": 0.3}
-SHAPES = {
-    "paraboloid": {},
-    "rounded_punch": {"flat_radius": 0.6},
-    "truncated_paraboloid": {"flat_radius": 0.5},
-    "wavy_paraboloid": {"waviness_amplitude": 0.03, "wavelength": 4.5},
-}
-
-
-@pytest.mark.quick(1)
-@pytest.mark.parametrize("profile", SHAPES)
-def test_a_constant_normal_load_gives_the_same_s_for_a_force_and_its_displacement(profile: str) -> None:
-    """Cattaneo and Mindlin: Q_A/(μF_0) = 1 − N(c), g(c) = 1 − U, here with Q as the package tells it of U."""
-    own = {"profile": profile, **SHAPES[profile], "normal_amplitude": 0.0}
-    for u in (0.2, 0.95):
-        told = swtstudy.solve(**own, tangential_amplitude=u, rtol=0.1, quantities=["force_ratio"])
-        q = float(told.force_ratio)
-        force = swtstudy.solve(**own, tangential_force_amplitude=q, rtol=1e-6)
-        displacement = swtstudy.solve(**own, tangential_amplitude=u, rtol=1e-6)
-        assert float(force.s) == pytest.approx(float(displacement.s), rel=2e-6)
-        assert abs(float(force.critical_x)) == pytest.approx(abs(float(displacement.critical_x)), rel=1e-5)
-    assert u != pytest.approx(q, rel=1e-3)
-
-
-def test_the_paraboloid_follows_the_closed_form_of_cattaneo_and_mindlin() -> None:
-    u = np.array([0.1, 0.5, 0.9])
-    q = 1.0 - (1.0 - u) ** 1.5
-    own = {"normal_amplitude": 0.0, "rtol": 1e-6}
-    forces = swtstudy.solve(tangential_force_amplitude=q, **own)
-    displacements = swtstudy.solve(tangential_amplitude=u, **own)
-    np.testing.assert_allclose(forces.s, displacements.s, rtol=2e-6)
 
 
 def test_without_equilibrium_there_is_no_s_but_a_regime() -> None:
@@ -101,9 +70,8 @@ def test_waves_are_refused_at_the_depth_that_a_force_reaches() -> None:
 
 
 def test_a_real_contact_takes_forces() -> None:
-    bodies = {"young_modulus": 73.1e3, "poisson_ratio": 0.33, "radius": 50.0, "friction": 0.5}
     contact = swtstudy.physical(
-        **bodies, normal_force=200.0, normal_force_amplitude=80.0, tangential_force_amplitude=30.0
+        **RIG, normal_force=200.0, normal_force_amplitude=80.0, tangential_force_amplitude=30.0
     )
     own = contact.parameters()
     assert own["normal_force_amplitude"] == pytest.approx(0.4)
@@ -124,4 +92,4 @@ def test_a_real_contact_takes_forces() -> None:
     ):
         given = {"normal_force_amplitude": 80.0, "tangential_force_amplitude": 30.0, **wrong}
         with pytest.raises(StudyError, match=words):
-            swtstudy.physical(**bodies, normal_force=200.0, **given)
+            swtstudy.physical(**RIG, normal_force=200.0, **given)

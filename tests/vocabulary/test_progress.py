@@ -1,7 +1,5 @@
 """Progress in a log and on a terminal, by a clock of the test."""
 
-from __future__ import annotations
-
 import re
 import sys
 import time

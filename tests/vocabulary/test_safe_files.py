@@ -1,14 +1,12 @@
 """Files and folders that are not the package's own are left as they are; its own are whole or absent."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pytest
 import stand_in
-from command import call
+from command import call, succeeded
 
 from swtstudy import Study, open_results, run
 
@@ -93,13 +91,12 @@ def test_what_a_link_points_to_is_written(tmp_path: Path) -> None:
     assert path.is_symlink()
     assert open_results(far / "mine.nc").s.size == 3
     (tmp_path / "merged.nc").symlink_to(far / "kept.nc")
-    result = call("merge", path, "-o", tmp_path / "merged.nc")
-    assert result.exit_code == 0, result.output
+    succeeded("merge", path, "-o", tmp_path / "merged.nc")
     assert (tmp_path / "merged.nc").is_symlink()
     assert open_results(far / "kept.nc").s.size == 3
     # Also where there is nothing yet.
     (tmp_path / "schema.json").symlink_to(far / "new")
-    assert call("schema", "-o", tmp_path / "schema.json").exit_code == 0
+    succeeded("schema", "-o", tmp_path / "schema.json")
     assert "properties" in (far / "new").read_text()
     assert {each.name for each in far.iterdir()} == {"kept.nc", "mine.nc", "new"}
 
@@ -123,7 +120,7 @@ def test_a_full_disk_leaves_no_half_of_a_study(tmp_path: Path, monkeypatch: pyte
         patch.setattr(os, "fsync", full)
         assert "mine.toml" in refused("new", tmp_path / "mine")
     assert list(tmp_path.iterdir()) == []
-    assert call("new", tmp_path / "mine").exit_code == 0
+    succeeded("new", tmp_path / "mine")
     before = (tmp_path / "mine.toml").read_text()
     assert "already exists" in refused("new", tmp_path / "mine")
     assert (tmp_path / "mine.toml").read_text() == before
@@ -160,6 +157,5 @@ def test_a_line_that_is_no_style_is_told(tmp_path: Path, caplog: pytest.LogCaptu
     path = computed(tmp_path, STUDY + FIGURE)
     style = tmp_path / "mine.mplstyle"
     style.write_text('axes.prop_cycle: cycler("color", ["r", "#00ff00"])  # wide\nlines.linewidth 2\n')
-    result = call("plot", path, "--style", style)
-    assert result.exit_code == 0, result.output
+    succeeded("plot", path, "--style", style)
     assert f"Missing colon in file '{style}', line 2 ('lines.linewidth 2')" in caplog.text
