@@ -35,6 +35,8 @@ _LETTERS = {"depth": "δ", "displacement": "u", "normal_force": "F_N", "tangenti
 _OF_NO_MATTER = (("normal_stress", "smallest"), (NORMAL_STRAIN.name, "largest"))
 #: Distances from the axis, up to 1.3 of the largest contact radius: the fall of swt outside it is seen.
 _RADII, _REACH = 240, 1.3
+#: No place is shown so near to the singular edge of a face, in a_H, where the pressure is infinite.
+_BESIDE_EDGE = 1e-6
 #: The same for stick and slip, whose map has a cell for each, and for the springs alone.
 _SLIP_RADII, _SLIP_REACH, _SPRING_RADII = 601, 1.15, 301
 
@@ -65,7 +67,7 @@ def inspect_point(**parameters: object) -> xr.Dataset:
         - at a few marked instants, with their instant_time and reason: pressure p and traction q over x;
           compression w and force τ of the MDR springs (the memory diagram) over r;
         - shown_x and shown_angle, the point and plane of the stress cycle: the critical ones, or, where s is
-          0 or not finite, the largest swt that was sampled;
+          0 or not finite, or at the singular edge of a face, the largest swt that was sampled;
         - dissipation, the work of friction in the cycle over μF_0 · μE*δ0/G*, which is ∮ F_x du but for what
           a bulk stress adds that moves the stick zone, and dissipation_error;
         - permanent_stick_radius (NaN if the whole contact slides or is lost once a cycle), stick_left and
@@ -94,12 +96,13 @@ def inspect_point(**parameters: object) -> xr.Dataset:
     radius = np.union1d(np.linspace(0.0, _REACH * largest, _RADII + 1), special[np.isfinite(special)])
     # None where the pressure is infinite; the centre where a sharp tip has its maximum there.
     at_tip = (radius == 0.0) & (float(solved.critical_x) == 0.0)
-    radius = radius[at_tip | ((radius > 1e-6) & (np.abs(radius - b) > 1e-6))]
+    radius = radius[at_tip | ((radius > _BESIDE_EDGE) & (np.abs(radius - b) > _BESIDE_EDGE))]
     values, double_angles = cycle.along(radius)
     if float(solved.s) == 0.0:  # what is there is rounding
         values = np.zeros_like(values)
     x, double_angle = float(solved.critical_x), 2.0 * np.radians(float(solved.critical_angle))
-    if not np.isfinite(x):
+    at_edge = bool(cycle.profile.singular) and abs(abs(x) - b) <= _BESIDE_EDGE
+    if not np.isfinite(x) or at_edge:
         column, side = np.unravel_index(values.argmax(), values.shape)
         x = float((radius, -radius)[side][column])
         double_angle = (float(double_angles[column, side]) + np.pi) % (2.0 * np.pi) - np.pi

@@ -209,7 +209,7 @@ def search(
     dimensions
         d.
     quantity
-        Name of the data variable.
+        Name of the data variable; of a life the damage of a load cycle counts, 1 divided by the life.
     sign
         1 where its least value is wanted, -1 where the greatest is.
     seed
@@ -234,8 +234,9 @@ def search(
         """Values at points of the unit cube, (n, d) to (n,)."""
         found = solve(unit)[quantity]
         others = [dim for dim in found.dims if dim != SAMPLE]
-        # Of both bodies, and of both directions, the worse one counts.
-        worse = (found.min(others) if quantity in LIVES else found.max(others)).values
+        if quantity in LIVES:  # by the damage of a load cycle, which is 0 where a life has no bound
+            found = 1.0 / found
+        worse = found.max(others).values  # of both bodies, and of both directions
         points.append(unit)
         values.append(np.where(np.isfinite(worse), sign * worse, np.inf))
         return values[-1]
@@ -433,9 +434,9 @@ def optimum_in(
         """Results at points of the unit cube, shape (n, d), each a point of a sample."""
         return solved(unit.tobytes())
 
-    d, best = len(over), -1 if minimise in LIVES else 1
+    d = len(over)
     with Progress(None, "optimise"):
-        found = [search(solve, d, minimise, sign, seed) for sign in (best, -best)]
+        found = [search(solve, d, minimise, sign, seed) for sign in (1, -1)]
         places, values = zip(*found, strict=True)
         cases = solve(np.array(places)).drop_vars(SAMPLE).rename({SAMPLE: "case"})
     words = {"long_name": "number of points solved"}

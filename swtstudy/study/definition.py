@@ -174,7 +174,8 @@ class Study:
                 forgotten = [m for m in unsaid if not any(key.startswith(m.key) for key in keys)]
                 raise StudyError([*forgotten, *error.mistakes]) from None
             unused(raw, study.grid, source).refuse()
-            odd = doubts_of_units(study.grid) if isinstance(study.grid, PhysicalGrid) else ()
+            shown = study.figure.y if study.figure else ()
+            odd = doubts_of_units(study.grid, shown) if isinstance(study.grid, PhysicalGrid) else ()
             for line in (*doubts(study.grid, "axes."), *odd):
                 warnings.warn(f"{source}: {line}", stacklevel=2)
         return replace(study, told=tuple(str(each.message) for each in told))

@@ -20,6 +20,7 @@ from swtstudy.points.reading import NOTHING_KNOWN, GivenAxes, Known, read_values
 from swtstudy.points.values import NamedValues, Value, as_number, index_at, read_value
 from swtstudy.solver.load_path import LoadPath
 from swtstudy.solver.loop import Loop
+from swtstudy.study.figure import reference
 from swtstudy.study.units import grid as grids
 from swtstudy.study.units import rows as units
 from swtstudy.study.units.at_rest import Moduli
@@ -306,8 +307,8 @@ def check_contacts(grid: PhysicalGrid, report: Report) -> None:
             rules.check_shapes(grid, report, told)
 
 
-def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
-    """Hints at a wrong unit or number.
+def doubts_of_units(grid: PhysicalGrid, shown: Collection[str] = ()) -> Iterator[str]:
+    """Hints at a wrong unit or number, and at a figure's ratio of s that is none of SWT.
 
     Contacts larger than their radius or pressed beyond any metal, friction of no metal, forces that multiply
     a measured load, and forces that look like shares of the normal load.
@@ -328,6 +329,9 @@ def doubts_of_units(grid: PhysicalGrid) -> Iterator[str]:
             of = "friction times " * (amplitude == "tangential_amplitude") + "the normal force"
             found = f"{name} {most:g}{unit_words(grid.labels.force)} is {share:.2g} of {of}"
             yield f"{found}: is it meant as a share of that?"
+    for y, place in zip(shown, map(reference, shown), strict=True):
+        if place and place[0] in units.REST_DEPENDS_ON - {"body"}:
+            yield f"figure.y: in {y} s is over E* δ0/R, which changes with {place[0]}: SWT has another ratio"
     lines: dict[str, str] = {}
     unit = unit_words(grid.labels.length)
     for contact in grid.distinct:
