@@ -184,7 +184,7 @@ def _contact(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
     lives = given.materials or given.shear_materials
     several: dict[str, Iterable[str]] = {
         "units": [", ".join(filter(None, vars(given.units).values()))],
-        "pulled": [_carrier(dataset, given)],
+        "bulk stress": [_carrier(dataset, given)],
         "material": map(_constants, dict.fromkeys(given.materials)),
         "scatter": [scatter_words(given.scatter)] if given.scatter else (),
         "in torsion": map(_constants, dict.fromkeys(given.shear_materials)),
@@ -201,7 +201,7 @@ def _carrier(dataset: xr.Dataset, given: ContactDetails) -> str:
     if not any(np.any(dataset.get(f"bulk_stress_{part}", 0.0)) for part in ("amplitude", "mean", "ratio")):
         return ""
     body = given.bulk_stress_body
-    return f"body {body + 1}" + (f", {given.body_names[body]}" if given.body_names else "")
+    return f"in body {body + 1}" + (f", {given.body_names[body]}" if given.body_names else "")
 
 
 def scatter_words(scatter: Scatter) -> str:

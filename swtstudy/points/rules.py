@@ -156,7 +156,7 @@ def doubts(grid: Grid, where: str = "") -> Iterator[str]:
     harmonic = len(grid.loops) < len(grid.values("load"))
     moves = harmonic and any(grid.values(grid.control.given_for("normal_amplitude")))
     pulled = harmonic and any(grid.values("bulk_stress_amplitude"))
-    idle = {"phase": not moves, "bulk_stress_phase": not pulled}
+    idle = {"phase": not moves, "frequency_ratio": not harmonic, "bulk_stress_phase": not pulled}
     for name in (name for name, still in idle.items() if still and name in grid.axes):
         yield f"{where}{name} has no effect: what it is of does not oscillate"
     if harmonic and not moves and {*grid.values("frequency_ratio")} > {1.0}:

@@ -36,7 +36,7 @@ UNLIKE, MOST_TIMES, ALIKE, CORRECTIONS = 0.1, 12, 0.3, 4
 #: Shares that are told: of a load's movement that harmonics leave out, and of its amplitude that straight
 #: lines cut off. Distance of samples from the corners of a loop, over a step, that is none.
 LEFT_OUT, CUT_OFF, ON_PLACE = 0.05, 0.01, 1e-3
-#: Share by which the range of a record may exceed the range of each cycle, where cycles are kept.
+#: Range of the means of kept cycles over the largest range of a cycle: beyond, they ride on a slower one.
 RIDING = 0.05
 #: A normal load that moves by less, over its mean, may have been meant to be constant.
 NEXT_TO_NOTHING = 0.02
@@ -444,11 +444,12 @@ def _differences(signal: Signal, key: str, kept: bool) -> Iterator[str]:
         late, right = "late" if shift > 0.0 else "early", signal.period * (1.0 + shift)
         yield f"{found} {late} altogether; is the period {right:.7g} and not {signal.period:.7g}?"
     elif kept:
-        whole, single = np.ptp(signal.cycles, axis=(0, 1)), np.ptp(signal.cycles, axis=1).max(axis=0)
-        for k in np.flatnonzero(whole > (1.0 + RIDING) * single)[:1]:
-            found = f"the {NAMES[k]} load ranges over {whole[k]:.4g}, in a cycle over {single[k]:.4g} at most"
+        means, single = np.ptp(signal.cycles.mean(axis=1), axis=0), np.ptp(signal.cycles, axis=1).max(axis=0)
+        size = np.maximum(single, cycles.LEAST_LOAD * np.abs(signal.values).max(axis=0))
+        for k in np.flatnonzero(means > RIDING * size)[:1]:
+            found = f"means of the {NAMES[k]} load in its cycles range over {means[k]:.4g}, a cycle over "
             out = "a slower cycle on which these ride is lost: recorded_cycles = 1 is the record as one cycle"
-            yield f"{found}; {out}"
+            yield f"{found}{single[k]:.4g} at most; {out}"
     elif not better and (uneven := cycles.uneven_ends(signal.cycles)):
         column, ends, (first, last, mean) = uneven
         each = f"{ends} cycles have" if ends > 1 else "cycle has"

@@ -76,7 +76,8 @@ f'{SPHERE}profile = "rounded_punch"\nflat_radius = 0.02\n'
     unit, such as metres?
 f"{CONTACT}[axes]\nphase = [0, 1]\nfrequency_ratio = [1, 2]\n"
 » s: axes.phase has no effect: what it is of does not oscillate
-» s: axes.frequency_ratio has no effect: what it is of does not oscillate
+» s: axes.frequency_ratio changes no stress under a constant normal load, only how many oscillations a load
+    cycle has: 1 has one
 CONTACT.replace("73.1e3", "[73.1e3, 65e3]").replace("0.33", "[0.33, 0.30]")
 » Dundurs' β = -0.0346 is 0.069 times the friction 0.5: pressure p drags tangential tractions of about β p
     along, which s leaves out

@@ -58,7 +58,7 @@ def test_every_key_is_explained(validator):
         for key, entry in table["properties"].items():
             assert entry["description"], key
     fixed, axes = (list(schema["properties"][name]["properties"]) for name in ("fixed", "axes"))
-    assert fixed == [*axes, "similar", "bodies"]
+    assert fixed == [*axes, "similar", "bodies", "bulk_stress_body"]
     listed = call("list", "--parameters").output
     assert {*re.findall(r"^  (\w+)  ", listed, re.MULTILINE)} >= {*parameters(schema)}
     sizes = ["young_modulus", "radius", "depth", "normal_force", "contact_length", "bulk_stress_ratio"]

@@ -403,3 +403,15 @@ def test_loads_of_periods_of_their_own_do_not_repeat_together(tmp_path: Path) ->
     both = np.stack([20.0 * np.sin(5.0 * phase), 60.0 * np.sin(7.0 * phase)], axis=1)
     write(tmp_path / "both.csv", both, "normal,tangential")
     assert told_of(tmp_path / "both.csv") == []
+
+
+def test_kept_cycles_that_ride_on_a_slower_one_are_told(tmp_path: Path) -> None:
+    phase = 2.0 * np.pi * np.arange(1000) / 1000
+    for slow, is_told in ((60.0, True), (0.0, False)):
+        wave = slow * np.sin(phase) + 15.0 * np.sin(20.0 * phase)
+        write(tmp_path / "rig.csv", np.stack([0.0 * wave + 300.0, wave], axis=1), "normal,tangential")
+        text = RIG.replace('load = "rig"\n', "").replace("[fixed]", f"[material]\n{real.CONSTANTS}[fixed]")
+        text += '[loads.rig]\nfile = "rig.csv"\nabsolute = true\nrecorded_cycles = 20\nkeep_cycles = true\n'
+        text += '[[blocks]]\nload = "rig"\nrounds = 1\n'
+        _, words = warned(Study.from_text, text, "s", tmp_path)
+        assert ["a slower cycle on which these ride is lost" in each for each in words] == [True] * is_told

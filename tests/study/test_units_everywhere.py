@@ -119,6 +119,7 @@ normal_force_amplitude = 10
 tangential_force_amplitude = 60
 bulk_stress_amplitude = 30
 bodies = ["test piece", "pad"]
+bulk_stress_body = "test piece"
 [axes]
 phase = ["0 deg", "90 deg"]
 [figure]
@@ -152,7 +153,7 @@ def test_bodies_have_names(tmp_path):
 
 
 def test_names_in_python():
-    contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"))
+    contact = physical(**RIG, bulk_stress_amplitude=10.0, bodies=("pad", "specimen"), bulk_stress_body=1)
     assert contact.solve(1e-2).body.attrs["flag_meanings"] == "pad specimen"
 
 
@@ -205,5 +206,5 @@ def test_titles_leave_out_the_factors_of_a_measured_load():
 
 @pytest.mark.slow
 def test_titles_name_the_body():
-    named = physical(**RIG, bulk_stress_amplitude=10.0, bodies=["pad", "specimen"])
+    named = physical(**RIG, bulk_stress_amplitude=10.0, bodies=["pad", "specimen"], bulk_stress_body=1)
     assert [name in title(named, body) for body in (1, 2) for name in ("pad", "specimen")] == [1, 0, 0, 1]

@@ -80,7 +80,7 @@ def read_contacts(
     good_samples = {name: values for name, values in samples.items() if values is not None}
     good = good_axes | good_samples | {name: (value,) for name, value in good_fixed.items()}
     _check_lengths(profiles, everything, report)
-    _check_given({*everything}, good, own, report)
+    _check_given({*everything} - {*units.OF_ALL}, good, own, report)
     rules.check_amplitudes(everything, good, report)
     rules.check_criteria(everything, good, report)
     _check_units_of_criteria({*good.get("criterion", ())}, given, report)
@@ -185,7 +185,7 @@ def _read_bodies(
     if raw is not None and (len(names) != 2 or not sound or names[0] == names[1]):
         report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         names = ()
-    carrier = single.pop(units.CARRIER_KEY, None) or given.bulk_stress_body + 1
+    carrier = single.pop(units.CARRIER_KEY, given.bulk_stress_body + 1)
     with report:
         carrier = units.checked_body(carrier, report.key(units.CARRIER_KEY), names)
     given = replace(given, bulk_stress_body=int(plain_number(carrier) == 2))
