@@ -62,6 +62,29 @@ def test_a_fit_finds_the_distance_with_which_lives_are_made(rig):
     assert float(found.scatter) < 0.01
 
 
+def test_single_values_along_axes_are_of_all_tests(tmp_path, monkeypatch):
+    """Several are refused, and so are samples and blocks that the tests do not have."""
+    seen = []
+
+    def lives(grid, y, distances, friction):
+        seen.append((grid.values("walker_exponent"), grid.values("body")))
+        return np.log10(1e6 * np.outer(np.ones(3), distances))
+
+    monkeypatch.setattr(fitting, "_lives", lives)
+    file = tmp_path / "rig.toml"
+    file.write_text(f"{STUDY}[axes]\nwalker_exponent = [0.4]\nbody = [2]\nnormal_force = [1, 2]\n")
+    swtstudy.fit(file, table([1e4, 2e4, 3e4]))
+    assert {*seen} == {((0.4,), (2.0,))}
+    blocks = STUDY.replace('load = "two"\n', "") + '[[blocks]]\nload = "two"\nrounds = 1\n'
+    for text, words in (
+        (f"{STUDY}[axes]\nradius = [40, 50]\n", "axes.radius: found several values of radius; allowed: one"),
+        (f'{STUDY}[sample]\ndesign = "random"\nsize = 2\nranges.phase = [0, 1]\n', "sample.phase: found"),
+        (blocks, "blocks: found a sequence of blocks"),
+    ):
+        file.write_text(text)
+        refused(words, swtstudy.fit, file, table([1e4, 2e4, 3e4]))
+
+
 class Law:
     """Lives that are a power of distance and friction times the force: the fit has a closed form."""
 

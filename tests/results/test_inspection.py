@@ -35,6 +35,14 @@ def test_the_stress_cycle_makes_s(parameters):
     assert (abs(point.force) <= point.compression + 1e-12).all()
 
 
+def test_at_the_singular_edge_of_a_face_the_largest_sampled_value_is_shown():
+    given = {"profile": "truncated_paraboloid", "flat_radius": 5, "friction": 0.99, "phase": 0.7}
+    point = swtstudy.inspect_point(**given)
+    assert abs(float(point.critical_x)) == 5.0
+    assert float(point.s_local.sel(x=point.shown_x)) == float(point.s_local.max()) < float(point.s)
+    assert np.isfinite(point.normal_stress).all()
+
+
 def test_the_curve_of_a_sharp_tip_goes_up_to_the_tip():
     tip = {"profile": "power_law", "exponent": 1.3, "friction": 3.0, "tangential_amplitude": 2.0}
     point = swtstudy.inspect_point(**tip)

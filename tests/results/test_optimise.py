@@ -124,6 +124,20 @@ def test_a_quantity_beside_s(monkeypatch):
     assert found.dissipation.sel(case="worst") == pytest.approx(there.dissipation.item(), rel=1e-9)
 
 
+def test_a_life_without_a_bound_is_the_best():
+    """A cylinder under so much pressure of the bulk stress that nothing is in tension."""
+    alloy = swtstudy.FatigueConstants(73.1e3, 927.0, -0.113, 0.409, -0.713)
+    contact = swtstudy.physical(
+        young_modulus=73.1e3, poisson_ratio=0.33, radius=80.0, friction=0.6, normal_force=500.0,
+        profile="cylinder", tangential_force_amplitude=100.0, body=1, bulk_stress_amplitude=20.0,
+    )  # fmt: skip
+    found = contact.optimise({"bulk_stress_mean": (-400, 200)}, "cycles", constants=alloy, rtol=1e-2)
+    assert found.cycles.sel(case="best") == np.inf
+    assert found.bulk_stress_mean.sel(case="worst") == 200.0
+    assert found.attrs["without_value"] == 0
+    assert (found.evaluations < 200).all()
+
+
 def singular_beyond(points, rtol):
     """A smooth function of the friction that is infinite from 1.6 on."""
     found = stand_in.smooth(points, rtol)

@@ -16,7 +16,10 @@ from told import RIG, refused
 
 import swtstudy
 from studies.accuracy_speed.textbook import textbook_s
-from swtstudy import swt_of_history
+from swtstudy import Study, swt_of_history
+from swtstudy.points.solve import solve_grid
+from swtstudy.study.writing import to_toml
+from swtstudy.vocabulary.quantities import NOTHING
 
 Array = NDArray[np.float64]
 COMPONENTS = tuple(f"sigma_{name}" for name in ("xx", "yy", "zz", "yz", "xz", "xy"))
@@ -270,6 +273,43 @@ def test_one_body_of_a_real_contact_carries_it() -> None:
     ):
         refused(words, swtstudy.physical, **{**given, **wrong})
     assert swtstudy.physical(**given, bulk_stress_mean=-3.0).bulk_stress_mean == -3.0
+
+
+def test_a_study_names_the_body_that_carries_it() -> None:
+    """What the file of an archive says is the same again."""
+    text = """
+        title = "two"
+        [units]
+        length = "mm"
+        force = "N"
+        stress = "MPa"
+        [fixed]
+        profile = "cylinder"
+        young_modulus = [73e3, 75e3]
+        poisson_ratio = 0.3
+        radius = 80
+        friction = 0.8
+        normal_force = 500
+        tangential_force_amplitude = 75
+        bulk_stress_amplitude = 36
+        bodies = ["pad", "specimen"]
+        bulk_stress_body = 1
+    """
+    first = Study.from_text(text).grid
+    for named in ("2", '"specimen"'):
+        grid = Study.from_text(text.replace("bulk_stress_body = 1", f"bulk_stress_body = {named}")).grid
+        assert grid.bulk_stress_body == 1
+        again = Study.from_text(to_toml("two", 1e-3, grid, None, NOTHING)).grid
+        assert again.bulk_stress_body == 1
+        contact = swtstudy.physical(
+            profile="cylinder", young_modulus=(73e3, 75e3), poisson_ratio=0.3, radius=80.0,
+            friction=0.8, normal_force=500.0, tangential_force_amplitude=75.0, bulk_stress_amplitude=36.0,
+            bulk_stress_body=2,
+        )  # fmt: skip
+        np.testing.assert_allclose(solve_grid(grid, 1e-3).SWT, contact.solve(1e-3).SWT, rtol=1e-12)
+    assert float(solve_grid(first, 1e-3).SWT.sel(body=1)) > 1.3 * float(
+        solve_grid(grid, 1e-3).SWT.sel(body=1)
+    )
 
 
 def test_the_shift_of_the_stick_zone() -> None:

@@ -16,6 +16,7 @@ SHEAR += "shear_ductility_exponent = -0.6\nyield_strength = 300\n"
 THRESHOLD = "[material]\nthreshold_stress_intensity_range = {}\nfatigue_limit_range = 200\n"
 DISTANCE = "(ΔK_th/Δσ_0)²/π of ranges at {}: {} MPa√mm and 200 MPa"
 UNSAID = "one load ratio, which load_ratio would name"
+RATIO = '[axes]\nnormal_force = [200, 300]\n[figure]\nx = "normal_force"\ny = "s/s(normal_force=200)"\n'
 SPHERE = CONTACT.replace("radius = 50", "radius = 0.02")
 
 
@@ -35,6 +36,16 @@ def cap(factor: float, power: float, depth: float) -> str:
 
 DOUBTS = sayings(r"""
 CONTACT
+f"{MATERIAL}{CONTACT}normal_force_amplitude = 20\n[axes]\nfrequency_ratio = [1, 2]\n"
+» s: a load cycle at frequency_ratio p/q has p tangential and q normal oscillations: cycles at several ratios
+    are not of one length
+CONTACT.replace("normal_force = 200", "") + RATIO
+» s: figure.y: in s/s(normal_force=200) s is over E* δ0/R, which changes with normal_force: SWT has another
+    ratio
+f"{CONTACT}bulk_stress_amplitude = 20\nbodies = ['pad', 'specimen']\n"
+» 'pad' carries the bulk stress, as the first of bodies; if it is the other one, bulk_stress_body = 'specimen'
+f"{CONTACT}bulk_stress_amplitude = 20\nbodies = ['pad', 'specimen']\nbulk_stress_body = 'specimen'\n"
+f"{CONTACT}bodies = ['pad', 'specimen']\n"
 MATERIAL + CONTACT
 f"{CONTACT.replace('60', '0.6')}normal_force_amplitude = 0.2\n"
 » s: normal_force_amplitude 0.2 N is 0.001 of the normal force: is it meant as a share of that?
