@@ -306,9 +306,9 @@ def test_a_study_names_the_body_that_carries_it() -> None:
             friction=0.8, normal_force=500.0, tangential_force_amplitude=75.0, bulk_stress_amplitude=36.0,
             bulk_stress_body=2,
         )  # fmt: skip
-        np.testing.assert_allclose(solve_grid(grid, 1e-3).SWT, contact.solve(1e-3).SWT, rtol=1e-12)
-    assert float(solve_grid(first, 1e-3).SWT.sel(body=1)) > 1.3 * float(
-        solve_grid(grid, 1e-3).SWT.sel(body=1)
+        np.testing.assert_allclose(solve_grid(grid, 1e-3, NOTHING).SWT, contact.solve(1e-3).SWT, rtol=1e-12)
+    assert float(solve_grid(first, 1e-3, NOTHING).SWT.sel(body=1)) > 1.3 * float(
+        solve_grid(grid, 1e-3, NOTHING).SWT.sel(body=1)
     )
 
 
