@@ -92,9 +92,10 @@ def test_scaling() -> None:
     gigabytes = {row[0]: 1e-3 * float(row[1]) for row in memory[1:]}
     said = "{} points in a call take {} GB, two at ω2/ω1 = 32 take {} GB"
     says(said, 4096, gigabytes["4096, 1, 1"], gigabytes["2, 32, 1"])
-    seconds = [float(row[1]) for row in start[2:]]
+    seconds = {row[0]: float(row[1]) for row in start[1:]}
+    named = ("import swtstudy", "import swtstudy and the first value", "swtstudy --help")
     said = "`import swtstudy` takes {} s, with the first value {} s, `swtstudy --help` {} s"
-    says(said, seconds[1], seconds[2], seconds[0])
+    says(said, *(seconds[name] for name in named))
 
 
 def test_accuracy() -> None:
