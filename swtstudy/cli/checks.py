@@ -80,7 +80,7 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     is a CSV file with a row for each test: parameters, in the units of the study, and life, the load cycles
     to a crack; of a run-out the cycles that it survived, as >1e7 or with 1 in a column runout. Maximum
     likelihood of the logarithms of the lives. Writes the fit as netCDF and the figure of predicted over
-    observed lives: NAME_fit.
+    observed lives: NAME_fit, with --friction NAME_fit_friction.
 
     \b
     Examples:
@@ -90,7 +90,8 @@ def fit(study: str, tests: str, y: str, friction: bool, confidence: float, resul
     from swtstudy.figures.statistics import draw_fit, fit_lines
     from swtstudy.figures.style import save_figure
 
-    targets = {end: Path(results) / f"{Path(study).stem}_fit{end}" for end in (".nc", ".png")}
+    stem = f"{Path(study).stem}_fit{'_friction' * friction}"
+    targets = {end: Path(results) / f"{stem}{end}" for end in (".nc", ".png")}
     check_writable(*targets.values())
     found = swtstudy.fit(study, tests, y=y, friction=friction, confidence=confidence)
     save(found, targets[".nc"])
