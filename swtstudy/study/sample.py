@@ -20,7 +20,7 @@ from swtstudy.points.grid import Grid, Table, canonical_points, group_rows
 from swtstudy.points.reading import LONGEST_AXIS, Known, read_points
 from swtstudy.points.values import Value, as_number, read_value
 from swtstudy.study.columns import COMMA_HINT, read_table, unknown_names, wrong_units
-from swtstudy.study.keys import DesignName, SampleTable, under
+from swtstudy.study.keys import DesignName, FileTable, SampleTable, under
 from swtstudy.study.units.grid import ContactDetails
 from swtstudy.study.units.life import CONSTANTS, SCATTERED, TORSION, Scatter
 from swtstudy.study.units.material import KEYS
@@ -160,10 +160,12 @@ class SampleReader:
             report("sample", " and ".join(forms) or "nothing", allowed)
             return {}, None, None
         is_design = forms == ["design"]
-        of_designs = () if is_design else ("size", "seed", "ranges", "covariance")
-        for name in (name for name in of_designs if name in self.given):
-            found = f"{literal(getattr(table, name))} beside {forms[0]}"
-            report(f"sample.{name}", found, "only with a design")
+        strange = {} if is_design else dict.fromkeys(("size", "seed", "ranges", "covariance"), "a design")
+        strange |= {} if forms == ["file"] else dict.fromkeys(FileTable.model_fields, "a file")
+        for name, form in strange.items():
+            if name in self.given:
+                found = f"{literal(getattr(table, name))} beside {forms[0]}"
+                report(f"sample.{name}", found, f"only with {form}")
         every: Mapping[str, Any] = table.ranges if is_design else table.points
         scatter = self._scatter({name: every[name] for name in SCATTERED if name in every})
         if table.file is not None:
