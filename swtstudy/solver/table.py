@@ -285,7 +285,10 @@ def spline(radius: FloatArray, height: FloatArray, smoothing: float) -> PPoly:
     if face > 0:
         # Behind a face f rises like a square: where that would begin.
         rise = np.sqrt(f[1:3])
-        r[0] = np.clip(r[1] - rise[0] * (r[2] - r[1]) / (rise[1] - rise[0]), r[0], r[1] - 0.1 * (r[1] - r[0]))
+        begin, last = r[1] - rise[0] * (r[2] - r[1]) / (rise[1] - rise[0]), r[1] - 0.1 * (r[1] - r[0])
+        if last < begin < r[1]:  # the first height is next to nothing: the next one tells the fit more
+            r, f, last = np.delete(r, 1), np.delete(f, 1), begin
+        r[0] = np.clip(begin, r[0], last)
     if smoothing == 0.0:
         return CubicSpline(r, f, bc_type=((1, 0.0), "not-a-knot"))
     # Even in r: that makes the slope vanish at the begin.
