@@ -431,7 +431,7 @@ FILES = {
     "metals.toml": "[alloy]\nstrength = 927\nstrength_exponent = -0.113\nductility = 0.409\n"
     "ductility_exponent = -0.713\n",
 }
-FRICTIONS = '[axes]\nfriction = {start = "0.01", stop = 4, num = 100}\n'
+FRICTIONS = '[axes]\nfriction = {start = "0.01", stop = 2, num = 100}\n'
 OF_FILES = {
     "loads": '[fixed]\nload = "cycle"\n[loads.cycle]\nfile = "cycle.csv"\n' + FRICTIONS,
     "profiles": '[fixed]\nprofile = "worn"\n[profiles.worn]\nfile = "worn.csv"\nsmoothing = 1e-3\n'

@@ -59,6 +59,7 @@ def test_lives_count_the_strain_cycles_of_the_common_period(ratio: str, bulk: fl
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:.*is it meant as a share of that")
 def test_archives_keep_the_common_period(tmp_path: Path) -> None:
     """Values that a second run takes from an archive are those of the first one."""
     text = (
