@@ -12,6 +12,8 @@ from told import RIG
 import swtstudy
 from swtstudy import FatigueConstants, LoadPath, Study
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*a load cycle at frequency_ratio")
+
 CONTACT = RIG | {"normal_force": [200.0], "tangential_amplitude": 1.5e-3}
 
 
