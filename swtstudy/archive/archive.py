@@ -267,10 +267,9 @@ def save(dataset: xr.Dataset, path: str | PathLike[str], beside: Path | None = N
     for name, variable in dataset.variables.items():
         # CF forbids the fill value that xarray would give to coordinates.
         own = encoding[name] = {"_FillValue": None} if name in dataset.coords else {}
-        if variable.ndim and variable.dtype.kind in "biuf":
+        if variable.ndim and variable.dtype.kind in "biuf":  # texts take no filter
             own["fletcher32"] = True
-        if variable.ndim and name in dataset.data_vars:
-            own |= {"zlib": True, "complevel": 4, "shuffle": True}
+            own |= {"zlib": True, "complevel": 4, "shuffle": True} if name in dataset.data_vars else {}
     with (
         _ONE_AT_A_TIME,
         replacing(path, beside) as temporary,

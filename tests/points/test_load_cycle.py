@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from real import ALUMINIUM, CONTACT
+from scipy.integrate import trapezoid
 from told import RIG
 
 import swtstudy
@@ -36,7 +37,7 @@ def test_dissipation_is_that_of_the_common_period(normal: str, bulk: float) -> N
 
 def test_dissipation_is_the_area_of_the_loop_that_inspect_shows() -> None:
     point = swtstudy.inspect_point(frequency_ratio="4", normal_amplitude=0)
-    area = np.trapezoid(point.tangential_force, point.displacement)
+    area = trapezoid(point.tangential_force, point.displacement)
     assert float(point.dissipation) == pytest.approx(float(area), rel=2e-3)
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 
 import swtstudy
 from swtstudy.paper.formalisms import march_springs
@@ -37,7 +38,7 @@ def spring_depth(r, parameters):
 def unit_of(parameters):
     """∫ w dr at the depth δ0 over δ0 a_H: F_0 of the springs."""
     r = np.linspace(0.0, 3.0, 300_001)
-    return np.trapezoid(np.maximum(1.0 - spring_depth(r, parameters), 0.0), r)
+    return trapezoid(np.maximum(1.0 - spring_depth(r, parameters), 0.0), r)
 
 
 @pytest.fixture(scope="module")

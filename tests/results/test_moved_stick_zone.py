@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from body import von_mises
 from numpy.typing import NDArray
+from scipy.integrate import trapezoid
 
 import swtstudy
 
@@ -83,7 +84,7 @@ def test_tractions_and_states_of_the_cycle(profile: str) -> None:
         agree = (state >= 2) == full
         assert np.mean(agree[inside]) > 0.98
     if profile == "cylinder":
-        force = np.trapezoid(point.traction, point.x, axis=-1) / (FRICTION * 0.25 * np.pi)
+        force = trapezoid(point.traction, point.x, axis=-1) / (FRICTION * 0.25 * np.pi)
         expected = point.tangential_force.interp(time=point.instant_time)
         np.testing.assert_allclose(force, expected, atol=3e-3)
 

@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 from numpy.typing import NDArray
 from scenes import PROFILE_NAMES, each_profile, points, random_points, take
+from scipy.integrate import trapezoid
 from scipy.spatial.transform import Rotation
 from solved import Points, Solution, solve_points
 from test_critical_plane_3d import rotated
@@ -348,7 +349,7 @@ def test_means_over_a_distance_know_it(exponent: float) -> None:
     x = float(found.line_x.sel(direction="depth").squeeze())
     depth = np.linspace(0.0, 2.0 * distance, 401)
     field = swtstudy.swt_field(np.array([x]), 0.0, depth, **own).s_local.values.ravel()
-    mean = float(np.trapezoid(field, depth) / (2.0 * distance))
+    mean = float(trapezoid(field, depth) / (2.0 * distance))
     assert float(found.s_line.sel(direction="depth").squeeze()) == pytest.approx(mean, rel=3e-3)
 
 
