@@ -178,7 +178,7 @@ FIRST_VALUE = """
 import sys
 import swtstudy
 swtstudy.solve(phase=1.0)
-print({"scipy.linalg", "numba.np.arraymath", "dask.array"} & sys.modules.keys())
+print({"numba.np.arraymath", "dask.array"} & sys.modules.keys())
 """
 
 
