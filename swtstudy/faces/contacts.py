@@ -597,18 +597,16 @@ def physical(
     >>> contacts.solve(rtol=1e-2).SWT.sel(body=1).round(2).values.tolist()
     [0.52, 0.58]
     """
-    report, about, optional = Report(), ContactDetails(), (*CONTACT_AXES, *units.OF_BODIES)
+    report, optional = Report(), (*CONTACT_AXES, *units.OF_BODIES)
     parameters = {n: value for n, value in parameters.items() if value is not None or n not in optional}
     for name in _ASKED:
         if name in parameters:
             report(name, "a keyword of a contact", f"one of its solve: physical(...).solve({name}=...)")
-    properties: dict[str, Any] = {
-        "yield_strengths": _of_both("yield_strength", yield_strength, report),
-        "findley_limits": _of_both("findley_limit", findley_limit, report),
-        "shear_materials": _of_both("shear_constants", shear_constants, report, ShearConstants),
-    }
-    with report:
-        about = ContactDetails(**properties)
+    about = ContactDetails(
+        yield_strengths=_of_both("yield_strength", yield_strength, report),
+        findley_limits=_of_both("findley_limit", findley_limit, report),
+        shear_materials=_of_both("shear_constants", shear_constants, report, ShearConstants),
+    )
     own = {name: value for name, value in parameters.items() if name not in _ASKED}
     pairs = {
         name: own.pop(name) for name in units.OF_BODIES if getattr(own.get(name), "dims", ()) == ("body",)

@@ -93,7 +93,7 @@ def levers(dataset: xr.Dataset) -> list[Lever]:
     first = layout_of(dataset).x if "figure" in dataset.attrs else "phase"
     found = []
     for name in map(str, values.dims):
-        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in {*AXES} - others:
+        if values.sizes[name] < 2 or SAMPLE in values.dims or name not in AXES or name in others:
             continue
         table = extrema(dataset.assign(measured=values), name, "measured")
         ratio = table.ratio.where(np.isfinite(table.ratio))

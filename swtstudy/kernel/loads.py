@@ -7,7 +7,7 @@ import numpy as np
 
 from swtstudy.kernel.compiled import new_record
 from swtstudy.kernel.load import BULK, LOAD, MAX_HARMONICS, MAX_VERTICES
-from swtstudy.kernel.loops import SAMPLES, ends_of_sum, slope_of, sum_at, without_collinear
+from swtstudy.kernel.loops import ends_of_sum, even_instants, slope_of, sum_at, without_collinear
 
 
 def load_of(
@@ -102,8 +102,7 @@ def harmonic_sum(normal, tangential, bulk=(), means=(0.0, 0.0, 0.0)):
     even, odd = (all(k % 2 == parity for k in orders[which]) for which, parity in ((0, 0), (1, 1)))
     load["mirrored"] = even and odd and not orders[2] and load["rest"][1] == 0.0
     if orders[2] and not orders[0]:
-        count = SAMPLES * max(moving)
-        t = 2.0 * np.pi / count * np.arange(count)
+        t = even_instants(max(moving))
         load["bulk_slope"], load["bulk_exact"] = slope_of(*(sum_at(rows, t) for rows in components[1:]))
     for component, name, rows in ((0, "normal_range", normal), (BULK, "bulk_range", bulk)):
         load[name] = np.add(means[component], ends_of_sum(rows))

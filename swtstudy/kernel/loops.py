@@ -40,8 +40,7 @@ def ends_of_sum(rows):
         swing = sum(abs(size) for _, size, _ in moving)
         return float(rest - swing), float(rest + swing)
     order, size, phase = np.array(moving, dtype=float).T
-    count = int(SAMPLES * order.max())
-    t = 2.0 * np.pi / count * np.arange(count)
+    t = even_instants(order.max())
     values = sum_at(moving, t)
     ends = []
     for best, least in ((values.argmin(), min), (values.argmax(), max)):
@@ -54,6 +53,12 @@ def ends_of_sum(rows):
             at += rate / bend if bend else 0.0
         ends.append(float(rest + least(values[best], size @ np.sin(order * at + phase))))
     return ends[0], ends[1]
+
+
+def even_instants(fastest):
+    """Instants of a cycle, `SAMPLES` for each oscillation of its fastest harmonic."""
+    count = int(SAMPLES * fastest)
+    return 2.0 * np.pi / count * np.arange(count)
 
 
 def sum_at(rows, t):

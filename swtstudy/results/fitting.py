@@ -26,7 +26,7 @@ from swtstudy.results.sensitivity import check_confidence
 from swtstudy.study.columns import UserTable, by_aliases, number, read_table, wrong_units
 from swtstudy.study.definition import study_from, tables_of
 from swtstudy.study.units.grid import PhysicalGrid
-from swtstudy.study.units.rows import ONE_OF, kind_of
+from swtstudy.study.units.rows import kind_of, with_replaced
 from swtstudy.vocabulary.arrays import BoolArray, FloatArray
 from swtstudy.vocabulary.derived import LIVES
 from swtstudy.vocabulary.mistakes import (
@@ -393,7 +393,7 @@ def _read(
     if columns:
         # The tests are the sample of the study: mistakes in it are mistakes in them, or in their file.
         kept = {name: table for name, table in raw.items() if name not in ("axes", "sample", "figure")}
-        replaced = {*columns, DISTANCE}.union(*(pair for pair in ONE_OF if {*pair} & columns.keys()))
+        replaced = with_replaced(columns) | {DISTANCE}
         fixed = raw.get("fixed", {}) | _single(raw, replaced, str(study))
         kept["fixed"] = {name: value for name, value in fixed.items() if name not in replaced}
         kept["sample"] = {"points": columns}

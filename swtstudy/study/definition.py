@@ -21,7 +21,7 @@ from swtstudy.study.shipped import find_study, shipped_studies
 from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.material import STRENGTH
 from swtstudy.study.units.reading import doubts_of_units
-from swtstudy.study.units.rows import ONE_OF, REST_DEPENDS_ON
+from swtstudy.study.units.rows import REST_DEPENDS_ON, with_replaced
 from swtstudy.vocabulary.choices import SWT, families_with
 from swtstudy.vocabulary.files import TomlError, parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Mistake, Report, StudyError, literal, nearest, refused
@@ -276,7 +276,7 @@ def one_of_study(
         if name not in profiles:
             raise refused("smoothing", f"{smoothing:g} of {literal(name)}", "for a table alone")
         profiles[name] = {**profiles[name], "smoothing": smoothing}
-    replaced = {*values, DISTANCE}.union(*(pair for pair in ONE_OF if {*pair} & values.keys()))
+    replaced = with_replaced(values) | {DISTANCE}
     if values.get("profile") in profiles and "radius" not in values:
         replaced |= {"radius"}  # a table has lengths of its own
     if "profile" in values:  # what the profile does not have

@@ -102,7 +102,7 @@ class Signal:
             return self.values[None]
         return cycles.folded(self.time, self.values, self.period, self.count)[self.known]
 
-    @property
+    @cached_property
     def mean_cycle(self) -> FloatArray:
         """The mean of the cycles, shape (m, d)."""
         return np.asarray(self.cycles.mean(axis=0))

@@ -1,6 +1,5 @@
 """The stick zone that a bulk stress moves: where it does, by how much, and what results say of it."""
 
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from oracles.strip_march import StripMarch
-from told import refused
+from told import refused, warned
 
 import swtstudy
 from swtstudy import LoadPath, read_signal
@@ -227,12 +226,9 @@ def test_noise_of_a_constant_normal_load_does_not_hold_the_stick_zone(
     table = np.column_stack([time, 1.0 + loads[0], *loads[1:]])
     path = tmp_path / "rig.csv"
     np.savetxt(path, table, delimiter=",", header="time,normal,tangential,bulk", comments="")
-    with warnings.catch_warnings(record=True) as told:
-        warnings.simplefilter("always")
-        signal = read_signal(path, absolute=True, time="time", recorded_cycles=50, harmonics=harmonics)
-    assert ["is constant: it moves by 0.002, which is noise" in str(each.message) for each in told] == (
-        [True] * (noise > 0.0)
-    )
+    given = {"absolute": True, "time": "time", "recorded_cycles": 50, "harmonics": harmonics}
+    signal, told = warned(read_signal, path, **given)
+    assert ["is constant: it moves by 0.002, which is noise" in each for each in told] == [True] * (noise > 0)
     given = {"profile": "cylinder", "friction": FRICTION, "stick_zone_shift": "moved"}
     found = swtstudy.solve(
         **given, load=signal.loop, normal_force_amplitude=1.0, tangential_force_amplitude=1.0 / FRICTION,

@@ -185,16 +185,16 @@ def _read_bodies(
     if raw is not None and (len(names) != 2 or not sound or names[0] == names[1]):
         report.of(units.NAMES_KEY, literal(raw), 'two names, such as ["pad", "specimen"]')
         names = ()
-    carrier = single.pop(units.CARRIER_KEY, given.bulk_stress_body + 1)
+    carrier, raw = 1, single.pop(units.CARRIER_KEY, given.bulk_stress_body + 1)
     with report:
-        carrier = units.checked_body(carrier, report.key(units.CARRIER_KEY), names)
-    given = replace(given, bulk_stress_body=int(plain_number(carrier) == 2))
+        carrier = units.checked_body(raw, report.key(units.CARRIER_KEY), names)
     body = single.get("body")
     if names and isinstance(body, str) and body not in map(str, units.LABELS):
         single["body"] = 1
         with report:
             single["body"] = units.checked_body(body, report.key("body"), names)
-    return replace(given, pairs=pairs, similar=similar, body_names=names), single
+    details = replace(given, pairs=pairs, similar=similar, body_names=names, bulk_stress_body=carrier - 1)
+    return details, single
 
 
 def _check_given(everything: set[str], good: NamedValues, own: dict[str, Parameter], report: Report) -> None:

@@ -201,6 +201,11 @@ AT_REST_NAMES = (*OF_BODIES, "radius", *MEAN_LOADS, "friction", "contact_length"
 REST_DEPENDS_ON = {*AT_REST_NAMES, "load", "body"} - {"friction"}
 
 
+def with_replaced(names: Collection[str]) -> set[str]:
+    """Names, and those whose place these take (`ONE_OF`)."""
+    return {*names}.union(*(pair for pair in ONE_OF if {*pair} & {*names}))
+
+
 def wrong_mean_load(given: Collection[str]) -> tuple[str, str] | None:
     """Return what was found and what is allowed, unless just one of `MEAN_LOADS` is among the names given."""
     found = [name for name in MEAN_LOADS if name in given]
