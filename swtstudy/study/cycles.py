@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.special import stdtrit
 
-from swtstudy.vocabulary.arrays import BoolArray, FloatArray
+from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 
 #: Least eigenvalue of the mean products of harmonics, 1/2 of samples at even phases: below this noise would
 #: count seven times as much.
@@ -29,6 +29,9 @@ ENDS, UNEVEN, LEAST_LOAD, CHANCE = (10, 4), 0.05, 0.1, 1e-5
 #: Standard deviations of the chance likeness of white noise to itself; an amplitude over the largest one that
 #: counts; a divisor for 0.
 WHITE, SMALL, TINY = 4.0, 0.1, 1e-300
+#: Samples in a row of a cut top, and steps of rounding by which it falls beside them: a smooth top of which
+#: so many samples are rounded to one value falls by (3/2)² steps at most.
+IN_A_ROW, ROUNDED = 5, 2.25
 #: Share of a cycle's standard deviation, and standard deviations of its noise, by which parts of a cycle that
 #: repeats may differ.
 SAME, NOISE_OF_MEAN = 0.02, 3.0
@@ -244,6 +247,29 @@ def _least_spike(off: FloatArray, share: FloatArray) -> FloatArray:
     The median of the deviations gives the standard deviation of normal noise, whatever the spikes are.
     """
     return np.maximum(SPIKE * np.median(off, axis=0) / 0.6745, share)
+
+
+def cut_tops(values: FloatArray) -> tuple[int, float, IndexArray] | None:
+    """A column of (k, d) whose tops are cut off, as at the end of a load cell's range.
+
+    Its largest or smallest value is that of several samples in a row, beside which it falls by more than the
+    steps in which a recorder rounds.
+
+    Returns
+    -------
+    tuple or None
+        The column, the value, and the samples that have it; None if there is none.
+    """
+    for column, own in enumerate(values.T):
+        steps = np.diff(np.unique(own))
+        for end in (own.max(), own.min()) if len(steps) else ():
+            at = own == end
+            rows = np.lib.stride_tricks.sliding_window_view(at, min(IN_A_ROW, len(at)))
+            ends = np.flatnonzero(at[:-1] != at[1:])
+            falls = np.abs(own[ends] - own[ends + 1])
+            if rows.all(axis=1).any() and np.median(falls) > ROUNDED * steps.min():
+                return column, float(end), np.flatnonzero(at)
+    return None
 
 
 def repeats(time: FloatArray, values: FloatArray) -> float | None:

@@ -192,12 +192,16 @@ class Signal:
         said = [f"{number_of(self.count, 'cycle')} of {self.cycles.shape[1]} samples"]
         if self.mean_normal is not None:
             said.append(f"mean normal load {self.mean_normal:.5g}")
-        rounding = np.finfo(float).eps * self.count * np.abs(self.values).max(axis=0)
         for verb, found in (("the cycles scatter by", self.scatter), ("the harmonics miss", self.missed)):
-            if np.any(found > rounding):
+            if np.any(found > self.rounding):
                 each = zip(NAMES, found, strict=False)
                 said.append(f"{verb} {', '.join(f'{value:.2g} ({name})' for name, value in each)}")
         return "; ".join(said)
+
+    @property
+    def rounding(self) -> FloatArray:
+        """Scatter and misses that are rounding, by column."""
+        return np.asarray(np.finfo(float).eps * self.count * np.abs(self.values).max(axis=0))
 
     @property
     def step(self) -> float:
@@ -416,6 +420,11 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
+    noisy = np.flatnonzero(signal.scatter > signal.rounding)  # a load that is generated may have flat tops
+    if cut := cycles.cut_tops(values[:, noisy]):
+        column, end, at = cut
+        found = f"{len(at)} samples of the {NAMES[noisy[column]]} load are at its end, {end:.6g}"
+        yield f"{found}: is that the end of a load cell's range? Then the load is higher"
     yield from _on_stick_zone(signal)
     different = [*_differences(signal, key, kept)]
     yield from different or _losses(signal)

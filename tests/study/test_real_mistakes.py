@@ -32,3 +32,19 @@ def test_constants_that_no_metal_has_are_warned_of() -> None:
     findley = contact.with_parameters(criterion="findley", normal_sensitivity=0.3)
     with pytest.raises(StudyError, match="constants: found constants with the criterion findley alone"):
         findley.solve(1e-2, constants=ALUMINIUM)
+
+
+@pytest.mark.parametrize(
+    ("key", "other", "letter"),
+    [
+        ("strength", "fatigue_strength_coefficient", "fatigue strength coefficient"),
+        ("ductility", "epsilon_f'", "ε_f"),
+        ("strength_exponent", "b", "b"),
+        ("ductility_exponent", "c", "c"),
+    ],
+)
+def test_a_constant_has_one_message_whatever_others_call_it(key: str, other: str, letter: str):
+    with pytest.raises(StudyError) as raised:
+        Study.from_text(STUDY.replace(f"\n{key} =", f'\n"{other}" ='))
+    (mistake,) = raised.value.mistakes
+    assert mistake.allowed.startswith(f"did you mean {key} ({letter})?")

@@ -187,6 +187,20 @@ read(wave(190, 50, 0.3), period=50)
 read(wave(99, 50, 0.3), period=50) » 1 cycle of 50 samples » 9997.79164
 read(wave(100, 50, 0.3), period=50)
 » 2 cycles of 50 samples; the cycles scatter by 0.29 (normal), 0.27 (tangential) » 9997.79013
+read(np.minimum(wave(400, 40, 0.5), [900.0, 50.0]), recorded_cycles=10)
+» 10 cycles of 40 samples; the cycles scatter by 0.49 (normal), 0.45 (tangential) » 7948.44371
+» 70 samples of the tangential load are at its end, 50: is that the end of a load cell's range? Then the load
+    is higher
+read(np.maximum(wave(400, 40, 0.5), [0.0, -50.0]), recorded_cycles=10)
+» 10 cycles of 40 samples; the cycles scatter by 0.49 (normal), 0.46 (tangential) » 8046.67391
+» 70 samples of the tangential load are at its end, -50: is that the end of a load cell's range? Then the load
+    is higher
+read(np.minimum(wave(400, 40, 0.5), [900.0, 59.0]), recorded_cycles=10)
+» 10 cycles of 40 samples; the cycles scatter by 0.49 (normal), 0.48 (tangential) » 7995.52807
+read(np.round(wave(2000, 200, 0.01)), recorded_cycles=10)
+» 10 cycles of 200 samples; the cycles scatter by 0.1 (normal), 0.022 (tangential) » 39999.8
+read(np.clip(2.0 * wave(160, 40), 0.0, [900.0, 60.0]), recorded_cycles=4)
+» 4 cycles of 40 samples » 17000.6661
 """)
 
 

@@ -20,6 +20,7 @@ from swtstudy.study.units.life import FatigueConstants, ShearConstants
 from swtstudy.study.units.rows import KNOWN, OF_BODIES, TABLES, Units, right_place, wrong_size
 from swtstudy.vocabulary.files import parse_toml, read_text, reason_of
 from swtstudy.vocabulary.mistakes import Report, literal, meant, nearest, plain_number
+from swtstudy.vocabulary.parameters import SYMBOLS, spelled
 
 #: ΔK_th in stress times √length, and Δσ_0: ranges, both at one ratio of least over largest stress.
 LOAD_RATIO = "load_ratio"
@@ -28,7 +29,11 @@ _THRESHOLD = ("threshold_stress_intensity_range", "fatigue_limit_range", LOAD_RA
 STRENGTH, LIMIT = "yield_strength", "findley_limit"
 _YOUNG, _MODULUS = "young_modulus", "shear_modulus"
 #: Properties by their keys: words for their values, and meanings. Both moduli are the body's unless given.
-PROPERTIES: dict[str, dict[str, str]] = TABLES["properties"]
+PROPERTIES: dict[str, dict[str, Any]] = TABLES["properties"]
+#: Properties by what others call them, as one types it.
+CALLED = SYMBOLS | {
+    spelled(word): (key, word) for key, row in PROPERTIES.items() for word in row.get("called", ())
+}
 #: The other way: names from a file.
 BY_NAME: dict[str, str] = TABLES["by_name"]
 #: Keys that may stand in the table.
@@ -96,13 +101,13 @@ def _read_material(
     """The materials in a table, with Young's and shear moduli of the bodies where these are single values."""
     before, unknown = len(report), [name for name in raw if name not in KEYS]
     for name in unknown:
-        report(f"material.{name}", f"unknown key {literal(name)}", right_place(str(name), KEYS))
+        report(f"material.{name}", f"unknown key {literal(name)}", right_place(str(name), KEYS, CALLED))
     tables = [{name: two_of(value)[body] for name, value in raw.items()} for body in range(2)]
     if BY_NAME.keys() & raw.keys():
         tables = _named(raw, folder, report)
     told = [key for key in PROPERTIES if any(key in table for table in tables)]
     # A misspelt key is not lacking, too.
-    silent = {*told, *(meant(str(name), KEYS) for name in unknown)} if tables else {*KEYS}
+    silent = {*told, *(meant(str(name), KEYS, CALLED) for name in unknown)} if tables else {*KEYS}
     values = {key: _both(key, tables, moduli.get(key), units, report) for key in told}
     groups = {group: [key for key in group if key in silent] for group in _TOGETHER}
     if not silent & {*PROPERTIES}:
@@ -153,7 +158,7 @@ def _both(key: str, tables: list[dict[str, Any]], others: Both | None, units: Un
 
 def _allowed(key: str, units: Units) -> str:
     """Words for the values that a property may have."""
-    return PROPERTIES[key]["allowed"].format(units.stress)
+    return str(PROPERTIES[key]["allowed"].format(units.stress))
 
 
 def _number(raw: object) -> object:

@@ -23,6 +23,7 @@ from swtstudy.vocabulary.parameters import (
     PARAMETERS,
     QUANTITY_AXES,
     STRAIN_SHARE,
+    SYMBOLS,
     Parameter,
 )
 
@@ -78,11 +79,11 @@ def unit_factor(kind: str, unit: str, label: str) -> float:
     return known[unit] / known[label] if unit in known and label in known else 1.0
 
 
-def right_place(name: str, known: Collection[str]) -> str:
+def right_place(name: str, known: Collection[str], symbols: Mapping[str, tuple[str, str]] = SYMBOLS) -> str:
     """Say where an unknown key of a table belongs: beside other parameters, or which keys the table has."""
     if name in (NAMES_KEY, SIMILAR_KEY):
         return "in [fixed]"
-    return "in [fixed] or [axes]" if name in AXES else nearest(name, known)
+    return "in [fixed] or [axes]" if name in AXES else nearest(name, known, symbols)
 
 
 def read_units(raw: Mapping[str, object], report: Report) -> Units:
