@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,10 +18,14 @@ from swtstudy.vocabulary.files import check_writable, write_text
 from swtstudy.vocabulary.mistakes import Report, literal, refused
 from swtstudy.vocabulary.parameters import PARAMETERS, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import DISTANCE, NAMED
-from swtstudy.vocabulary.wording import duration, number_of, unit_words
+from swtstudy.vocabulary.wording import duration, number_of, numbers_words, unit_words
 
 if TYPE_CHECKING:
     from swtstudy.study.definition import Study
+
+#: Sizes of a contact at rest, which tell a wrong unit at a glance, and their kinds; of so many contacts.
+AT_REST = {"normal_force": "force", "contact_radius": "length", "peak_pressure": "stress"}
+MOST_CONTACTS = 10_000
 
 
 @click.command()
@@ -112,12 +117,20 @@ def plan(studies: tuple[str, ...], results: str, workers: int) -> None:
 def describe(study: Study, target: Path, workers: int) -> Iterator[tuple[str, str]]:
     """Describe a run in labels and words, with its time from a few points that are solved."""
     from swtstudy.archive.run import Work, estimate
+    from swtstudy.study.units.grid import PhysicalGrid
 
     work = Work(study, target)
     grid, distinct, todo = study.grid, len(work.found), int(work.todo.sum())
     count = len(grid.values(study.figure.panels)) if study.figure and study.figure.panels else 1
     panels = f" in {count} panels" if count > 1 else ""
     yield "prescribed", grid.control.name
+    if isinstance(grid, PhysicalGrid) and grid.at_rest.size <= MOST_CONTACTS:
+        sizes = []
+        for name, kind in AT_REST.items():
+            found = grid.each(attrgetter(name)).values
+            ends = dict.fromkeys(numbers_words([found.min(), found.max()]))
+            sizes.append(f"{name} {' to '.join(ends)} {grid.labels.label(kind)}".rstrip())
+        yield "contact at rest", ", ".join(sizes)
     yield "archive", f"{target}{'' if target.exists() else ' (does not exist yet)'}"
     yield "points", f"{grid.size}{panels}"
     if study.asked.items:

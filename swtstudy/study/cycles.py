@@ -11,6 +11,8 @@ from swtstudy.vocabulary.arrays import BoolArray, FloatArray, IndexArray
 #: count seven times as much.
 LEAST_EIGENVALUE = 0.01
 
+#: A step longer than so many median ones is a pause.
+PAUSE = 3.0
 #: Cycles from which their median does not follow a spike of one of them.
 FEWEST_CYCLES = 3
 #: A spike stands out by so many standard deviations, and by a share of the range: of the median cycle for a
@@ -38,12 +40,14 @@ SAME, NOISE_OF_MEAN = 0.02, 3.0
 
 
 def step_of(time: FloatArray) -> float:
-    """Mean time from a sample to the next."""
-    return float((time[-1] - time[0]) / (len(time) - 1))
+    """Mean time from a sample to the next, pauses left out."""
+    steps = np.diff(time)
+    pauses = steps[steps > PAUSE * np.median(steps)]
+    return float((time[-1] - time[0] - pauses.sum()) / (len(steps) - len(pauses)))
 
 
-def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> FloatArray:
-    """The first whole cycles of a record at even phases, as many as it has samples in a cycle.
+def folded(time: FloatArray, values: FloatArray, period: float, numbers: IndexArray) -> FloatArray:
+    """Whole cycles of a record at even phases, as many as it has samples in a cycle.
 
     Parameters
     ----------
@@ -51,16 +55,16 @@ def folded(time: FloatArray, values: FloatArray, period: float, count: int) -> F
         Shape (k,), ascending.
     values
         Shape (k, d).
-    period, count
-        Length of a cycle, and how many.
+    period, numbers
+        Length of a cycle, and which cycles, from 0 on, shape (c,).
 
     Returns
     -------
     array
-        Shape (count, m, d); straight lines between the samples.
+        Shape (c, m, d); straight lines between the samples.
     """
     phases = round(period / step_of(time))
-    at = time[0] + period * (np.arange(count)[:, None] + np.arange(phases) / phases)
+    at = time[0] + period * (numbers[:, None] + np.arange(phases) / phases)
     return np.stack([np.interp(at, time, column) for column in values.T], axis=-1)
 
 
@@ -178,13 +182,17 @@ def repetitions(cycles: FloatArray) -> int:
     return 1
 
 
-def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> tuple[BoolArray, FloatArray]:
+def spikes(
+    time: FloatArray, values: FloatArray, period: float, count: int, numbers: IndexArray
+) -> tuple[BoolArray, FloatArray]:
     """Samples that stand out from the samples beside them, or from the median of the cycles.
 
     Parameters
     ----------
-    time, values, period, count
+    time, values, period, numbers
         As of `folded`.
+    count
+        Number of whole cycles.
 
     Returns
     -------
@@ -195,9 +203,9 @@ def spikes(time: FloatArray, values: FloatArray, period: float, count: int) -> t
         beside a single spike, and the median of the cycles at the phase of any other sample.
     """
     out, usual = _single_spikes(time, values, period * count)
-    if count < FEWEST_CYCLES:
+    if len(numbers) < FEWEST_CYCLES:
         return out, usual
-    cycle = np.median(folded(time, values, period, count), axis=0)
+    cycle = np.median(folded(time, values, period, numbers), axis=0)
     median = repeated(time, period, cycle)
     off = np.abs(values - median)
     # A pulse of every cycle is a load.

@@ -85,7 +85,7 @@ class Signal:
     def gaps(self) -> IndexArray:
         """Samples after which the time has a gap: a quarter of a cycle, or three steps, if that is longer."""
         steps = np.diff(self.time)
-        return np.flatnonzero(steps > max(0.25 * self.period, 3.0 * float(np.median(steps))))
+        return np.flatnonzero(steps > max(0.25 * self.period, cycles.PAUSE * float(np.median(steps))))
 
     @cached_property
     def known(self) -> IndexArray:
@@ -100,7 +100,7 @@ class Signal:
         """The cycles without a gap at even phases, shape (c, m, d); a single one at its own samples."""
         if self._is_one_cycle:
             return self.values[None]
-        return cycles.folded(self.time, self.values, self.period, self.count)[self.known]
+        return cycles.folded(self.time, self.values, self.period, self.known)
 
     @cached_property
     def mean_cycle(self) -> FloatArray:
@@ -420,7 +420,8 @@ def _doubts(signal: Signal, key: str, unsaid: bool, kept: bool) -> Iterator[str]
         each = "each cycle" if count > 1 else "the cycle"
         yield f"{each} repeats {parts} times: {key} = {right[key]:.6g}?"
         return
-    noisy = np.flatnonzero(signal.scatter > signal.rounding)  # a load that is generated may have flat tops
+    # A load that is generated, without noise at most phases, may have flat tops.
+    noisy = np.flatnonzero(np.median(signal.cycles.std(axis=0), axis=0) > signal.rounding)
     if cut := cycles.cut_tops(values[:, noisy]):
         column, end, at = cut
         found = f"{len(at)} samples of the {NAMES[noisy[column]]} load are at its end, {end:.6g}"
@@ -501,7 +502,7 @@ def _losses(signal: Signal) -> Iterator[str]:
 def _without_spikes(signal: Signal, lines: IndexArray, despike: bool) -> FloatArray:
     """The values, spikes replaced by the values that other samples suggest; tell that, or propose it."""
     time, values = signal.time, signal.values
-    out, usual = cycles.spikes(time, values, signal.period, signal.count)
+    out, usual = cycles.spikes(time, values, signal.period, signal.count, signal.known)
     rows, columns = np.nonzero(out)
     if not rows.size:
         return values

@@ -313,6 +313,20 @@ def test_a_gap_in_the_time_is_warned_of(tmp_path: Path) -> None:
         read_signal(tmp_path / f"{name}.csv", time="time", absolute=True, period=0.05)
 
 
+@pytest.mark.parametrize("pause", [20.0, 1000.0])
+@pytest.mark.parametrize("despike", [False, True])
+def test_a_long_pause_leaves_the_cycle_as_it_is(tmp_path: Path, pause: float, despike: bool) -> None:
+    time = np.arange(2000) / 100.0
+    wave = np.sin(2.0 * np.pi * time)
+    time[1000:] += pause
+    rows = np.stack([time, 200.0 + 20.0 * wave, 60.0 * wave**15], axis=1)
+    write(tmp_path / "gap.csv", rows, "time,normal,tangential")
+    words = f"{pause + 1:.0f} of {pause + 20:.0f} cycles are left out"
+    with pytest.warns(UserWarning, match=words):
+        signal = read_signal(tmp_path / "gap.csv", time="time", absolute=True, period=1, despike=despike)
+    np.testing.assert_allclose(signal.mean_cycle[:, 1], rows[:100, 2], atol=1e-9)
+
+
 def test_cycles_with_a_gap_are_left_out(tmp_path: Path) -> None:
     time = np.arange(800) / 2000.0
     wave = np.sin(40.0 * np.pi * time)
