@@ -157,13 +157,13 @@ def recorded_loads(dataset: xr.Dataset) -> Iterator[tuple[str, str]]:
 
 def regime_counts(dataset: xr.Dataset) -> dict[str, int]:
     """Count the computed points of each regime that there is."""
-    computed = (dataset.status == COMPUTED if "status" in dataset else dataset.regime.notnull()).values
-    return _counted(dataset.regime.values[computed], dataset.regime.attrs["flag_meanings"].split())
+    computed = dataset.status == COMPUTED if "status" in dataset else True
+    return _counted(dataset.regime.where(computed).values, dataset.regime.attrs["flag_meanings"].split())
 
 
 def _counted(flags: NDArray[Any], words: Sequence[str]) -> dict[str, int]:
-    """Number of points with each flag that there is, by what it means."""
-    counts = np.bincount(flags.astype(int).ravel(), minlength=len(words)).tolist()
+    """Number of points with each flag that there is, by what it means; NaN, as of xarray's where, is none."""
+    counts = np.bincount(flags[np.isfinite(flags)].astype(int), minlength=len(words)).tolist()
     return {each: count for each, count in zip(words, counts, strict=False) if count}
 
 

@@ -14,7 +14,7 @@ from swtstudy.archive.archive import build, history_line, open_results
 from swtstudy.archive.paths import ArchiveError
 from swtstudy.archive.recall import found_in, grid_of, request_of
 from swtstudy.points.chunk import Found, join, look_up, matching
-from swtstudy.points.grid import Distinct, Grid, canonical_number, describe_point, group_rows
+from swtstudy.points.grid import Distinct, Grid, Table, canonical_number, group_rows
 from swtstudy.points.values import Value, as_number
 from swtstudy.study.definition import Study
 from swtstudy.study.figure import read_figure
@@ -23,6 +23,7 @@ from swtstudy.study.writing import to_toml
 from swtstudy.vocabulary.definition import Definition
 from swtstudy.vocabulary.parameters import AXES, QUANTITY_AXES
 from swtstudy.vocabulary.quantities import COMPUTED, CONTACT, MISSING, Request, error_of
+from swtstudy.vocabulary.wording import unit_words, value_words
 
 #: Relative difference of s from rounding alone, between two machines.
 _ROUNDING = 1e-12
@@ -57,8 +58,8 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
     _refuse_other_contacts(paths, datasets)
     grid, asked = _union(grids), _asked([request_of(dataset) for dataset in datasets])
     sources = [str(path) for path, part in zip(paths, parts, strict=True) for _ in range(len(part))]
-    _refuse_conflicts(sources, known, grid)
     points, names = Distinct.of(grid, asked), ", ".join(map(str, paths))
+    _refuse_conflicts(sources, known, grid, points)
     # A point that an archive calls missing is no gap.
     absent = look_up(points.rows, known, np.ones(len(known), bool)) < 0
     gaps = f"{int(absent[points.index].sum())} of {grid.size} points in none of them" if absent.any() else ""
@@ -69,8 +70,8 @@ def merge(paths: Sequence[Path], sparse: bool = False) -> xr.Dataset:
         if not gaps:
             words = f"{' or '.join(asked.items)} is known of some points in {names}, but not of "
             words += f"{int(lacks.sum())} others"
-        example = points.rows[np.flatnonzero(absent if gaps else lacks)[0]]
-        words += f", such as {describe_point(example, points.definitions)}"
+        example = np.flatnonzero(absent if gaps else lacks)[:1]
+        words += f", such as {_place_of(points.rows[example], grid, points)}"
         raise ValueError(f"{words}; --sparse (sparse=True in Python) leaves them missing")
     study = _study(names, datasets, grid, asked)
     made = f"merged from {', '.join([*(path.name for path in paths), *filter(None, [gaps])])}"
@@ -87,7 +88,19 @@ def _asked(own: Sequence[Request]) -> Request:
     return Request(tuple(names), distances, is_axis, any(each.counts for each in own))  # type: ignore[arg-type]
 
 
-def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
+def _place_of(row: Table, grid: Grid, points: Distinct) -> str:
+    """The first place of a grid with a distinct point, (1,), in words: the values along all dimensions."""
+    flat = np.flatnonzero(points.rows[points.index] == row)[0]
+    at = dict(zip(grid.dims, np.unravel_index(flat, grid.shape), strict=True))
+    words = []
+    for name in (each for each in grid.names if grid.dimension(each)):
+        value, unit = grid.values(name)[at[str(grid.dimension(name))]], grid.row(name).units
+        own = str(value) if isinstance(value, Definition) else value_words(name, value, {"units": unit})
+        words.append(f"{name} = {own}{unit_words(unit)}")
+    return ", ".join(words) or "the point"
+
+
+def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid, points: Distinct) -> None:
     """Refuse values of one point that differ by more than their estimated errors."""
     computed = np.flatnonzero(known["status"] == COMPUTED)
     for name in (each for each in known.arrays if error_of(each) in known.arrays):
@@ -104,7 +117,7 @@ def _refuse_conflicts(sources: Sequence[str], known: Found, grid: Grid) -> None:
         apart = np.flatnonzero(~equal & ~near)
         if apart.size:
             a, b = (f"{values[rows[apart[0]]]:.8g} in {sources[rows[apart[0]]]}" for rows in (one, other))
-            point = describe_point(known["row"][one[apart[0]]], grid.definitions)
+            point = _place_of(known["row"][one[apart[:1]]], grid, points)
             of = "" if name == "s" else f" of {name}"
             more = f"; {apart.size - 1} more" if apart.size > 1 else ""
             raise ValueError(f"conflicting values{of} {a} and {b} at {point}{more}")

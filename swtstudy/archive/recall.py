@@ -17,6 +17,7 @@ from swtstudy.points.rules import shapes_needed
 from swtstudy.points.values import NamedValues, Value, index_at, read_value
 from swtstudy.solver.definitions import defined_in
 from swtstudy.study.figure import read_figure
+from swtstudy.study.units.grid import PhysicalGrid
 from swtstudy.study.units.reading import check_contacts, completed, read_contact
 from swtstudy.study.units.results import without_units
 from swtstudy.study.units.rows import MEAN_LOADS, rows, wrong_mean_load
@@ -84,9 +85,19 @@ def grid_of(dataset: xr.Dataset, report: Report | None = None) -> Grid:
     report.refuse()
     fixed = {name: values[0] for name, values in found.items() if not dataset[name].dims}
     axes = {name: found[name] for name in dims if name != SAMPLE}
-    if given is None:
-        return complete(fixed, axes, samples)
-    grid = completed(fixed, axes, samples, given)
+    grid = complete(fixed, axes, samples) if given is None else completed(fixed, axes, samples, given)
+    for name in found:
+        unit, expected = dataset[name].attrs.get("units"), grid.row(name).units
+        if unit is not None and str(unit) != expected:
+            report(f"attribute units of {name}", literal(unit), literal(expected))
+    if isinstance(grid, PhysicalGrid):
+        _check_physical(grid, report)
+    report.refuse()
+    return grid
+
+
+def _check_physical(grid: PhysicalGrid, report: Report) -> None:
+    """Report what real contacts lack, or cannot have."""
     for name in ("young_modulus", "poisson_ratio", "friction", "radius"):
         named = name != "radius" or any(isinstance(each, str) for each in grid.values("profile"))
         if named and name not in grid.pairs and not grid.values(name):
@@ -95,8 +106,6 @@ def grid_of(dataset: xr.Dataset, report: Report | None = None) -> Grid:
         report.of(MEAN_LOADS, *wrong)
     if not report:
         check_contacts(grid, report)
-    report.refuse()
-    return grid
 
 
 def request_of(dataset: xr.Dataset) -> Request:
@@ -160,7 +169,7 @@ def check_archive(dataset: xr.Dataset, source: str) -> None:
 
 
 def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
-    attributes, real = dataset.attrs, has_units(dataset)
+    attributes = dataset.attrs
     seconds = attributes.get("wall_time_seconds", 0.0)
     wrong = {name: "a text" for name in _TEXTS if not isinstance(attributes[name], str)}
     if not is_rtol(attributes["rtol"]):
@@ -169,7 +178,7 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
         wrong["wall_time_seconds"] = "a number of seconds"
     for name, allowed in wrong.items():
         report(f"attribute {name}", literal(attributes[name]), allowed)
-    others = [str(name) for name in dataset.data_vars] if real else []
+    others = [str(name) for name in dataset.data_vars] if has_units(dataset) else []
     readers: dict[str, Callable[[object], object]] = {
         "runs": read_runs,
         "definitions": lambda text: defined_in({"definitions": text}),
@@ -183,8 +192,7 @@ def _check_attributes(dataset: xr.Dataset, report: Report) -> None:
             found = f"{literal(attributes[name])} ({error})"
             report(f"attribute {name}", found, "JSON as swtstudy writes it")
     plain = without_units(dataset)
-    every = {} if real else {name: {"units": row.units} for name, row in PARAMETERS.items()}
-    every |= {name: attributes_of(name) for name in (*ATTRIBUTES, *EVERY_VARIABLE)}
+    every = {name: attributes_of(name) for name in (*ATTRIBUTES, *EVERY_VARIABLE)}
     for name in (name for name in every if name in plain):
         for attribute in ("units", "flag_meanings"):
             expected = every[name].get(attribute)

@@ -19,7 +19,7 @@
   const table = {};
   lines[0].forEach((name, i) => {
     const column = lines.slice(1).map((line) => line[i]);
-    const numbers = column.map((cell) => (cell === "" ? NaN : Number(cell)));
+    const numbers = column.map((cell) => (cell === "" ? NaN : cell === "inf" ? Infinity : Number(cell)));
     table[name] = column.every((cell, k) => cell === "" || !Number.isNaN(numbers[k])) ? numbers : column;
   });
   Object.entries(about.derived).forEach(([name, values]) => (table[name] = values.map((v) => v ?? NaN)));
@@ -39,7 +39,7 @@
   const raised = (n) => String(n).replace(/[-0-9]/g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
   const short = (value, digits = 4) => {
     if (typeof value !== "number") return String(value).replaceAll("_", " ");
-    if (!Number.isFinite(value)) return "–";
+    if (!Number.isFinite(value)) return value === Infinity ? "∞" : "–";
     const [lead, power] = value.toExponential(digits - 1).split("e");
     if (value === 0 || (power > -4 && power < 6)) return String(Number(value.toPrecision(Math.max(digits, Number(power) + 1)))).replace("-", "−");
     return (Number(lead) === 1 ? "" : String(Number(lead)).replace("-", "−") + "·") + "10" + raised(Number(power));

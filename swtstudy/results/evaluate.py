@@ -73,13 +73,16 @@ def _index(there: xr.DataArray, raw: object, tolerance: float, report: Report) -
     elif word in known and raw not in known:
         raw = word
     value: Value
+    unit = str(there.attrs.get("units", AXES[name].units))
+    sized = unit != AXES[name].units
+    if sized and isinstance(raw, str):
+        raw = raw.strip().removesuffix(unit)
     try:
         # A name is known by its place in the results, whatever it stood for.
         named = AXES[name].kind == "name" and isinstance(raw, str) and raw in known
-        sized = there.attrs.get("units", AXES[name].units) != AXES[name].units
         value = str(raw) if named else float(read_exact(raw)) if sized else read_value(AXES[name], raw)
     except ValueError as error:
-        listed = meanings or AXES[name].kind == "name"
+        listed = meanings or sized or AXES[name].kind == "name"
         report(name, f"{literal(raw)} ({error})", _listed(there) if listed else AXES[name].allowed)
         return 0
     index = index_of(value, known, tolerance)

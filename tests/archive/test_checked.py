@@ -190,9 +190,12 @@ plain.assign_attrs(contact="{}")
 » depth, normal_force: found neither; allowed: one of the two: it says how deep the contact is
 rig
 rig.assign_attrs(contact="{}")
+» attribute units of young_modulus: found 'MPa'; allowed: ''
+» attribute units of radius: found 'mm'; allowed: ''
+» attribute units of normal_force: found 'N'; allowed: ''
+» attribute units of normal_amplitude: found 'mm'; allowed: ''
+» attribute units of tangential_force_amplitude: found 'N'; allowed: ''
 attribute(rig, "contact")
-» attribute units of normal_amplitude: found 'mm'; allowed: '1'
-» attribute units of tangential_force_amplitude: found 'N'; allowed: '1'
 » attribute units of contact_radius: found 'mm'; allowed: '1'
 » attribute units of von_mises: found 'MPa'; allowed: '1'
 rig.drop_vars(["young_modulus", "friction"]) » friction: found nothing; allowed: a number in [0, 10]

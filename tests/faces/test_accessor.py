@@ -13,6 +13,7 @@ import xarray as xr
 from command import call
 from folders import STUDIES
 from made_up import PANELS, made_up
+from told import RIG
 
 import swtstudy
 from swtstudy import Study, StudyError, run
@@ -51,6 +52,26 @@ def test_a_name_is_offered_as_it_is_typed_and_taken_as_a_figure_has_it(dataset):
         StudyError, match=r"profile: found 'rounded punsh' .no such profile.; allowed: rounded_punch$"
     ):
         dataset.swt.slice(profile="rounded punsh")
+
+
+def test_results_of_which_a_part_is_masked_are_described(dataset):
+    masked = dataset.where(dataset.s > dataset.s.mean())
+    count = int(masked.s.count())
+    assert f"  complete       {count} computed" in repr(masked.swt)
+    assert repr(dataset.where(dataset.s < 0.0).swt)
+
+
+def test_a_coordinate_in_another_unit_is_no_contact_of_the_study():
+    rig = swtstudy.physical(**RIG, normal_force=200.0, tangential_force_amplitude=[60.0, 80.0])
+    solved = rig.solve(1e-2)
+    loads = solved.tangential_force_amplitude
+    named = solved.assign_coords(tangential_force_amplitude=loads.assign_attrs(units="N"))
+    assert named.swt.slice(tangential_force_amplitude="60 N").tangential_force_amplitude == 60.0
+    other = solved.assign_coords(tangential_force_amplitude=(loads / 1e3).assign_attrs(units="kN"))
+    with pytest.raises(StudyError, match="attribute units of tangential_force_amplitude: found 'kN'"):
+        other.swt.contact()
+    with pytest.raises(StudyError, match=r"found '60 kN' .*; allowed: 60, 80"):
+        solved.swt.slice(tangential_force_amplitude="60 kN")
 
 
 def test_values_are_told_apart_at_any_scale(dataset):
